@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_division_divide_h
+#define morula_effects_division_divide_h
+
+#include <morula/effects/proliferation/cell_cycle.h>
+#include <morula/particles/birth.h>
+#include <morula/particles/tissue.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** Positions, in the order of Tissue::cells(), of this rank's cells that
+   *  divide at or before @p t. */
+  template <int dim>
+  std::vector<unsigned int>
+  cells_due(const Tissue<dim>    &tissue,
+            const CellCycle<dim> &cycle,
+            const double          t);
+
+  /**
+   * Divides these cells into two each (equations (16)-(20) of the paper): the
+   * daughters inherit F, F_g and the clock of the cycle, V⁰ halves. All
+   * divisions see the same configuration. Collective.
+   * @param next_id first free id, the same on all ranks; advanced
+   * @return the daughters born on this rank
+   */
+  template <int dim>
+  std::vector<Birth<dim>>
+  divide(Tissue<dim>                     &tissue,
+         const CellCycle<dim>            &cycle,
+         const std::vector<unsigned int> &due,
+         types::particle_index           &next_id);
+} // namespace Morula
+
+#endif

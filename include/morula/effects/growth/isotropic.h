@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_growth_isotropic_h
+#define morula_effects_growth_isotropic_h
+
+#include <morula/expression.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Growth/Isotropic". */
+  struct IsotropicGrowthParameters
+  {
+    std::string stretch = "1";
+
+    void
+    declare(ParameterHandler &prm);
+  };
+
+  /**
+   * Isotropic growth, F_g = θ(X, t) I (equation (13) of the paper), where X is
+   * the founder's initial position.
+   */
+  class IsotropicGrowth
+  {
+  public:
+    /** @throws InputError for an expression that cannot be parsed */
+    explicit IsotropicGrowth(const IsotropicGrowthParameters &parameters);
+
+    /**
+     * The growth stretch θ at time @p t.
+     * @throws InputError if it is not positive
+     */
+    template <int dim>
+    double
+    stretch(const Point<dim> &X, const double t) const;
+
+  private:
+    Expression theta;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_nitsche_h
+#define morula_effects_nitsche_h
+
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Prescribed positions of boundary points by Nitsche's method in total-gap
+   * form (numerics: section 4):
+   *
+   *   Π = Σ a_t (β/2 g·g - T·g), g = M (x_t + u - x̄),
+   *
+   * with M = I at fixed points and N⊗N at slip points, and the nominal traction
+   * of the step's configuration T = (W/V_t) τ f⁻ᵀ n_t. The term with g·D²T is
+   * dropped from the tangent: it only costs late convergence.
+   */
+  template <int dim>
+  class Nitsche : public Term<dim>
+  {
+  public:
+    struct Condition
+    {
+      /** M. */
+      Tensor<2, dim> projection;
+      /** M (x_t - x̄), µm. */
+      Tensor<1, dim> gap;
+      /** max(|x_t|, |x̄|), µm: what the gap is a difference of. */
+      double position_scale;
+      /** n_t, unit outward normal of the configuration at t. */
+      Tensor<1, dim> normal;
+      /** a_t, µm^(dim-1). */
+      double area;
+      /** β, kPa/µm. */
+      double penalty;
+      Lame   lame;
+    };
+
+    /**
+     * @param current  states with growth at t + dt
+     * @param previous states with growth at t; empty if nothing grows
+     */
+    Nitsche(GroupedPoints<dim>             points,
+            std::vector<Condition>         conditions,
+            std::vector<ElasticState<dim>> current,
+            std::vector<ElasticState<dim>> previous);
+
+    void
+    add(const unsigned int     cell,
+        const LocalField<dim> &field,
+        const GrowthAt         growth,
+        LocalSystem<dim>      &system) const override;
+
+  private:
+    const GroupedPoints<dim>             points;
+    const std::vector<Condition>         conditions;
+    const std::vector<ElasticState<dim>> current;
+    const std::vector<ElasticState<dim>> previous;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_grid_extension_h
+#define morula_grid_extension_h
+
+#include <morula/grid/bspline.h>
+#include <morula/grid/occupancy.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Extension weights of one direction: the three quadratic B-splines of a
+   * block that starts at spline 0, continued to spline @p j:
+   * e_i = Π_{m≠i} (j-m)/(i-m), i, m = 0, 1, 2 (numerics: section 3). Any
+   * quadratic with coefficients c_0, c_1, c_2 has c_j = Σ e_i c_i.
+   */
+  std::array<double, 3>
+  extension_weights(const int j);
+
+  /**
+   * Weights of an outer spline with respect to the 3^dim splines of the inner
+   * grid cell @p block (numbered as BSpline).
+   */
+  template <int dim>
+  std::array<double, BSpline<dim>::n>
+  extension_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block);
+
+  /**
+   * Finds the inner grid cell whose splines an outer spline is expressed by.
+   * Holds references: box and classes must outlive it.
+   */
+  template <int dim>
+  class ExtensionSearch
+  {
+  public:
+    ExtensionSearch(const GridBox<dim>               &box,
+                    const std::vector<GridCellClass> &classes);
+
+    /**
+     * Among the inner grid cells connected to the spline's support through
+     * active grid cells (bodies across a gap must not be coupled) the one with
+     * the smallest Σ|e|; ties: the smallest number. None if no inner grid cell
+     * is connected.
+     */
+    std::optional<unsigned int>
+    block(const GridIndex<dim> &spline);
+
+  private:
+    std::vector<unsigned int>
+    connected(const GridIndex<dim> &spline, const int radius);
+
+    const GridBox<dim>               &box;
+    const std::vector<GridCellClass> &classes;
+    std::vector<char>                 reached; // scratch, all 0 between calls
+  };
+} // namespace Morula
+
+#endif

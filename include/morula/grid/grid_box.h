@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_grid_grid_box_h
+#define morula_grid_grid_box_h
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Coordinates (i, j, k) of a grid cell: it spans offset + [i, i+1] h. */
+  template <int dim>
+  struct GridIndex : public std::array<int, dim>
+  {};
+
+  /**
+   * A box of grid cells of the infinite Cartesian background grid, and the
+   * arithmetic between positions (µm), coordinates (i, j, k), and the linear
+   * number of a grid cell in the box (x fastest).
+   */
+  template <int dim>
+  class GridBox
+  {
+  public:
+    GridBox() = default;
+
+    /**
+     * @param first  coordinates of the first grid cell
+     * @param n      number of grid cells per direction
+     * @param h      grid spacing, µm
+     * @param offset position of grid line 0, µm
+     */
+    GridBox(const GridIndex<dim> &first,
+            const GridIndex<dim> &n,
+            const double          h,
+            const Point<dim>     &offset)
+      : first_(first)
+      , n_(n)
+      , h_(h)
+      , offset_(offset)
+    {}
+
+    unsigned int
+    size() const
+    {
+      unsigned int product = 1;
+      for (const int n : n_)
+        product *= n;
+      return product;
+    }
+
+    const GridIndex<dim> &
+    first() const
+    {
+      return first_;
+    }
+
+    const GridIndex<dim> &
+    n() const
+    {
+      return n_;
+    }
+
+    double
+    spacing() const
+    {
+      return h_;
+    }
+
+    /** Coordinates of the grid cell that holds @p x, in the box or not. */
+    GridIndex<dim>
+    locate(const Point<dim> &x) const
+    {
+      GridIndex<dim> index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = static_cast<int>(std::floor((x[d] - offset_[d]) / h_));
+      return index;
+    }
+
+    bool
+    contains(const GridIndex<dim> &index) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (index[d] < first_[d] || index[d] >= first_[d] + n_[d])
+          return false;
+      return true;
+    }
+
+    /** Number of a grid cell of the box. */
+    unsigned int
+    number(const GridIndex<dim> &index) const
+    {
+      Assert(contains(index), ExcInternalError());
+      unsigned int number = 0;
+      for (int d = dim - 1; d >= 0; --d)
+        number = number * n_[d] + (index[d] - first_[d]);
+      return number;
+    }
+
+    GridIndex<dim>
+    index(unsigned int number) const
+    {
+      GridIndex<dim> index;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          index[d] = first_[d] + static_cast<int>(number % n_[d]);
+          number /= n_[d];
+        }
+      return index;
+    }
+
+    Point<dim>
+    center(const GridIndex<dim> &index) const
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = offset_[d] + (index[d] + 0.5) * h_;
+      return x;
+    }
+
+    /** Corner with the smallest coordinates. */
+    Point<dim>
+    corner(const GridIndex<dim> &index) const
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = offset_[d] + index[d] * h_;
+      return x;
+    }
+
+    /** Position in the unit cell of the grid cell @p index. */
+    Point<dim>
+    unit_position(const Point<dim> &x, const GridIndex<dim> &index) const
+    {
+      Point<dim> xi;
+      for (unsigned int d = 0; d < dim; ++d)
+        xi[d] = (x[d] - offset_[d]) / h_ - index[d];
+      return xi;
+    }
+
+    /** Calls @p visit(number, index) for all grid cells of the box within
+     *  @p radius (largest coordinate difference) of @p center, x fastest. */
+    template <typename Visitor>
+    void
+    for_neighbors(const GridIndex<dim> &center,
+                  const int             radius,
+                  const Visitor        &visit) const
+    {
+      GridIndex<dim> lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::max(center[d] - radius, first_[d]);
+          upper[d] = std::min(center[d] + radius, first_[d] + n_[d] - 1);
+        }
+      for_range(lower, upper, visit);
+    }
+
+    /** Calls @p visit(number, index) for lower <= index <= upper, x fastest. */
+    template <typename Visitor>
+    void
+    for_range(const GridIndex<dim> &lower,
+              const GridIndex<dim> &upper,
+              const Visitor        &visit) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (lower[d] > upper[d])
+          return;
+      GridIndex<dim> index = lower;
+      while (true)
+        {
+          const unsigned int row = number(index);
+          for (; index[0] <= upper[0]; ++index[0])
+            visit(row + (index[0] - lower[0]), index);
+          index[0]       = lower[0];
+          unsigned int d = 1;
+          while (d < dim && ++index[d] > upper[d])
+            {
+              index[d] = lower[d];
+              ++d;
+            }
+          if (d == dim)
+            return;
+        }
+    }
+
+  private:
+    GridIndex<dim> first_{};
+    GridIndex<dim> n_{};
+    double         h_ = 1.;
+    Point<dim>     offset_;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_input_error_h
+#define morula_input_error_h
+
+#include <stdexcept>
+#include <string>
+
+namespace Morula
+{
+  /**
+   * Bad input: found before any work is done. The program ends with exit
+   * code 1. The message names the key's full path, the value, what is
+   * allowed, and what to do.
+   */
+  class InputError : public std::runtime_error
+  {
+  public:
+    /**
+     * @param key     full path of the key, e.g. "Grid/Spacing", or the file or
+     *                command-line word in question
+     * @param value   the value found
+     * @param allowed what is allowed, a noun phrase
+     * @param remedy  what to do, a full sentence
+     */
+    InputError(const std::string &key,
+               const std::string &value,
+               const std::string &allowed,
+               const std::string &remedy)
+      : std::runtime_error(key + " = '" + value + "': allowed is " + allowed +
+                           ". " + remedy)
+    {}
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_linear_solver_h
+#define morula_mechanics_linear_solver_h
+
+#include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/solver_parameters.h>
+
+#include <deal.II/base/timer.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <memory>
+
+namespace Morula
+{
+  /**
+   * Solves the linear systems of one step. Symmetric systems go to a conjugate
+   * gradient method that reacts to negative curvature, with an incomplete
+   * Cholesky factorisation that is made once a step and kept (numerics:
+   * section 8); where that is not positive, Jacobi. Unsymmetric systems
+   * (following pressure) go to GMRES with an incomplete LU factorisation.
+   * Along the problem's null space nothing is solved for: there rounding could
+   * pass for negative curvature.
+   * `direct` uses MUMPS, or KLU where Trilinos lacks it.
+   */
+  class LinearSolver
+  {
+  public:
+    using Vector = Equilibrium::Vector;
+    using Matrix = Equilibrium::Matrix;
+
+    /**
+     * @param problem kept as a reference
+     */
+    LinearSolver(const SolverParameters &parameters,
+                 const Equilibrium      &problem,
+                 TimerOutput            &timer);
+
+    ~LinearSolver();
+
+    /**
+     * Solves K x = b to a residual of @p tolerance |b|. On negative curvature
+     * solves (K + σ |diag K|) x = b with the smallest tried σ that has none.
+     * @return number of iterations (direct: 1)
+     * @throws StepFailed on all ranks together
+     */
+    unsigned int
+    solve(const Matrix &K,
+          Vector       &x,
+          const Vector &b,
+          const double  tolerance);
+
+  private:
+    unsigned int
+    solve_symmetric(const Matrix &K, Vector &x, const Vector &b, double tol);
+
+    unsigned int
+    solve_unsymmetric(const Matrix &K, Vector &x, const Vector &b, double tol);
+
+    unsigned int
+    solve_direct(const Matrix &K, Vector &x, const Vector &b);
+
+    void
+    make_preconditioner(const Matrix &K);
+
+    /** Removes the part in the problem's null space. */
+    void
+    project(Vector &x) const;
+
+    const bool                                       direct;
+    const Equilibrium                               &problem;
+    const bool                                       symmetric;
+    TimerOutput                                     &timer;
+    std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
+    bool prepared = false; // a preconditioner was made; none now: Jacobi
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_material_h
+#define morula_mechanics_material_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Material". */
+  struct MaterialParameters
+  {
+    std::string youngs_modulus = "1.0";
+    double      poissons_ratio = 0.4;
+    std::string energy_per     = "initial volume";
+
+    void
+    declare(ParameterHandler &prm);
+
+    /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
+    bool
+    per_grown_volume() const;
+  };
+
+  /** Lamé's constants, kPa. */
+  struct Lame
+  {
+    double lambda;
+    double mu;
+  };
+
+  /** From Young's modulus (kPa) and Poisson's ratio. */
+  inline Lame
+  lame(const double E, const double nu)
+  {
+    return {E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu))};
+  }
+} // namespace Morula
+
+#endif

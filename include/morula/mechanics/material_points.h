@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_material_points_h
+#define morula_mechanics_material_points_h
+
+#include <morula/mechanics/material.h>
+#include <morula/mechanics/term.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * What the momentum balance needs of a point's growth and elastic state: the
+   * elastic deformation before the step's own, so that F_e = f A.
+   */
+  template <int dim>
+  struct ElasticState
+  {
+    /** A = F_t F_g⁻¹. */
+    Tensor<2, dim> A;
+    /**
+     * Material points: W, the volume the energy is counted per, µm^dim.
+     * Boundary points: W / V_t, the volume per volume of the configuration
+     * at t.
+     */
+    double W;
+  };
+
+  /**
+   * Positions of points in their grid cells, by active grid cell: the points
+   * of grid cell c are [offsets[c], offsets[c+1]).
+   */
+  template <int dim>
+  struct GroupedPoints
+  {
+    std::vector<unsigned int> offsets;
+    std::vector<Point<dim>>   xi;
+    double                    h; // grid spacing, µm
+  };
+
+  /**
+   * The particles as quadrature points of one step (numerics: section 2). The
+   * configuration at t is the reference.
+   */
+  template <int dim>
+  struct MaterialPoints : public GroupedPoints<dim>
+  {
+    /** One for each point, or a single one for all. */
+    std::vector<Lame> lame;
+    /** Growth at t + dt. */
+    std::vector<ElasticState<dim>> current;
+    /** Growth at t; empty if nothing grows. */
+    std::vector<ElasticState<dim>> previous;
+
+    const Lame &
+    lame_of(const unsigned int p) const
+    {
+      return lame.size() == 1 ? lame[0] : lame[p];
+    }
+
+    const std::vector<ElasticState<dim>> &
+    states(const GrowthAt growth) const
+    {
+      return growth == GrowthAt::previous && !previous.empty() ? previous :
+                                                                 current;
+    }
+  };
+} // namespace Morula
+
+#endif

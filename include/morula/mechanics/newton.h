@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_newton_h
+#define morula_mechanics_newton_h
+
+#include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/solver_parameters.h>
+
+#include <deal.II/base/timer.h>
+
+namespace Morula
+{
+  /** Work done, and where it ended. Counts add up over several solves. */
+  struct NewtonReport
+  {
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+    /** |R| relative to the first residual of the last solve. */
+    double residual = 0.;
+  };
+
+  /**
+   * Finds the equilibrium increment u of a step with Newton's method (Trilinos
+   * NOX), starting from u = 0 (numerics: section 5):
+   * - the first tangent is taken at the growth of the step's beginning;
+   * - conservative problems: backtracking on the energy with Armijo's rule,
+   *   which rejects inversion (infinite energy) and tolerates rounding; others:
+   *   backtracking on |R|;
+   * - linear systems are solved to Eisenstat and Walker's forcing terms;
+   * - converged where |R| <= max(tol max(|R_0|, small force), rounding).
+   *
+   * @param u      out: the increment; initialised here
+   * @param report in/out: this solve's work is added, also when it fails
+   * @throws StepFailed on all ranks together
+   */
+  void
+  solve(Equilibrium            &problem,
+        const SolverParameters &parameters,
+        TimerOutput            &timer,
+        Equilibrium::Vector    &u,
+        NewtonReport           &report);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_rigid_modes_h
+#define morula_mechanics_rigid_modes_h
+
+#include <morula/grid/spline_space.h>
+#include <morula/mechanics/equilibrium.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * The unsupported rigid motions of the tissue's pieces (grid cells joined by
+   * shared splines), and their removal: whatever the solver did, in each step
+   * Σ V⁰ m·u = 0 for every unsupported rigid motion m(x) of every piece. A body
+   * on one slip plane keeps three rigid motions, a free one six, and so does
+   * each detached fragment.
+   */
+  template <int dim>
+  class RigidModes
+  {
+  public:
+    /** A particle: what counts for the mean motion. */
+    struct Mass
+    {
+      unsigned int piece;
+      Point<dim>   x;
+      double       V0; // V⁰, µm^dim
+    };
+
+    /** A fixed or slip boundary point. */
+    struct Support
+    {
+      unsigned int   piece;
+      Point<dim>     x;
+      Tensor<2, dim> projection; // onto the held directions
+      double         area;       // µm^(dim-1)
+    };
+
+    /** Collective. */
+    RigidModes(const SplineSpace<dim>     &space,
+               const std::vector<Mass>    &masses,
+               const std::vector<Support> &supports,
+               const MPI_Comm              comm);
+
+    /** Whether any piece has an unsupported rigid motion. */
+    bool
+    any() const;
+
+    /**
+     * Orthonormal coefficient vectors that span the unsupported rigid motions
+     * of all pieces. Collective.
+     */
+    std::vector<Equilibrium::Vector>
+    null_space() const;
+
+    /**
+     * Superposes rigid motions on the increment @p u so that it has no part in
+     * the unsupported motions: a finite rotation and translation of each free
+     * piece.
+     * @param displacements u at each mass, in the constructor's order
+     */
+    void
+    remove(const std::vector<Mass>           &masses,
+           const std::vector<Tensor<1, dim>> &displacements,
+           Equilibrium::Vector               &u) const;
+
+  private:
+    static constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
+    static constexpr unsigned int n_modes     = dim + n_rotations;
+
+    /** The field a + B (x - center), B skew. */
+    struct Mode
+    {
+      Tensor<1, dim> a;
+      Tensor<2, dim> B; // 1/µm
+    };
+
+    struct Piece
+    {
+      double            volume = 0.; // Σ V⁰
+      Point<dim>        center;      // of Σ V⁰
+      std::vector<Mode> free;        // unsupported motions, a basis
+    };
+
+    static Mode
+    elementary_mode(const unsigned int k, const double length);
+
+    void
+    find_centers(const std::vector<Mass> &masses);
+
+    /** Superposes y -> Q y + a (µm) of a piece's positions on the increment u:
+     *  u -> Q u + (Q - I) x + a. */
+    void
+    superpose(const unsigned int    piece,
+              const Tensor<2, dim> &Q,
+              const Tensor<1, dim> &a,
+              std::vector<double>  &u) const;
+
+    void
+    find_free_modes(const std::vector<Support> &supports);
+
+    const SplineSpace<dim> &space;
+    const MPI_Comm          comm;
+    std::vector<Piece>      pieces;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_solver_parameters_h
+#define morula_mechanics_solver_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Solver". */
+  struct SolverParameters
+  {
+    double      newton_tolerance = 1e-6;
+    std::string linear_solver    = "automatic";
+
+    void
+    declare(ParameterHandler &prm);
+  };
+} // namespace Morula
+
+#endif

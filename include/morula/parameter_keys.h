@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_parameter_keys_h
+#define morula_parameter_keys_h
+
+#include <morula/parameter_file.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** What was declared about one key. */
+  struct ParameterKey
+  {
+    std::string path; // full, separated by '/'
+    std::string default_value;
+    std::string documentation;
+    std::string allowed; // noun phrase
+  };
+
+  /** The declared keys, for messages and for --parameters. */
+  class ParameterKeys
+  {
+  public:
+    explicit ParameterKeys(const ParameterHandler &prm);
+
+    /** All keys, in the order of their declaration. */
+    const std::vector<ParameterKey> &
+    list() const &;
+
+    void
+    list() const && = delete; // the list would go with the object
+
+    /**
+     * Applies a statement to @p prm, the handler of the constructor.
+     * @throws InputError for an unknown key or section (with the most similar
+     *         one that exists) or a value that does not match the pattern
+     */
+    void
+    apply(const Statement &statement, ParameterHandler &prm) const;
+
+    /** Prints a .prm file with every key, its meaning and what is allowed. */
+    void
+    print(std::ostream &out) const;
+
+  private:
+    bool
+    has_section(const std::string &path) const;
+
+    [[noreturn]] void
+    refuse_unknown(const Statement &statement) const;
+
+    std::vector<ParameterKey> keys;
+    std::vector<std::string>  sections;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_point_exchange_h
+#define morula_particles_point_exchange_h
+
+#include <morula/grid/background_grid.h>
+#include <morula/particles/point_list.h>
+
+namespace Morula
+{
+  /**
+   * Sends every point to the rank that owns its grid cell; returns this rank's.
+   * Unlike the ParticleHandler's own exchange this does not lose points that
+   * cross more than one layer of grid cells in a step. Collective.
+   */
+  template <int dim>
+  PointList<dim>
+  send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+
+  /**
+   * Copies of other ranks' points that may lie within @p reach (µm) of a
+   * position in one of this rank's grid cells. Collective.
+   */
+  template <int dim>
+  PointList<dim>
+  halo(const PointList<dim>      &points,
+       const BackgroundGrid<dim> &grid,
+       const double               reach);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_point_store_h
+#define morula_particles_point_store_h
+
+#include <morula/grid/background_grid.h>
+#include <morula/particles/point_list.h>
+
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/particles/particle_handler.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Points (cells, or boundary points) on the background grid: a deal.II
+   * ParticleHandler whose particles stand with the rank that owns their grid
+   * cell, and a canonical order over them: by grid cell, then by id. The order
+   * does not depend on the history, so that sums over points come out the same
+   * in a resumed run.
+   */
+  template <int dim>
+  class PointStore
+  {
+  public:
+    using Iterator = typename Particles::ParticleHandler<dim>::particle_iterator;
+
+    /** The points of one grid cell: `order()[begin...end)`. */
+    struct Cell
+    {
+      unsigned int number; // of the grid cell in the box
+      unsigned int begin, end;
+    };
+
+    explicit PointStore(const unsigned int n_slots);
+
+    /**
+     * Binds the store to the grid's present triangulation. All points must
+     * have been taken out before; the triangulation must outlive them.
+     */
+    void
+    attach(const BackgroundGrid<dim> &grid);
+
+    /**
+     * Inserts points, wherever they are: each is sent to the rank that owns
+     * its grid cell. Collective.
+     */
+    void
+    insert(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+
+    /** Removes these points of this rank. */
+    void
+    remove(const std::vector<Iterator> &points,
+           const BackgroundGrid<dim>   &grid);
+
+    /** Takes all points of this rank out of the store, in order. */
+    PointList<dim>
+    take();
+
+    /** A copy of all points of this rank, in order. */
+    PointList<dim>
+    copy() const;
+
+    /** Grid cells of this rank that hold points, by number. */
+    const std::vector<Cell> &
+    cells() const;
+
+    /** All points of this rank in the canonical order. */
+    const std::vector<Iterator> &
+    order() const;
+
+    unsigned int
+    n_slots() const;
+
+  private:
+    void
+    sort(const BackgroundGrid<dim> &grid);
+
+    const unsigned int                 n_slots_;
+    MappingQ1<dim>                     mapping;
+    Particles::ParticleHandler<dim>    handler;
+    std::vector<Cell>                  cells_;
+    std::vector<Iterator>              order_;
+  };
+
+  /**
+   * Coordinates of the first and the last grid cell that hold any of these
+   * points, over all ranks. Collective.
+   */
+  template <int dim>
+  std::pair<GridIndex<dim>, GridIndex<dim>>
+  extent(const std::vector<const std::vector<Point<dim>> *> &positions,
+         const BackgroundGrid<dim>                           &grid);
+
+  /**
+   * Number of points in each grid cell of the box, over all ranks; for
+   * balancing. Collective.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  count_points(const std::vector<Point<dim>> &positions,
+               const BackgroundGrid<dim>     &grid);
+} // namespace Morula
+
+#endif

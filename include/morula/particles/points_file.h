@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_points_file_h
+#define morula_particles_points_file_h
+
+#include <morula/particles/seeding.h>
+
+#include <mpi.h>
+
+#include <string>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * Reads this rank's part of the cells in a CSV file with a header line naming
+   * the columns, in any order: x, y (3-D: and z), in µm, and volume, in
+   * µm^dim. Without volumes, every cell has @p default_volume. In 2-D a column
+   * z may stand, all zero. Blank lines and lines that begin with # do not
+   * count; rows are ids in order. Every rank reads only its share of the file.
+   * Collective.
+   * @throws InputError on all ranks, naming the file's first bad line: numbers
+   * that are none, wrong columns, volumes that are not positive, two cells at
+   * one place, no cells
+   */
+  template <int dim>
+  Founders<dim>
+  read_points(const std::string &file,
+              const double       default_volume,
+              const MPI_Comm     comm);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_seeding_h
+#define morula_particles_seeding_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Tissue": the initial tissue. */
+  struct TissueParameters
+  {
+    std::string         shape           = "sphere";
+    std::vector<double> center          = {0., 0., 0.};
+    double              radius          = 250.;
+    std::vector<double> size            = {200., 200., 200.};
+    std::string         surface_mesh    = "";
+    std::string         points_file     = "";
+    double              cell_spacing    = 10.;
+    std::vector<double> lattice_offset  = {0., 0., 0.};
+    unsigned int        boundary_points = 0;
+
+    /** Declares the section's keys, bound to the members. */
+    void
+    declare(ParameterHandler &prm);
+
+    /**
+     * Refuses contradictions (missing mesh file, shape without cells, shapes
+     * that do not exist in @p dim dimensions, ...).
+     * @throws InputError
+     */
+    void
+    check(const unsigned int dim) const;
+  };
+
+  /**
+   * The founders that one rank seeds. Founders are numbered 0...N-1 in lattice
+   * order, x fastest; each rank holds a contiguous piece of the numbering, so
+   * that nobody holds all.
+   */
+  template <int dim>
+  struct Founders
+  {
+    types::particle_index   first_id = 0;
+    std::vector<Point<dim>> positions; // µm
+    std::vector<double>     volumes;   // µm^dim
+    types::particle_index   n_global = 0;
+  };
+
+  /**
+   * The boundary points that one rank seeds: centres of patches that tile the
+   * tissue's surface, with outward unit normal and area; their areas add up to
+   * the exact surface.
+   */
+  template <int dim>
+  struct SurfacePatches
+  {
+    types::particle_index       first_id = 0;
+    std::vector<Point<dim>>     positions; // µm
+    std::vector<Tensor<1, dim>> normals;
+    std::vector<double>         areas; // µm^(dim-1)
+    types::particle_index       n_global = 0;
+  };
+
+  /**
+   * Fills the shape with the regular lattice of section 2.5 of the paper, or
+   * reads the cells from a file.
+   * @throws InputError if no cell fits
+   */
+  template <int dim>
+  Founders<dim>
+  seed_founders(const TissueParameters &parameters, const MPI_Comm comm);
+
+  /** Tiles the shape's surface. Points from a file have no surface. */
+  template <int dim>
+  SurfacePatches<dim>
+  seed_surface(const TissueParameters &parameters, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_run_files_h
+#define morula_run_files_h
+
+#include <morula/output/lineage.h>
+#include <morula/output/point_fields.h>
+#include <morula/output/progress.h>
+#include <morula/output/snapshot.h>
+#include <morula/output/statistics.h>
+#include <morula/output/timings.h>
+#include <morula/scene.h>
+
+#include <deal.II/base/timer.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * The files of one run in its output directory: opens them, knows when which
+   * is due, and numbers the series. Collective throughout.
+   */
+  template <int dim>
+  class RunFiles
+  {
+  public:
+    /**
+     * Makes the directory ready: for a new run, or to go on behind a snapshot.
+     * @throws InputError, or std::runtime_error with path and reason
+     */
+    RunFiles(const Scene                            &scene,
+             const std::optional<SnapshotData<dim>> &resumed_from,
+             const MPI_Comm                          comm);
+
+    /** Appends to statistics.csv and lineage.csv, and shows the step. */
+    void
+    step(StatisticsRow                  row,
+         const std::vector<Birth<dim>> &births);
+
+    /** Whether cells and surface are to be written in any format. */
+    bool
+    writes_points() const;
+
+    /** Whether something is due at @p time (day). The last state is always. */
+    bool output_due(const double time, const bool last) const;
+    bool snapshot_due(const double time, const bool last) const;
+
+    /** Writes the next number of the series of cells and surface. */
+    void
+    write_points(const PointFields<dim> &cells,
+                 const PointFields<dim> &surface,
+                 const double            time);
+
+    /** Completes @p data with the files' own counters and writes it. */
+    void
+    write_snapshot(SnapshotData<dim> data, const TimerOutput &timer);
+
+    void
+    write_timings(const TimerOutput &timer);
+
+    void
+    message(const std::string &text);
+
+    void
+    finish(const std::string   &outcome,
+           const StatisticsRow &row,
+           const unsigned int   rejected_steps,
+           const TimerOutput   &timer);
+
+    /** Wall seconds since the start of the run, across resumes. */
+    double
+    wall_seconds() const;
+
+  private:
+    std::string
+    path(const std::string &file) const;
+
+    bool
+    has_format(const std::string &format) const;
+
+    void
+    write_series(const std::string      &stem,
+                 const PointFields<dim> &fields,
+                 const double            time);
+
+    const Scene           scene;
+    const MPI_Comm        comm;
+    const double          wall_seconds_before;
+    Timer                 timer;
+    std::vector<double>   output_times;
+    unsigned int          next_output   = 0; // due at its Interval-multiple
+    unsigned int          next_snapshot = 1;
+    SectionTimes          sections_before;
+    std::optional<Progress>         progress;
+    std::optional<StatisticsFile>   statistics;
+    std::optional<LineageFile<dim>> lineage;
+  };
+} // namespace Morula
+
+#endif

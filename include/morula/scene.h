@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_h
+#define morula_scene_h
+
+#include <morula/effects/body_force.h>
+#include <morula/effects/boundary_conditions.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/proliferation/cell_cycle.h>
+#include <morula/grid/grid_parameters.h>
+#include <morula/mechanics/material.h>
+#include <morula/mechanics/solver_parameters.h>
+#include <morula/output/output_parameters.h>
+#include <morula/particles/seeding.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Section "Time". */
+  struct TimeParameters
+  {
+    double       end_time      = 1.;
+    double       step          = 0.05;
+    double       smallest_step = 1e-4;
+    unsigned int stop_at_cells = 0;
+
+    void
+    declare(ParameterHandler &prm);
+  };
+
+  /**
+   * Everything a .prm file says. One section, one struct, which stands in the
+   * room it belongs to; here they are put together and checked against each
+   * other.
+   */
+  struct Scene
+  {
+    unsigned int dimension        = 3;
+    std::string  output_directory = "output";
+    unsigned int random_seed      = 1;
+
+    TimeParameters              time;
+    TissueParameters            tissue;
+    GridParameters              grid;
+    MaterialParameters          material;
+    std::string                 growth_law = "none";
+    IsotropicGrowthParameters   isotropic_growth;
+    std::string                 proliferation_law = "none";
+    CellCycleParameters         cell_cycle;
+    BoundaryConditionParameters boundary_conditions;
+    BodyForceParameters         body_force;
+    SolverParameters            solver;
+    OutputParameters            output;
+
+    /**
+     * The values of the keys as the file and the overrides wrote them, by full
+     * path; what is missing has its default. parameters() repeats them, since
+     * deal.II prints numbers with six digits only, and check() can tell an
+     * effect that was switched off from one that was forgotten.
+     */
+    std::map<std::string, std::string> as_written;
+
+    /** Whether an effect changes F_g without proliferation. */
+    bool
+    has_growth() const
+    {
+      return growth_law != "none";
+    }
+
+    bool
+    has_proliferation() const
+    {
+      return proliferation_law != "none";
+    }
+
+    /** Declares every key, bound to the members. */
+    void
+    declare(ParameterHandler &prm);
+
+    /**
+     * Reads a .prm file and applies "Section/Key=value" overrides, without
+     * checking more than each value by itself.
+     * @throws InputError with the key's full path, the file and the line
+     */
+    static Scene
+    read(const std::string &file, const std::vector<std::string> &overrides);
+
+    /** All keys as used, as a .prm file that read() reads back exactly. */
+    std::string
+    parameters() const;
+
+    /**
+     * Refuses what can be seen to be wrong without cells: numbers out of
+     * range, expressions that do not parse, shapes that do not exist, values
+     * of effects that were never switched on, ... See scene_checks.h for the
+     * checks that need the cells.
+     * @throws InputError
+     */
+    void
+    check() const;
+  };
+} // namespace Morula
+
+#endif

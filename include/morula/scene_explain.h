@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_explain_h
+#define morula_scene_explain_h
+
+#include <morula/scene.h>
+
+#include <mpi.h>
+
+#include <iosfwd>
+
+namespace Morula
+{
+  /**
+   * Seeds the tissue, makes all checks, and prints on rank 0 what the scene
+   * will simulate: number of cells and boundary points, which effects are on
+   * and which are off, the slots that every particle carries, cells and memory
+   * to expect. Simulates nothing and writes no file. Collective.
+   * @throws InputError
+   */
+  void
+  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_h
+#define morula_simulation_h
+
+#include <morula/effects/boundary_terms.h>
+#include <morula/effects/growth/cell_growth.h>
+#include <morula/mechanics/momentum_balance.h>
+#include <morula/mechanics/newton.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/particles/tissue.h>
+#include <morula/run_files.h>
+#include <morula/scene.h>
+#include <morula/time_steps.h>
+
+#include <deal.II/base/timer.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /**
+   * One run of a scene. Owns the parts, and is the only type that sees them
+   * all; run() and step() read as the algorithm of section 2 of the paper.
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /**
+     * Seeds the tissue, or reads the snapshot. Touches no file.
+     * @throws InputError for a scene that cannot be run
+     */
+    Simulation(const Scene &scene, const MPI_Comm comm, const bool resume);
+
+    /**
+     * Runs to End time.
+     * @throws std::runtime_error if a step fails at Smallest step, with the
+     *         time and how to resume; the last good state is saved
+     */
+    void
+    run();
+
+    /** Size of the first step's equations, for --explain. Collective. */
+    unsigned int
+    n_unknowns();
+
+  private:
+    void seed();
+    void restore();
+
+    bool must_stop() const;
+    void step();
+    SplineSpace<dim> splines();
+    void solve_step(const SplineSpace<dim> &space, Equilibrium::Vector &u);
+    void try_step(const SplineSpace<dim> &space, Equilibrium::Vector &u);
+    void remove_rigid_motion(const SplineSpace<dim> &space,
+                             Equilibrium::Vector    &u);
+    void commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
+    void divide();
+
+    MaterialPoints<dim>
+    material_points(const SplineSpace<dim> &space);
+    typename MomentumBalance<dim>::TermList
+    terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
+    std::vector<typename RigidModes<dim>::Mass>
+    masses(const SplineSpace<dim> &space) const;
+    RigidModes<dim>
+    rigid_modes(const SplineSpace<dim> &space) const;
+
+    StatisticsRow     statistics() const;
+    void              complete_row(const SplineSpace<dim> &space);
+    SnapshotData<dim> snapshot() const;
+    void              output(const bool last);
+    [[noreturn]] void give_up(const std::string &reason);
+
+    /** kPa, of a founder's initial position. */
+    double youngs_modulus(const Point<dim> &X) const;
+    /** As in cells-NNNN.csv. */
+    unsigned int phase(const CellView<dim, const double> &cell) const;
+
+    const Scene    scene;
+    const MPI_Comm comm;
+    TimerOutput    timer;
+
+    const BoundaryMaterial          material;
+    const BoundaryConditions<dim>   boundary_conditions;
+    const CellGrowth<dim>           growth;
+    const std::optional<Expression> body_force;
+    double                          typical_stiffness = 0.; // kPa
+
+    Tissue<dim>           tissue;
+    TimeSteps             time_steps;
+    types::particle_index next_id    = 0;
+    unsigned int          n_steps    = 0;
+    unsigned int          n_rejected = 0;
+
+    // Of the present step.
+    GrowthOfStep<dim>       growth_of_step;
+    std::vector<Birth<dim>> births; // on this rank
+    StatisticsRow           row;
+
+    std::optional<SnapshotData<dim>> resumed_from; // until run()
+    std::optional<RunFiles<dim>>     files;        // from run() on
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/boundary_terms.h>
+#include <morula/effects/dead_load.h>
+#include <morula/effects/following_pressure.h>
+#include <morula/effects/nitsche.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/nearest.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Least penalty that keeps Nitsche's form definite, in units of
+     *  (λ + 2μ)/h (numerics: section 4). */
+    constexpr double least_penalty = 20.;
+
+    template <int dim>
+    using Iterator = typename PointStore<dim>::Iterator;
+
+    template <int dim>
+    BoundaryView<dim>
+    view(const Iterator<dim> &point)
+    {
+      return BoundaryView<dim>(
+        boundary_properties<dim>(point));
+    }
+
+    bool
+    is_dirichlet(const SurfaceCondition condition)
+    {
+      return condition == SurfaceCondition::fixed ||
+             condition == SurfaceCondition::slip;
+    }
+
+    /** Directions in which a fixed or slip point is held. */
+    template <int dim>
+    Tensor<2, dim>
+    projection(const BoundaryView<dim> &point)
+    {
+      if (point.condition() == SurfaceCondition::slip)
+        return outer_product(point.initial_normal(), point.initial_normal());
+      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
+
+    template <int dim>
+    GroupedPoints<dim>
+    positions(const Tissue<dim>      &tissue,
+              const SplineSpace<dim> &space,
+              const PointGroups      &groups)
+    {
+      GroupedPoints<dim> points;
+      points.offsets = groups.offsets;
+      points.h       = space.box().spacing();
+      for (unsigned int c = 0; c < space.cells().size(); ++c)
+        for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
+          points.xi.push_back(space.box().unit_position(
+            tissue.boundary_points().order()[groups.points[k]]->get_location(),
+            space.box().index(space.cells()[c].number)));
+      return points;
+    }
+
+    /** F_g at t and t + dt, row by row, of the cells nearest to points. */
+    template <int dim>
+    std::vector<double>
+    nearest_growth(const std::vector<Point<dim>> &queries,
+                   const Tissue<dim>             &tissue,
+                   const GrowthOfStep<dim>       &growth)
+    {
+      PointList<dim> cells;
+      cells.n_slots = 2 * dim * dim;
+      for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
+        {
+          const auto &particle = tissue.cells().order()[i];
+          cells.ids.push_back(particle->get_id());
+          cells.positions.push_back(particle->get_location());
+          for (const auto *F_g : {&growth.previous[i], &growth.current[i]})
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int e = 0; e < dim; ++e)
+                cells.properties.push_back((*F_g)[d][e]);
+        }
+      return nearest_properties(queries, cells, tissue.grid());
+    }
+
+    /** State of a boundary point with its F and a cell's F_g. */
+    template <int dim>
+    ElasticState<dim>
+    state(const Tensor<2, dim> &F,
+          const Tensor<2, dim> &F_g,
+          const bool            per_grown_volume)
+    {
+      return {F * invert(F_g),
+              (per_grown_volume ? determinant(F_g) : 1.) / determinant(F)};
+    }
+
+    template <int dim>
+    void
+    add_nitsche(const BoundaryConditions<dim>           &conditions,
+                const BoundaryMaterial                  &material,
+                const Tissue<dim>                       &tissue,
+                const SplineSpace<dim>                  &space,
+                const GrowthOfStep<dim>                 &growth,
+                const double                             t,
+                std::vector<std::unique_ptr<Term<dim>>> &terms)
+    {
+      const auto       &store  = tissue.boundary_points();
+      const PointGroups groups = group_points(
+        store, space, [](const Iterator<dim> &point) {
+          return is_dirichlet(view<dim>(point).condition());
+        });
+      std::vector<Point<dim>> queries;
+      for (const unsigned int p : groups.points)
+        queries.push_back(store.order()[p]->get_location());
+      std::vector<double> F_g_nearest;
+      if (growth.present)
+        F_g_nearest = nearest_growth(queries, tissue, growth);
+
+      std::vector<typename Nitsche<dim>::Condition> list;
+      std::vector<ElasticState<dim>>                current, previous;
+      const auto tensor = [&](const std::size_t first) {
+        Tensor<2, dim> F_g;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            F_g[d][e] = F_g_nearest[first + d * dim + e];
+        return F_g;
+      };
+      for (std::size_t k = 0; k < groups.points.size(); ++k)
+        {
+          const BoundaryView<dim> point =
+            view<dim>(store.order()[groups.points[k]]);
+          const Point<dim>     x = queries[k], X = point.initial_position();
+          Point<dim>           target = X;
+          if (point.condition() == SurfaceCondition::fixed)
+            target += conditions.displacement(X, t);
+          const Tensor<1, dim> area = point.area_vector();
+          const double         E    = material.youngs_modulus.value(X, 0.);
+
+          typename Nitsche<dim>::Condition condition;
+          condition.projection     = projection(point);
+          condition.gap            = condition.projection * (x - target);
+          condition.position_scale = std::max(x.norm(), target.norm());
+          condition.area           = area.norm();
+          condition.normal         = area / area.norm();
+          condition.lame           = lame(E, material.poissons_ratio);
+          condition.penalty =
+            std::max(conditions.penalty() * E,
+                     least_penalty *
+                       (condition.lame.lambda + 2. * condition.lame.mu)) /
+            space.box().spacing();
+          list.push_back(condition);
+
+          const Tensor<2, dim> F = point.deformation();
+          if (!growth.present)
+            current.push_back(state(F,
+                                    Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                                    material.per_grown_volume));
+          else
+            {
+              const std::size_t row = k * 2 * dim * dim;
+              previous.push_back(
+                state(F, tensor(row), material.per_grown_volume));
+              current.push_back(state(F,
+                                      tensor(row + dim * dim),
+                                      material.per_grown_volume));
+            }
+        }
+      terms.push_back(
+        std::make_unique<Nitsche<dim>>(positions(tissue, space, groups),
+                                       std::move(list),
+                                       std::move(current),
+                                       std::move(previous)));
+    }
+
+    template <int dim>
+    void
+    add_loads(const BoundaryConditions<dim>           &conditions,
+              const Tissue<dim>                       &tissue,
+              const SplineSpace<dim>                  &space,
+              const double                             t,
+              std::vector<std::unique_ptr<Term<dim>>> &terms)
+    {
+      const auto       &store  = tissue.boundary_points();
+      const PointGroups groups = group_points(
+        store, space, [](const Iterator<dim> &point) {
+          return view<dim>(point).condition() == SurfaceCondition::loaded;
+        });
+      std::vector<Tensor<1, dim>>                        forces;
+      std::vector<typename FollowingPressure<dim>::Load> loads;
+      for (const unsigned int p : groups.points)
+        {
+          const BoundaryView<dim> point = view<dim>(store.order()[p]);
+          const Point<dim>        X     = point.initial_position();
+          forces.push_back(point.initial_area() * conditions.traction(X, t));
+          loads.push_back({conditions.pressure(X, t), point.area_vector()});
+        }
+      const GroupedPoints<dim> points = positions(tissue, space, groups);
+      if (conditions.has_traction())
+        terms.push_back(
+          std::make_unique<DeadLoad<dim>>(points, std::move(forces)));
+      if (conditions.has_pressure())
+        terms.push_back(
+          std::make_unique<FollowingPressure<dim>>(points, std::move(loads)));
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  add_boundary_terms(const BoundaryConditions<dim>           &conditions,
+                     const BoundaryMaterial                  &material,
+                     const Tissue<dim>                       &tissue,
+                     const SplineSpace<dim>                  &space,
+                     const GrowthOfStep<dim>                 &growth,
+                     const double                             t,
+                     std::vector<std::unique_ptr<Term<dim>>> &terms)
+  {
+    if (conditions.has_dirichlet())
+      add_nitsche(conditions, material, tissue, space, growth, t, terms);
+    if (conditions.has_traction() || conditions.has_pressure())
+      add_loads(conditions, tissue, space, t, terms);
+  }
+
+  template <int dim>
+  std::vector<typename RigidModes<dim>::Support>
+  supports(const BoundaryConditions<dim> &conditions,
+           const Tissue<dim>             &tissue,
+           const SplineSpace<dim>        &space)
+  {
+    std::vector<typename RigidModes<dim>::Support> list;
+    if (!conditions.has_dirichlet())
+      return list;
+    for (const auto &particle : tissue.boundary_points().order())
+      {
+        const BoundaryView<dim> point = view<dim>(particle);
+        const Point<dim>        x     = particle->get_location();
+        if (is_dirichlet(point.condition()))
+          list.push_back(
+            {space.piece(space.box().number(space.box().locate(x))),
+             x,
+             projection(point),
+             point.initial_area()});
+      }
+    return list;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template void add_boundary_terms(const BoundaryConditions<dim> &,            \
+                                   const BoundaryMaterial &,                   \
+                                   const Tissue<dim> &,                        \
+                                   const SplineSpace<dim> &,                   \
+                                   const GrowthOfStep<dim> &,                  \
+                                   const double,                               \
+                                   std::vector<std::unique_ptr<Term<dim>>> &); \
+  template std::vector<typename RigidModes<dim>::Support> supports(            \
+    const BoundaryConditions<dim> &,                                           \
+    const Tissue<dim> &,                                                       \
+    const SplineSpace<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/extension.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    double
+    sum_of_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block)
+    {
+      double product = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double sum = 0.;
+          for (const double e : extension_weights(spline[d] - (block[d] - 1)))
+            sum += std::abs(e);
+          product *= sum;
+        }
+      return product;
+    }
+  } // namespace
+
+  std::array<double, 3>
+  extension_weights(const int j)
+  {
+    return {{0.5 * (j - 1) * (j - 2), -1. * j * (j - 2), 0.5 * j * (j - 1)}};
+  }
+
+  template <int dim>
+  std::array<double, BSpline<dim>::n>
+  extension_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block)
+  {
+    std::array<double, 3> e[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      e[d] = extension_weights(spline[d] - (block[d] - 1));
+    std::array<double, BSpline<dim>::n> weights;
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      {
+        weights[a] = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          weights[a] *= e[d][BSpline<dim>::offset(a, d) + 1];
+      }
+    return weights;
+  }
+
+  template <int dim>
+  ExtensionSearch<dim>::ExtensionSearch(
+    const GridBox<dim>               &box,
+    const std::vector<GridCellClass> &classes)
+    : box(box)
+    , classes(classes)
+    , reached(box.size(), 0)
+  {}
+
+  /** Active grid cells within @p radius of the spline's centre that are
+   *  connected, inside this window, to its support. */
+  template <int dim>
+  std::vector<unsigned int>
+  ExtensionSearch<dim>::connected(const GridIndex<dim> &spline,
+                                  const int             radius)
+  {
+    std::vector<unsigned int> list;
+    const auto reach = [&](const unsigned int number, const auto &index) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(index[d] - spline[d]) > radius)
+          return;
+      if (classes[number] != GridCellClass::inactive && !reached[number])
+        {
+          reached[number] = 1;
+          list.push_back(number);
+        }
+    };
+    box.for_neighbors(spline, 1, reach);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      box.for_neighbors(box.index(list[i]), 1, reach);
+    for (const unsigned int number : list)
+      reached[number] = 0;
+    return list;
+  }
+
+  template <int dim>
+  std::optional<unsigned int>
+  ExtensionSearch<dim>::block(const GridIndex<dim> &spline)
+  {
+    std::optional<unsigned int> best;
+    double                      best_sum = std::numeric_limits<double>::max();
+    std::size_t                 n_before = 0;
+    // A block one or two grid cells farther can beat a nearer one on the
+    // diagonal (Σ|e| = 17 against 7·7·7); beyond that none.
+    unsigned int n_more = 2;
+    for (int radius = 2;; ++radius)
+      {
+        const auto list = connected(spline, radius);
+        for (const unsigned int number : list)
+          if (classes[number] == GridCellClass::inner)
+            {
+              const double sum = sum_of_weights(spline, box.index(number));
+              if (sum < best_sum || (sum == best_sum && number < *best))
+                {
+                  best     = number;
+                  best_sum = sum;
+                }
+            }
+        if (best ? n_more-- == 0 : (radius > 2 && list.size() == n_before))
+          return best;
+        n_before = list.size();
+      }
+  }
+
+  template std::array<double, 9>
+  extension_weights(const GridIndex<2> &, const GridIndex<2> &);
+  template std::array<double, 27>
+  extension_weights(const GridIndex<3> &, const GridIndex<3> &);
+  template class ExtensionSearch<2>;
+  template class ExtensionSearch<3>;
+} // namespace Morula

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/grid_parameters.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace Morula
+{
+  void
+  GridParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Spacing",
+                      spacing,
+                      "Edge length h of the grid cells, um; > 0.",
+                      Patterns::Double());
+    prm.add_parameter("Offset",
+                      offset,
+                      "Shift of the grid lines, um: they lie at Offset + i h.",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Occupation parameter",
+                      occupation_parameter,
+                      "C_C, share of a grid cell that must be filled for its "
+                      "splines to be inner ones; 0 < C_C <= 1.",
+                      Patterns::Double());
+    prm.add_parameter("Extension",
+                      extension,
+                      "Express outer splines by inner ones. False only to show "
+                      "what happens without.");
+  }
+} // namespace Morula

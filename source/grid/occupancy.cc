@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/occupancy.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Fill in units of 2^-40; a grid cell can be overfull a million times. */
+    constexpr double resolution = 1099511627776.;
+  } // namespace
+
+  template <int dim>
+  Occupancy<dim>::Occupancy(const GridBox<dim> &box)
+    : box_(box)
+    , volumes(box.size(), 0)
+    , particles(box.size(), 0)
+    , boundary_points(box.size(), 0)
+  {}
+
+  template <int dim>
+  void
+  Occupancy<dim>::add_particle(const Point<dim> &x, const double V)
+  {
+    const double half = 0.5 * std::pow(V, 1. / dim);
+    Point<dim>   lower = x, upper = x;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] -= half;
+        upper[d] += half;
+      }
+    GridIndex<dim> first = box_.locate(lower), last = box_.locate(upper);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = std::max(first[d], box_.first()[d]);
+        last[d]  = std::min(last[d], box_.first()[d] + box_.n()[d] - 1);
+      }
+    box_.for_range(
+      first,
+      last,
+      [&](const unsigned int number, const GridIndex<dim> &index) {
+        const Point<dim> corner  = box_.corner(index);
+        double           overlap = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          overlap *= std::max(0.,
+                              std::min(upper[d], corner[d] + box_.spacing()) -
+                                std::max(lower[d], corner[d])) /
+                     box_.spacing();
+        volumes[number] += std::llround(overlap * resolution);
+      });
+    ++particles[box_.number(box_.locate(x))];
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::add_boundary_point(const Point<dim> &x)
+  {
+    ++boundary_points[box_.number(box_.locate(x))];
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::sum(const MPI_Comm comm)
+  {
+    for (auto *table : {&volumes, &particles, &boundary_points})
+      Utilities::MPI::sum(*table, comm, *table);
+  }
+
+  template <int dim>
+  double
+  Occupancy<dim>::fill(const unsigned int number) const
+  {
+    return volumes[number] / resolution;
+  }
+
+  template <int dim>
+  unsigned int
+  Occupancy<dim>::n_particles(const unsigned int number) const
+  {
+    return particles[number];
+  }
+
+  template <int dim>
+  bool
+  Occupancy<dim>::active(const unsigned int number) const
+  {
+    return particles[number] > 0 || boundary_points[number] > 0;
+  }
+
+  template <int dim>
+  const GridBox<dim> &
+  Occupancy<dim>::box() const
+  {
+    return box_;
+  }
+
+  template <int dim>
+  std::vector<GridCellClass>
+  classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
+  {
+    const GridBox<dim>        &box = occupancy.box();
+    std::vector<GridCellClass> classes(box.size(), GridCellClass::inactive);
+    for (unsigned int number = 0; number < box.size(); ++number)
+      {
+        if (!occupancy.active(number))
+          continue;
+        double largest = 0.;
+        box.for_neighbors(box.index(number),
+                          1,
+                          [&](const unsigned int neighbor, const auto &) {
+                            largest =
+                              std::max(largest, occupancy.fill(neighbor));
+                          });
+        const double threshold = occupation_parameter * std::min(1., largest);
+        const bool   inner =
+          occupancy.fill(number) >= threshold - 1e-9 &&
+          occupancy.n_particles(number) >= (1u << dim);
+        classes[number] = inner ? GridCellClass::inner : GridCellClass::cut;
+      }
+    return classes;
+  }
+
+  template class Occupancy<2>;
+  template class Occupancy<3>;
+  template std::vector<GridCellClass>
+  classify(const Occupancy<2> &, const double);
+  template std::vector<GridCellClass>
+  classify(const Occupancy<3> &, const double);
+} // namespace Morula

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/command_line.h>
+#include <morula/failure.h>
+#include <morula/input_error.h>
+#include <morula/scene.h>
+#include <morula/scene_explain.h>
+#include <morula/scene_size.h>
+#include <morula/simulation.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <new>
+
+namespace
+{
+  using namespace Morula;
+
+  bool
+  is_first_rank()
+  {
+    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
+  template <int dim>
+  void
+  simulate(const Scene &scene, const bool resume)
+  {
+    Simulation<dim> simulation(scene, MPI_COMM_WORLD, resume);
+    simulation.run();
+  }
+
+  /** Prints what was asked for instead of a run; false if that is nothing. */
+  bool
+  print_information(const CommandLine &command)
+  {
+    if (!command.help && !command.version && !command.parameters)
+      return false;
+    if (is_first_rank())
+      {
+        if (command.help)
+          print_help(std::cout);
+        if (command.version)
+          print_version(std::cout);
+        if (command.parameters)
+          print_parameters(std::cout);
+      }
+    return true;
+  }
+
+  /**
+   * Does what the command line asks for. Sets @p resume_hint once the scene is
+   * accepted.
+   */
+  void
+  run(const CommandLine &command, std::string &resume_hint)
+  {
+    if (print_information(command))
+      return;
+
+    const Scene scene = Scene::read(command.scene_file, command.overrides);
+    scene.check();
+    if (command.explain)
+      {
+        explain(scene, std::cout, MPI_COMM_WORLD);
+        return;
+      }
+    check_memory(scene, initial_size(scene), MPI_COMM_WORLD);
+    resume_hint = "If there is a snapshot.h5 in '" + scene.output_directory +
+                  "', 'morula " + command.scene_file +
+                  " ... --resume' goes on from there.";
+    if (scene.dimension == 2)
+      simulate<2>(scene, command.resume);
+    else
+      simulate<3>(scene, command.resume);
+  }
+} // namespace
+
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  deal_II_exceptions::disable_abort_on_exception();
+  deal_II_exceptions::suppress_stacktrace_in_exceptions();
+
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::string                    resume_hint;
+  try
+    {
+      run(CommandLine::parse(words), resume_hint);
+      return 0;
+    }
+  catch (const InputError &error)
+    {
+      return end_of_all_ranks(1, error.what(), MPI_COMM_WORLD);
+    }
+  catch (const std::bad_alloc &)
+    {
+      return end_of_all_ranks(2,
+                              "The run failed: out of memory. " + resume_hint,
+                              MPI_COMM_WORLD);
+    }
+  catch (const std::exception &error)
+    {
+      return end_of_all_ranks(2,
+                              std::string("The run failed: ") + error.what() +
+                                "\n" + resume_hint,
+                              MPI_COMM_WORLD);
+    }
+  catch (...)
+    {
+      return end_of_all_ranks(2,
+                              "The run failed for an unknown reason. " +
+                                resume_hint,
+                              MPI_COMM_WORLD);
+    }
+}

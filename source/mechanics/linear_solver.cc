@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/linear_solver.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <Amesos.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    using Vector = LinearSolver::Vector;
+    using Matrix = LinearSolver::Matrix;
+
+    constexpr unsigned int max_iterations = 2000;
+
+    /** Shifts tried on negative curvature: σ = first, first * factor, ... */
+    constexpr double first_shift  = 1e-3;
+    constexpr double shift_factor = 4.;
+    constexpr double last_shift   = 300.;
+
+    enum class Outcome
+    {
+      converged,
+      negative_curvature,
+      indefinite_preconditioner,
+      stalled
+    };
+
+    /**
+     * Preconditioned conjugate gradients for K + σ |diag K| that stop where
+     * they meet negative curvature. deal.II's SolverCG and Trilinos' AztecOO and
+     * Belos do not look at the curvature: they iterate on for thousands of
+     * steps on an indefinite tangent, or return a direction that is none of
+     * descent.
+     */
+    template <typename Preconditioner, typename Projection>
+    Outcome
+    conjugate_gradients(const Matrix         &K,
+                        const double          shift,
+                        const Vector         &diagonal,
+                        const Preconditioner &P,
+                        const Projection     &project,
+                        Vector               &x,
+                        const Vector         &b,
+                        const double          tolerance,
+                        unsigned int         &iterations)
+    {
+      Vector r(b), z(b), p(b), Kp(b), shifted(b);
+      x = 0.;
+      project(r);
+      P.vmult(z, r);
+      project(z);
+      p                   = z;
+      double       rz     = r * z;
+      const double target = tolerance * r.l2_norm();
+      for (unsigned int i = 0; i < max_iterations; ++i)
+        {
+          if (!(rz > 0.))
+            return Outcome::indefinite_preconditioner;
+          K.vmult(Kp, p);
+          if (shift > 0.)
+            {
+              shifted = p;
+              shifted.scale(diagonal);
+              Kp.add(shift, shifted);
+            }
+          project(Kp);
+          ++iterations;
+          const double curvature = p * Kp;
+          if (!(curvature > 0.))
+            return Outcome::negative_curvature;
+          const double alpha = rz / curvature;
+          x.add(alpha, p);
+          r.add(-alpha, Kp);
+          if (r.l2_norm() <= target)
+            return Outcome::converged;
+          P.vmult(z, r);
+          project(z);
+          const double rz_new = r * z;
+          p.sadd(rz_new / rz, z);
+          rz = rz_new;
+        }
+      return Outcome::stalled;
+    }
+
+    /** |diag K|. */
+    Vector
+    diagonal_magnitude(const Matrix &K, const Vector &layout)
+    {
+      Vector diagonal(layout);
+      for (const auto row : diagonal.locally_owned_elements())
+        diagonal(row) = std::abs(K.diag_element(row));
+      diagonal.compress(VectorOperation::insert);
+      return diagonal;
+    }
+
+    /** The inverse of (1 + shift) |diag K|; always positive. */
+    DiagonalMatrix<Vector>
+    jacobi_preconditioner(const Vector &magnitude, const double shift)
+    {
+      Vector inverse(magnitude);
+      for (const auto row : inverse.locally_owned_elements())
+        inverse(row) =
+          magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
+      inverse.compress(VectorOperation::insert);
+      DiagonalMatrix<Vector> result;
+      result.reinit(inverse);
+      return result;
+    }
+  } // namespace
+
+  LinearSolver::LinearSolver(const SolverParameters &parameters,
+                             const Equilibrium      &problem,
+                             TimerOutput            &timer)
+    : direct(parameters.linear_solver == "direct")
+    , problem(problem)
+    , symmetric(problem.is_conservative())
+    , timer(timer)
+  {}
+
+  LinearSolver::~LinearSolver() = default;
+
+  void
+  LinearSolver::project(Vector &x) const
+  {
+    for (const Vector &direction : problem.null_space())
+      x.add(-(x * direction), direction);
+  }
+
+  void
+  LinearSolver::make_preconditioner(const Matrix &K)
+  {
+    if (!symmetric)
+      {
+        auto ilu = std::make_unique<TrilinosWrappers::PreconditionILU>();
+        ilu->initialize(K);
+        preconditioner = std::move(ilu);
+      }
+    else
+      {
+        // A slightly raised diagonal keeps the factorisation positive, and
+        // usable for the later tangents of the step.
+        auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
+        ic->initialize(K, {0, 2e-5 * problem.stiffness_scale(), 1.02, 0});
+        preconditioner = std::move(ic);
+      }
+  }
+
+  unsigned int
+  LinearSolver::solve(const Matrix &K,
+                      Vector       &x,
+                      const Vector &b,
+                      const double  tolerance)
+  {
+    if (!direct && !prepared)
+      {
+        const TimerOutput::Scope section(timer, "preconditioner");
+        make_preconditioner(K);
+        prepared = true;
+      }
+    const TimerOutput::Scope section(timer, "linear solver");
+    if (direct)
+      return solve_direct(K, x, b);
+    return symmetric ? solve_symmetric(K, x, b, tolerance) :
+                       solve_unsymmetric(K, x, b, tolerance);
+  }
+
+  unsigned int
+  LinearSolver::solve_symmetric(const Matrix &K,
+                                Vector       &x,
+                                const Vector &b,
+                                const double  tolerance)
+  {
+    unsigned int iterations = 0;
+    Vector       magnitude;
+    double       shift = 0.;
+    while (shift < last_shift)
+      {
+        if (magnitude.size() == 0 && (shift > 0. || !preconditioner))
+          magnitude = diagonal_magnitude(K, b);
+        const auto iterate = [&](const auto &P) {
+          return conjugate_gradients(
+            K,
+            shift,
+            magnitude,
+            P,
+            [this](Vector &y) { project(y); },
+            x,
+            b,
+            tolerance,
+            iterations);
+        };
+        const Outcome outcome =
+          preconditioner ? iterate(*preconditioner) :
+                           iterate(jacobi_preconditioner(magnitude, shift));
+        if (outcome == Outcome::converged)
+          return iterations;
+        if (outcome == Outcome::negative_curvature)
+          shift = shift == 0. ? first_shift : shift * shift_factor;
+        else if (preconditioner)
+          preconditioner.reset(); // not positive, or of no use: Jacobi
+        else
+          break;
+      }
+    throw StepFailed("the conjugate gradient method did not converge");
+  }
+
+  unsigned int
+  LinearSolver::solve_unsymmetric(const Matrix &K,
+                                  Vector       &x,
+                                  const Vector &b,
+                                  const double  tolerance)
+  {
+    SolverControl control(max_iterations, tolerance * b.l2_norm());
+    SolverGMRES<Vector> gmres(
+      control, SolverGMRES<Vector>::AdditionalData(100));
+    x = 0.;
+    try
+      {
+        Vector balanced(b);
+        project(balanced);
+        gmres.solve(K, x, balanced, *preconditioner);
+        project(x);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        throw StepFailed("GMRES did not converge");
+      }
+    return control.last_step();
+  }
+
+  unsigned int
+  LinearSolver::solve_direct(const Matrix &K, Vector &x, const Vector &b)
+  {
+    const std::string method =
+      Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
+    Vector balanced(b);
+    project(balanced);
+    Matrix shifted;
+    // With unsupported rigid motions K is singular. So small a shift costs
+    // Newton's method nothing.
+    const double least = problem.null_space().empty() ? 0. : 1e-9;
+    for (double shift = least; shift < last_shift;
+         shift        = std::max(first_shift, shift * shift_factor))
+      {
+        if (shift > 0.)
+          {
+            shifted.copy_from(K);
+            for (const auto row : K.locally_owned_range_indices())
+              shifted.add(row, row, shift * std::abs(K.diag_element(row)));
+            shifted.compress(VectorOperation::add);
+          }
+        SolverControl                  control(1, 0.);
+        TrilinosWrappers::SolverDirect solver(
+          control, TrilinosWrappers::SolverDirect::AdditionalData(false, method));
+        try
+          {
+            solver.initialize(shift > 0. ? shifted : K);
+            solver.solve(x, balanced);
+          }
+        catch (const ExceptionBase &)
+          {
+            throw StepFailed("the direct solver could not factorise");
+          }
+        project(x);
+        // Not a direction of descent: the tangent is indefinite there.
+        if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
+          return 1;
+      }
+    throw StepFailed("the direct solver found no direction of descent");
+  }
+} // namespace Morula

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/solver_parameters.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace Morula
+{
+  void
+  SolverParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Newton tolerance",
+                      newton_tolerance,
+                      "Residual at which a step is solved, relative to the "
+                      "step's first; 0 < tolerance < 1.",
+                      Patterns::Double());
+    prm.add_parameter(
+      "Linear solver",
+      linear_solver,
+      "Solver of Newton's linear systems. Automatic: iterative, "
+      "direct where that fails.",
+      Patterns::Selection("automatic|iterative|direct"));
+  }
+} // namespace Morula

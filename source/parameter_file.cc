@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/parameter_file.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Files that include files that ...; more is taken for a circle. */
+    constexpr unsigned int max_includes = 20;
+
+    /** Reads one file line by line and keeps track of the open sections. */
+    class Reader
+    {
+    public:
+      Reader(std::istream            &input,
+             const std::string       &name,
+             std::vector<Statement>  &statements,
+             std::vector<std::string> sections = {},
+             const unsigned int       depth    = 0)
+        : input(input)
+        , name(name)
+        , statements(statements)
+        , sections(std::move(sections))
+        , depth(depth)
+      {}
+
+      void
+      read()
+      {
+        const std::size_t n_outer = sections.size();
+        std::string       line, part;
+        while (std::getline(input, part))
+          {
+            ++line_number;
+            boost::trim(part);
+            const bool goes_on = !part.empty() && part.back() == '\\';
+            if (goes_on)
+              part.pop_back();
+            line += part;
+            if (goes_on)
+              continue;
+            read_line(line, n_outer);
+            line.clear();
+          }
+        read_line(line, n_outer);
+        if (sections.size() > n_outer)
+          fail(boost::join(sections, "/"),
+               "a subsection that is closed by 'end'",
+               "Add the missing 'end'.");
+      }
+
+    private:
+      void
+      read_line(std::string line, const std::size_t n_outer)
+      {
+        line = line.substr(0, line.find('#'));
+        boost::replace_all(line, "\t", " ");
+        boost::trim(line);
+        const auto        blank = line.find(' ');
+        const std::string word  = line.substr(0, blank);
+        const std::string rest  = blank == std::string::npos ?
+                                    "" :
+                                    boost::trim_left_copy(line.substr(blank));
+
+        if (line.empty())
+          return;
+        else if ((word == "set" || word == "SET") && !rest.empty())
+          read_set(rest);
+        else if ((word == "subsection" || word == "SUBSECTION") &&
+                 !rest.empty())
+          {
+            sections.push_back(rest);
+            add(Statement::section, boost::join(sections, "/"), "");
+          }
+        else if ((word == "include" || word == "INCLUDE") && !rest.empty())
+          read_include(rest);
+        else if (line == "end" || line == "END")
+          {
+            if (sections.size() == n_outer)
+              fail(line,
+                   "an 'end' for every 'subsection'",
+                   "No subsection is open here: remove the 'end'.");
+            sections.pop_back();
+          }
+        else
+          fail(line,
+               "'set Key = value', 'subsection Name', 'end' or 'include file'",
+               "Correct the line, or begin it with '#' if it is a comment.");
+      }
+
+      void
+      read_set(const std::string &assignment)
+      {
+        const auto equals = assignment.find('=');
+        if (equals == std::string::npos)
+          fail("set " + assignment,
+               "'set Key = value'",
+               "Put '=' between the key and its value.");
+        std::vector<std::string> path = sections;
+        path.push_back(boost::trim_copy(assignment.substr(0, equals)));
+        add(Statement::set,
+            boost::join(path, "/"),
+            boost::trim_copy(assignment.substr(equals + 1)));
+      }
+
+      void
+      read_include(const std::string &file)
+      {
+        if (depth >= max_includes)
+          fail("include " + file,
+               "files that do not include themselves",
+               "Break the circle.");
+        const auto sibling = std::filesystem::path(name).parent_path() / file;
+        const bool here    = std::filesystem::exists(file);
+        const auto found   = here ? file : sibling.string();
+        std::ifstream stream(found);
+        if (!stream || std::filesystem::is_directory(found))
+          fail("include " + file,
+               "a file that can be read",
+               "Correct the name; it counts from the working directory or from "
+               "this file.");
+        Reader(stream, found, statements, sections, depth + 1).read();
+      }
+
+      void
+      add(const Statement::Kind kind,
+          const std::string    &path,
+          const std::string    &value)
+      {
+        statements.push_back({kind, path, value, place() + ": "});
+      }
+
+      std::string
+      place() const
+      {
+        return name + ":" + std::to_string(line_number);
+      }
+
+      [[noreturn]] void
+      fail(const std::string &what,
+           const std::string &allowed,
+           const std::string &remedy) const
+      {
+        throw InputError(place(), what, allowed, remedy);
+      }
+
+      std::istream            &input;
+      const std::string        name;
+      std::vector<Statement>  &statements;
+      std::vector<std::string> sections;
+      const unsigned int       depth;
+      unsigned int             line_number = 0;
+    };
+  } // namespace
+
+
+  std::vector<Statement>
+  read_statements(std::istream &input, const std::string &name)
+  {
+    std::vector<Statement> statements;
+    Reader(input, name, statements).read();
+    return statements;
+  }
+
+
+  std::vector<Statement>
+  read_statements(const std::string &file)
+  {
+    std::ifstream input(file);
+    if (!input || std::filesystem::is_directory(file))
+      throw InputError("The scene file",
+                       file,
+                       "a .prm file that can be read",
+                       "Correct its name; 'morula --parameters' prints a "
+                       "complete one to start from.");
+    return read_statements(input, file);
+  }
+
+
+  Statement
+  read_override(const std::string &text)
+  {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw InputError("-s",
+                       text,
+                       "\"Section/Key=value\"",
+                       "Put '=' between the key and its value, and quote the "
+                       "whole for the shell.");
+    std::vector<std::string> path;
+    const std::string        key = text.substr(0, equals);
+    boost::split(path, key, boost::is_any_of("/"));
+    for (std::string &name : path)
+      boost::trim(name);
+    return {Statement::set,
+            boost::join(path, "/"),
+            boost::trim_copy(text.substr(equals + 1)),
+            "-s: "};
+  }
+} // namespace Morula

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/nearest.h>
+#include <morula/particles/point_exchange.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Points that may be nearest: those near grid cells with a query. */
+    template <int dim>
+    PointList<dim>
+    candidates(const std::vector<Point<dim>> &queries,
+               const PointList<dim>          &points,
+               const BackgroundGrid<dim>     &grid,
+               const int                      radius)
+    {
+      const GridBox<dim> &box = grid.box();
+      std::vector<char>   near(box.size(), 0);
+      for (const Point<dim> &query : queries)
+        box.for_neighbors(box.locate(query),
+                          radius,
+                          [&](const unsigned int number, const auto &) {
+                            near[number] = 1;
+                          });
+      PointList<dim> all = halo(points, grid, radius * box.spacing());
+      PointList<dim> list;
+      list.n_slots     = points.n_slots;
+      const auto add   = [&](const PointList<dim> &from) {
+        for (std::size_t i = 0; i < from.size(); ++i)
+          if (near[box.number(box.locate(from.positions[i]))])
+            {
+              list.ids.push_back(from.ids[i]);
+              list.positions.push_back(from.positions[i]);
+              const auto first = from.properties.begin() + i * from.n_slots;
+              list.properties.insert(list.properties.end(),
+                                     first,
+                                     first + from.n_slots);
+            }
+      };
+      add(points);
+      add(all);
+      return list;
+    }
+
+    /** Position of the nearest point in the list, and its distance. Distances
+     *  that differ by rounding only count as equal. */
+    template <int dim, typename Tree>
+    std::pair<std::size_t, double>
+    nearest(const Point<dim> &query, const PointList<dim> &list, const Tree &tree)
+    {
+      // A lattice can have 2^dim points at the same distance.
+      constexpr unsigned int n_ties = 2 << dim;
+      std::size_t            best   = 0;
+      double shortest = std::numeric_limits<double>::infinity();
+      std::vector<unsigned int> found;
+      tree.query(boost::geometry::index::nearest(query, n_ties),
+                 std::back_inserter(found));
+      for (const unsigned int i : found)
+        shortest = std::min(shortest, query.distance(list.positions[i]));
+      bool first = true;
+      for (const unsigned int i : found)
+        if (query.distance(list.positions[i]) <= shortest * (1. + 1e-9) &&
+            (first || list.ids[i] < list.ids[best]))
+          {
+            best  = i;
+            first = false;
+          }
+      return {best, shortest};
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<double>
+  nearest_properties(const std::vector<Point<dim>> &queries,
+                     const PointList<dim>          &points,
+                     const BackgroundGrid<dim>     &grid)
+  {
+    const GridBox<dim> &box     = grid.box();
+    int                 largest = 0;
+    for (const int n : box.n())
+      largest = std::max(largest, n);
+    for (int radius = 1;; radius *= 2)
+      {
+        const PointList<dim> list = candidates(queries, points, grid, radius);
+        const auto           tree = pack_rtree_of_indices(list.positions);
+        std::vector<double>  properties;
+        double               farthest = 0.;
+        for (const Point<dim> &query : queries)
+          {
+            const auto [i, distance] = nearest(query, list, tree);
+            farthest                 = std::max(farthest, distance);
+            const auto first = list.properties.begin() + i * list.n_slots;
+            if (list.size() > 0)
+              properties.insert(properties.end(), first, first + list.n_slots);
+          }
+        // Farther points than this may be missing from the list.
+        const double sure = radius * box.spacing();
+        if (Utilities::MPI::max(farthest, grid.communicator()) <= sure)
+          return properties;
+        AssertThrow(radius <= largest, ExcMessage("There are no cells."));
+      }
+  }
+
+  template std::vector<double>
+  nearest_properties(const std::vector<Point<2>> &,
+                     const PointList<2> &,
+                     const BackgroundGrid<2> &);
+  template std::vector<double>
+  nearest_properties(const std::vector<Point<3>> &,
+                     const PointList<3> &,
+                     const BackgroundGrid<3> &);
+} // namespace Morula

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/point_exchange.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Points as one row of numbers each: id, position, properties. */
+    template <int dim>
+    void
+    append_row(const PointList<dim> &points,
+               const std::size_t     i,
+               std::vector<double>  &rows)
+    {
+      rows.push_back(points.ids[i]);
+      for (unsigned int d = 0; d < dim; ++d)
+        rows.push_back(points.positions[i][d]);
+      const auto first = points.properties.begin() + i * points.n_slots;
+      rows.insert(rows.end(), first, first + points.n_slots);
+    }
+
+    template <int dim>
+    void
+    append_points(const std::vector<double> &rows, PointList<dim> &points)
+    {
+      const std::size_t width = 1 + dim + points.n_slots;
+      for (std::size_t row = 0; row < rows.size(); row += width)
+        {
+          points.ids.push_back(static_cast<types::particle_index>(rows[row]));
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = rows[row + 1 + d];
+          points.positions.push_back(x);
+          const auto first = rows.begin() + row + 1 + dim;
+          points.properties.insert(points.properties.end(),
+                                   first,
+                                   first + points.n_slots);
+        }
+    }
+
+    /** Sorted owners, other than @p rank, of the grid cells within @p radius
+     *  of each grid cell of this rank; looked up once per grid cell. */
+    template <int dim>
+    class ForeignOwners
+    {
+    public:
+      ForeignOwners(const BackgroundGrid<dim> &grid, const int radius)
+        : grid(grid)
+        , radius(radius)
+        , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
+      {}
+
+      const std::vector<unsigned int> &
+      around(const GridIndex<dim> &index)
+      {
+        const unsigned int number  = grid.box().number(index);
+        const auto         found   = owners.find(number);
+        if (found != owners.end())
+          return found->second;
+        std::vector<unsigned int> &list = owners[number];
+        grid.box().for_neighbors(index,
+                                 radius,
+                                 [&](const unsigned int neighbor, const auto &) {
+                                   if (grid.owner(neighbor) != rank)
+                                     list.push_back(grid.owner(neighbor));
+                                 });
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        return list;
+      }
+
+    private:
+      const BackgroundGrid<dim>                        &grid;
+      const int                                         radius;
+      const unsigned int                                rank;
+      std::map<unsigned int, std::vector<unsigned int>> owners;
+    };
+
+    template <int dim>
+    void
+    exchange(const std::map<unsigned int, std::vector<double>> &rows_to,
+             const MPI_Comm                                     comm,
+             PointList<dim>                                    &points)
+    {
+      for (const auto &[rank, rows] :
+           Utilities::MPI::some_to_some(comm, rows_to))
+        append_points(rows, points);
+    }
+  } // namespace
+
+  template <int dim>
+  PointList<dim>
+  send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid)
+  {
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return points;
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    PointList<dim> mine;
+    mine.n_slots = points.n_slots;
+    std::vector<double>                         stay;
+    std::map<unsigned int, std::vector<double>> rows_to;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const unsigned int owner =
+          grid.owner(grid.box().number(grid.box().locate(points.positions[i])));
+        append_row(points, i, owner == rank ? stay : rows_to[owner]);
+      }
+    append_points(stay, mine);
+    exchange(rows_to, grid.communicator(), mine);
+    return mine;
+  }
+
+  template <int dim>
+  PointList<dim>
+  halo(const PointList<dim>      &points,
+       const BackgroundGrid<dim> &grid,
+       const double               reach)
+  {
+    PointList<dim> others;
+    others.n_slots = points.n_slots;
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return others;
+    ForeignOwners<dim> foreign(
+      grid, static_cast<int>(std::ceil(reach / grid.box().spacing())));
+    std::map<unsigned int, std::vector<double>> rows_to;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (const unsigned int owner :
+           foreign.around(grid.box().locate(points.positions[i])))
+        append_row(points, i, rows_to[owner]);
+    exchange(rows_to, grid.communicator(), others);
+    return others;
+  }
+
+  template PointList<2>
+  send_to_owners(const PointList<2> &, const BackgroundGrid<2> &);
+  template PointList<3>
+  send_to_owners(const PointList<3> &, const BackgroundGrid<3> &);
+  template PointList<2>
+  halo(const PointList<2> &, const BackgroundGrid<2> &, const double);
+  template PointList<3>
+  halo(const PointList<3> &, const BackgroundGrid<3> &, const double);
+} // namespace Morula

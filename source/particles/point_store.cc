@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/point_exchange.h>
+#include <morula/particles/point_store.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Morula
+{
+  template <int dim>
+  PointStore<dim>::PointStore(const unsigned int n_slots)
+    : n_slots_(n_slots)
+  {}
+
+  template <int dim>
+  void
+  PointStore<dim>::attach(const BackgroundGrid<dim> &grid)
+  {
+    Assert(order_.empty(), ExcMessage("Take the points out first."));
+    handler.initialize(grid.triangulation(), mapping, n_slots_);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::insert(const PointList<dim>      &points,
+                          const BackgroundGrid<dim> &grid)
+  {
+    const PointList<dim> mine = send_to_owners(points, grid);
+    const GridBox<dim>  &box  = grid.box();
+    for (std::size_t i = 0; i < mine.size(); ++i)
+      {
+        const GridIndex<dim> index = box.locate(mine.positions[i]);
+        handler.insert_particle(
+          mine.positions[i],
+          box.unit_position(mine.positions[i], index),
+          mine.ids[i],
+          grid.cell(box.number(index)),
+          ArrayView<const double>(mine.properties.data() + i * n_slots_,
+                                  n_slots_));
+      }
+    sort(grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::remove(const std::vector<Iterator> &points,
+                          const BackgroundGrid<dim>   &grid)
+  {
+    handler.remove_particles(points);
+    sort(grid);
+  }
+
+  template <int dim>
+  PointList<dim>
+  PointStore<dim>::copy() const
+  {
+    PointList<dim> points;
+    points.n_slots = n_slots_;
+    points.ids.reserve(order_.size());
+    points.positions.reserve(order_.size());
+    points.properties.reserve(order_.size() * n_slots_);
+    for (const Iterator &point : order_)
+      {
+        points.ids.push_back(point->get_id());
+        points.positions.push_back(point->get_location());
+        const ArrayView<const double> properties = point->get_properties();
+        points.properties.insert(points.properties.end(),
+                                 properties.begin(),
+                                 properties.end());
+      }
+    return points;
+  }
+
+  template <int dim>
+  PointList<dim>
+  PointStore<dim>::take()
+  {
+    PointList<dim> points = copy();
+    order_.clear();
+    cells_.clear();
+    handler.clear_particles();
+    return points;
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
+  {
+    const GridBox<dim> &box = grid.box();
+    cells_.clear();
+    order_.clear();
+    for (unsigned int number = 0; number < box.size(); ++number)
+      {
+        const auto cell = grid.cell(number);
+        if (cell == grid.triangulation().end())
+          continue;
+        const unsigned int begin = order_.size();
+        auto               range = handler.particles_in_cell(cell);
+        for (auto point = range.begin(); point != range.end(); ++point)
+          order_.push_back(point);
+        if (order_.size() == begin)
+          continue;
+        std::sort(order_.begin() + begin,
+                  order_.end(),
+                  [](const Iterator &a, const Iterator &b) {
+                    return a->get_id() < b->get_id();
+                  });
+        cells_.push_back(
+          {number, begin, static_cast<unsigned int>(order_.size())});
+      }
+  }
+
+  template <int dim>
+  const std::vector<typename PointStore<dim>::Cell> &
+  PointStore<dim>::cells() const
+  {
+    return cells_;
+  }
+
+  template <int dim>
+  const std::vector<typename PointStore<dim>::Iterator> &
+  PointStore<dim>::order() const
+  {
+    return order_;
+  }
+
+  template <int dim>
+  unsigned int
+  PointStore<dim>::n_slots() const
+  {
+    return n_slots_;
+  }
+
+  template <int dim>
+  std::pair<GridIndex<dim>, GridIndex<dim>>
+  extent(const std::vector<const std::vector<Point<dim>> *> &positions,
+         const BackgroundGrid<dim>                           &grid)
+  {
+    // Largest coordinates, and largest of the negated: one reduction for both.
+    std::vector<int> bounds(2 * dim, std::numeric_limits<int>::lowest());
+    for (const auto *list : positions)
+      for (const Point<dim> &x : *list)
+        {
+          const GridIndex<dim> index = grid.locate(x);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              bounds[d]       = std::max(bounds[d], index[d]);
+              bounds[dim + d] = std::max(bounds[dim + d], -index[d]);
+            }
+        }
+    Utilities::MPI::max(bounds, grid.communicator(), bounds);
+    GridIndex<dim> first, last;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        last[d]  = bounds[d];
+        first[d] = -bounds[dim + d];
+      }
+    return {first, last};
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  count_points(const std::vector<Point<dim>> &positions,
+               const BackgroundGrid<dim>     &grid)
+  {
+    std::vector<unsigned int> counts(grid.box().size(), 0);
+    for (const Point<dim> &x : positions)
+      ++counts[grid.box().number(grid.box().locate(x))];
+    Utilities::MPI::sum(counts, grid.communicator(), counts);
+    return counts;
+  }
+
+  template class PointStore<2>;
+  template class PointStore<3>;
+  template std::pair<GridIndex<2>, GridIndex<2>>
+  extent(const std::vector<const std::vector<Point<2>> *> &,
+         const BackgroundGrid<2> &);
+  template std::pair<GridIndex<3>, GridIndex<3>>
+  extent(const std::vector<const std::vector<Point<3>> *> &,
+         const BackgroundGrid<3> &);
+  template std::vector<unsigned int>
+  count_points(const std::vector<Point<2>> &, const BackgroundGrid<2> &);
+  template std::vector<unsigned int>
+  count_points(const std::vector<Point<3>> &, const BackgroundGrid<3> &);
+} // namespace Morula

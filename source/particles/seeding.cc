@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/particles/lattice.h>
+#include <morula/particles/points_file.h>
+#include <morula/particles/seeding.h>
+#include <morula/particles/shape.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr std::uint64_t most_ids =
+      std::numeric_limits<types::particle_index>::max() - 1;
+
+    /** This rank's share [begin, end) of n things in order. */
+    std::pair<std::uint64_t, std::uint64_t>
+    share(const std::uint64_t n, const MPI_Comm comm)
+    {
+      const std::uint64_t rank    = Utilities::MPI::this_mpi_process(comm);
+      const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      const auto          begin   = [=](const std::uint64_t r) {
+        return n / n_ranks * r + n % n_ranks * r / n_ranks;
+      };
+      return {begin(rank), begin(rank + 1)};
+    }
+
+    /**
+     * make_shape() on all ranks, each of which reads a mesh's file; if that
+     * fails on one, for instance on a node without the file, all ranks throw.
+     */
+    template <int dim>
+    std::unique_ptr<Shape<dim>>
+    make_shape_everywhere(const TissueParameters &parameters,
+                          const MPI_Comm          comm)
+    {
+      std::unique_ptr<Shape<dim>> shape;
+      std::optional<InputError>   own_error;
+      try
+        {
+          shape = make_shape<dim>(parameters);
+        }
+      catch (const InputError &error)
+        {
+          own_error = error;
+        }
+      const bool failed = Utilities::MPI::max(own_error ? 1 : 0, comm) != 0;
+      if (own_error)
+        throw *own_error;
+      if (failed)
+        throw InputError("Tissue/Surface mesh",
+                         parameters.surface_mesh,
+                         "a file that all processes can read",
+                         "Copy it to where all of them see it.");
+      return shape;
+    }
+
+    /** Numbers this rank's founders after those of the lower ranks. */
+    template <int dim>
+    void
+    number_founders(Founders<dim>          &founders,
+                    const TissueParameters &parameters,
+                    const MPI_Comm          comm)
+    {
+      const std::uint64_t n_mine = founders.positions.size();
+      std::uint64_t       below  = 0;
+      const int           error =
+        MPI_Exscan(&n_mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
+      AssertThrowMPI(error);
+      if (Utilities::MPI::this_mpi_process(comm) == 0)
+        below = 0; // left undefined by MPI
+
+      const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
+      if (n == 0)
+        throw_no_cell_fits(parameters);
+      founders.first_id = static_cast<types::particle_index>(below);
+      founders.n_global = static_cast<types::particle_index>(n);
+    }
+  } // namespace
+
+  template <int dim>
+  Founders<dim>
+  seed_founders(const TissueParameters &parameters, const MPI_Comm comm)
+  {
+    const double volume = std::pow(parameters.cell_spacing, dim);
+    if (parameters.shape == "points")
+      return read_points<dim>(parameters.points_file, volume, comm);
+
+    const std::unique_ptr<Shape<dim>> shape =
+      make_shape_everywhere<dim>(parameters, comm);
+    const Lattice<dim> lattice(parameters, shape->bounding_box());
+    const auto [begin, end] = share(lattice.n_sites(), comm);
+
+    Founders<dim> founders;
+    for (std::uint64_t site = begin; site < end; ++site)
+      {
+        const Point<dim> x = lattice.position(site);
+        if (lattice.is_occupied(*shape, x))
+          founders.positions.push_back(x);
+      }
+    founders.volumes.assign(founders.positions.size(), volume);
+    number_founders(founders, parameters, comm);
+    return founders;
+  }
+
+  template <int dim>
+  SurfacePatches<dim>
+  seed_surface(const TissueParameters &parameters, const MPI_Comm comm)
+  {
+    SurfacePatches<dim> patches;
+    if (parameters.shape == "points")
+      return patches;
+
+    const std::unique_ptr<Shape<dim>> shape =
+      make_shape_everywhere<dim>(parameters, comm);
+    const double n_by_spacing =
+      std::max(1.,
+               std::round(shape->surface_area() /
+                          std::pow(parameters.cell_spacing, dim - 1)));
+    const bool chosen = parameters.boundary_points > 0;
+    if (!chosen && !(n_by_spacing < most_ids))
+      throw InputError("Tissue/Cell spacing",
+                       Patterns::Tools::to_string(parameters.cell_spacing),
+                       "a spacing that gives fewer than 4e9 boundary points",
+                       "Choose a larger spacing, or set Boundary points.");
+    const SurfaceTiling<dim> tiling =
+      shape->tile(chosen ? parameters.boundary_points :
+                           static_cast<std::uint64_t>(n_by_spacing));
+
+    const auto [begin, end] = share(tiling.n_patches, comm);
+    patches.first_id        = static_cast<types::particle_index>(begin);
+    patches.n_global = static_cast<types::particle_index>(tiling.n_patches);
+    for (std::uint64_t i = begin; i < end; ++i)
+      {
+        const SurfacePatch<dim> patch = tiling.patch(i);
+        patches.positions.push_back(patch.position);
+        patches.normals.push_back(patch.normal);
+        patches.areas.push_back(patch.area);
+      }
+    return patches;
+  }
+
+  template Founders<2>
+  seed_founders<2>(const TissueParameters &, const MPI_Comm);
+  template Founders<3>
+  seed_founders<3>(const TissueParameters &, const MPI_Comm);
+  template SurfacePatches<2>
+  seed_surface<2>(const TissueParameters &, const MPI_Comm);
+  template SurfacePatches<3>
+  seed_surface<3>(const TissueParameters &, const MPI_Comm);
+} // namespace Morula

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/tissue.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Load of the fullest rank over the mean that is put up with. */
+    constexpr double worst_imbalance = 1.15;
+  } // namespace
+
+  template <int dim>
+  Tissue<dim>::Tissue(const GridParameters &parameters,
+                      const CellSlots<dim> &slots,
+                      const MPI_Comm        comm)
+    : parameters(parameters)
+    , slots_(slots)
+    , grid_(parameters, comm)
+    , cells_(slots.n_slots)
+    , boundary_points_(BoundarySlots<dim>::n_slots)
+  {}
+
+  template <int dim>
+  bool
+  Tissue<dim>::balanced(const std::vector<unsigned int> &counts) const
+  {
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(grid_.communicator());
+    std::vector<double> loads(n_ranks, 0.);
+    for (unsigned int number = 0; number < counts.size(); ++number)
+      loads[grid_.owner(number)] += counts[number];
+    double total = 0., last_total = 0.;
+    for (const double load : loads)
+      total += load;
+    for (const unsigned int weight : grid_.weights())
+      last_total += weight;
+    // A partition of few grid cells may not get better: try again only after
+    // the tissue has changed.
+    return *std::max_element(loads.begin(), loads.end()) * n_ranks <=
+             worst_imbalance * total ||
+           std::abs(total - last_total) <= 0.05 * last_total;
+  }
+
+  template <int dim>
+  void
+  Tissue<dim>::place(const PointList<dim> &cells,
+                     const PointList<dim> &boundary_points)
+  {
+    cells_.take();
+    boundary_points_.take();
+    const auto [first, last] =
+      extent<dim>({&cells.positions, &boundary_points.positions}, grid_);
+    bool made_anew = !grid_.covers(first, last);
+    if (made_anew)
+      grid_.enclose(first, last);
+    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
+      {
+        const std::vector<unsigned int> counts =
+          count_points(cells.positions, grid_);
+        if (made_anew || !balanced(counts))
+          {
+            grid_.partition(counts);
+            made_anew = true;
+          }
+      }
+    if (made_anew)
+      {
+        cells_.attach(grid_);
+        boundary_points_.attach(grid_);
+      }
+    cells_.insert(cells, grid_);
+    boundary_points_.insert(boundary_points, grid_);
+  }
+
+  template <int dim>
+  void
+  Tissue<dim>::restore(const PointList<dim>            &cells,
+                       const PointList<dim>            &boundary_points,
+                       const GridIndex<dim>            &first,
+                       const GridIndex<dim>            &n,
+                       const std::vector<unsigned int> &weights)
+  {
+    grid_.make(first, n);
+    grid_.partition(weights);
+    cells_.attach(grid_);
+    boundary_points_.attach(grid_);
+    cells_.insert(cells, grid_);
+    boundary_points_.insert(boundary_points, grid_);
+  }
+
+  template <int dim>
+  void
+  Tissue<dim>::replace(
+    const std::vector<typename PointStore<dim>::Iterator> &mothers,
+    const PointList<dim>                                  &daughters)
+  {
+    // Daughters stand next to their mothers, but that may be the box's edge.
+    const auto [first, last] = extent<dim>({&daughters.positions}, grid_);
+    if (!grid_.covers(first, last))
+      {
+        PointList<dim> all = daughters;
+        cells_.remove(mothers, grid_);
+        const PointList<dim> others = cells_.take();
+        all.ids.insert(all.ids.end(), others.ids.begin(), others.ids.end());
+        all.positions.insert(all.positions.end(),
+                             others.positions.begin(),
+                             others.positions.end());
+        all.properties.insert(all.properties.end(),
+                              others.properties.begin(),
+                              others.properties.end());
+        place(all, boundary_points_.copy());
+        return;
+      }
+    cells_.remove(mothers, grid_);
+    cells_.insert(daughters, grid_);
+  }
+
+  template <int dim>
+  SplineSpace<dim>
+  Tissue<dim>::splines() const
+  {
+    Occupancy<dim> occupancy(grid_.box());
+    for (const auto &particle : cells_.order())
+      {
+        const CellView<dim, const double> state = cell(particle);
+        occupancy.add_particle(particle->get_location(),
+                               state.initial_volume() *
+                                 determinant(state.deformation()));
+      }
+    for (const auto &point : boundary_points_.order())
+      occupancy.add_boundary_point(point->get_location());
+    occupancy.sum(grid_.communicator());
+    return SplineSpace<dim>(grid_, occupancy, parameters);
+  }
+
+  template <int dim>
+  const BackgroundGrid<dim> &
+  Tissue<dim>::grid() const
+  {
+    return grid_;
+  }
+
+  template <int dim>
+  const PointStore<dim> &
+  Tissue<dim>::cells() const
+  {
+    return cells_;
+  }
+
+  template <int dim>
+  const PointStore<dim> &
+  Tissue<dim>::boundary_points() const
+  {
+    return boundary_points_;
+  }
+
+  template <int dim>
+  const CellSlots<dim> &
+  Tissue<dim>::slots() const
+  {
+    return slots_;
+  }
+
+  template <int dim>
+  CellView<dim, const double>
+  Tissue<dim>::cell(const typename PointStore<dim>::Iterator &particle) const
+  {
+    const ArrayView<const double> properties =
+      static_cast<const Particles::ParticleAccessor<dim> &>(*particle)
+        .get_properties();
+    return CellView<dim, const double>(properties, slots_);
+  }
+
+  template <int dim>
+  MPI_Comm
+  Tissue<dim>::communicator() const
+  {
+    return grid_.communicator();
+  }
+
+  template class Tissue<2>;
+  template class Tissue<3>;
+} // namespace Morula

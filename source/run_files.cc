@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/csv.h>
+#include <morula/output/directory.h>
+#include <morula/output/vtu.h>
+#include <morula/run_files.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    double
+    number_or(const std::optional<SnapshotData<dim>> &data,
+              const std::string                      &name,
+              const double                            otherwise)
+    {
+      return data ? data->numbers.at(name) : otherwise;
+    }
+
+    /** Prefix of a section's numbers in a snapshot. */
+    const std::string section_prefix = "seconds in ";
+    const std::string calls_prefix   = "calls of ";
+  } // namespace
+
+  template <int dim>
+  RunFiles<dim>::RunFiles(const Scene                            &scene,
+                          const std::optional<SnapshotData<dim>> &resumed_from,
+                          const MPI_Comm                          comm)
+    : scene(scene)
+    , comm(comm)
+    , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
+    , next_output(number_or(resumed_from, "next_output", 0.))
+    , next_snapshot(number_or(resumed_from, "next_snapshot", 1.))
+  {
+    if (resumed_from)
+      {
+        output_times = resumed_from->tables.at("output_times");
+        for (const auto &[name, seconds] : resumed_from->numbers)
+          if (name.rfind(section_prefix, 0) == 0)
+            {
+              const std::string section = name.substr(section_prefix.size());
+              sections_before[section]  = {
+                resumed_from->numbers.at(calls_prefix + section), seconds};
+            }
+        prepare_resume(scene.output_directory,
+                       scene.parameters(),
+                       output_times.size(),
+                       comm);
+        statistics.emplace(path("statistics.csv"),
+                           resumed_from->numbers.at("statistics_rows"),
+                           comm);
+        lineage.emplace(path("lineage.csv"),
+                        resumed_from->numbers.at("lineage_rows"),
+                        comm);
+      }
+    else
+      {
+        prepare_directory(scene.output_directory,
+                          scene.parameters(),
+                          {scene.tissue.surface_mesh, scene.tissue.points_file},
+                          comm);
+        statistics.emplace(path("statistics.csv"), comm);
+        lineage.emplace(path("lineage.csv"), comm);
+      }
+    progress.emplace(path("log.txt"),
+                     resumed_from.has_value(),
+                     resumed_from ? resumed_from->time : 0.,
+                     scene.time.end_time,
+                     comm);
+  }
+
+  template <int dim>
+  std::string
+  RunFiles<dim>::path(const std::string &file) const
+  {
+    return scene.output_directory + "/" + file;
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::has_format(const std::string &format) const
+  {
+    return std::find(scene.output.formats.begin(),
+                     scene.output.formats.end(),
+                     format) != scene.output.formats.end();
+  }
+
+  template <int dim>
+  double
+  RunFiles<dim>::wall_seconds() const
+  {
+    return wall_seconds_before + timer.wall_time();
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::step(StatisticsRow                  row,
+                      const std::vector<Birth<dim>> &births)
+  {
+    row.wall_seconds = wall_seconds();
+    statistics->append(row);
+    lineage->append(births);
+    progress->step({row.step,
+                    row.time,
+                    row.dt,
+                    row.cells,
+                    row.newton_iterations,
+                    timer.wall_time()});
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::writes_points() const
+  {
+    return has_format("vtu") || has_format("csv");
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::output_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.interval;
+    return last || output_times.empty() ||
+           (interval > 0. &&
+            time >= next_output * interval - 1e-9 * scene.time.step);
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::snapshot_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.snapshot_interval;
+    return last || (interval > 0. && time >= next_snapshot * interval -
+                                               1e-9 * scene.time.step);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_series(const std::string      &stem,
+                              const PointFields<dim> &fields,
+                              const double            time)
+  {
+    const unsigned int number = output_times.size() - 1;
+    if (has_format("csv"))
+      write_csv(path(numbered_file(stem, number, "csv")), fields, comm);
+    if (!has_format("vtu"))
+      return;
+    write_vtu(path(numbered_file(stem, number, "vtu")),
+              fields,
+              time,
+              number,
+              comm);
+    std::vector<std::pair<double, std::string>> names;
+    for (unsigned int n = 0; n < output_times.size(); ++n)
+      names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
+    write_pvd(path(stem + ".pvd"), names, comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_points(const PointFields<dim> &cells,
+                              const PointFields<dim> &surface,
+                              const double            time)
+  {
+    output_times.push_back(time);
+    const double interval = scene.output.interval;
+    if (interval > 0.)
+      next_output =
+        std::floor((time + 1e-9 * scene.time.step) / interval) + 1;
+    write_series("cells", cells, time);
+    write_series("surface", surface, time);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_snapshot(SnapshotData<dim>  data,
+                                const TimerOutput &timer)
+  {
+    const double interval = scene.output.snapshot_interval;
+    if (interval > 0.)
+      next_snapshot =
+        std::floor((data.time + 1e-9 * scene.time.step) / interval) + 1;
+    // What the snapshot counts must be on the disk before it.
+    statistics->sync();
+    lineage->sync();
+    data.parameters                 = scene.parameters();
+    data.numbers["wall_seconds"]    = wall_seconds();
+    data.numbers["next_output"]     = next_output;
+    data.numbers["next_snapshot"]   = next_snapshot;
+    data.numbers["statistics_rows"] = statistics->n_rows();
+    data.numbers["lineage_rows"]    = lineage->n_rows();
+    data.tables["output_times"]     = output_times;
+    for (const auto &[name, times] : section_times(timer, sections_before))
+      {
+        data.numbers[section_prefix + name] = times.wall_seconds;
+        data.numbers[calls_prefix + name]   = times.calls;
+      }
+    Morula::write_snapshot(path("snapshot.h5"), data, comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_timings(const TimerOutput &timer)
+  {
+    Morula::write_timings(path("timings.csv"),
+                          section_times(timer, sections_before),
+                          wall_seconds(),
+                          comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::message(const std::string &text)
+  {
+    progress->message(text);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::finish(const std::string   &outcome,
+                        const StatisticsRow &row,
+                        const unsigned int   rejected_steps,
+                        const TimerOutput   &timer)
+  {
+    progress->finish({outcome,
+                      dim,
+                      row.time,
+                      row.cells,
+                      row.tissue.total_volume,
+                      row.step,
+                      rejected_steps,
+                      wall_seconds(),
+                      section_times(timer, sections_before),
+                      scene.output_directory});
+  }
+
+  template class RunFiles<2>;
+  template class RunFiles<3>;
+} // namespace Morula

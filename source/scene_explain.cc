@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/expression.h>
+#include <morula/particles/cell_state.h>
+#include <morula/particles/seeding.h>
+#include <morula/scene_checks.h>
+#include <morula/scene_explain.h>
+#include <morula/scene_refusals.h>
+#include <morula/scene_size.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** One line: a name, 'on' or 'off', and what it is. */
+    void
+    print_effect(std::ostream      &out,
+                 const std::string &name,
+                 const bool         on,
+                 const std::string &description)
+    {
+      out << "  " << std::left << std::setw(24) << name
+          << (on ? "on   " + description : "off") << '\n';
+    }
+
+    std::string
+    at_points(const types::particle_index n,
+              const std::string          &where,
+              const std::string          &what = "")
+    {
+      return "at " + std::to_string(n) + " boundary points, where " + where +
+             what;
+    }
+
+    bool
+    has_checkpoint(const Scene &scene)
+    {
+      return scene.has_proliferation() &&
+             !Refusals::same_value(scene.cell_cycle.size_checkpoint, "0");
+    }
+
+    void
+    print_effects(std::ostream          &out,
+                  const Scene           &scene,
+                  const ConditionCounts &counts)
+    {
+      const CellCycleParameters         &cycle = scene.cell_cycle;
+      const BoundaryConditionParameters &given = scene.boundary_conditions;
+
+      const bool divides = scene.has_proliferation();
+      const bool pulls =
+        !Refusals::same_value(scene.body_force.force_density, "0; 0; 0");
+
+      out << "Effects\n";
+      print_effect(out,
+                   "growth",
+                   scene.has_growth(),
+                   scene.growth_law +
+                     ", theta = " + scene.isotropic_growth.stretch);
+      print_effect(out,
+                   "proliferation",
+                   divides,
+                   scene.proliferation_law + ", T = " + cycle.duration +
+                     " day, Lambda = " + cycle.exit_rate + " /day, where " +
+                     cycle.where + " > 0");
+      print_effect(out,
+                   "size checkpoint",
+                   has_checkpoint(scene),
+                   "J_th = " + cycle.size_checkpoint);
+      print_effect(out,
+                   "division (Voronoi)",
+                   divides,
+                   cycle.division_axis + " axis" +
+                     (cycle.axis_follows_rotation ? ", follows rotation" : ""));
+      print_effect(out,
+                   "fixed points (Nitsche)",
+                   counts.fixed > 0,
+                   at_points(counts.fixed,
+                             given.fixed_where,
+                             "; displacement " + given.displacement + " um"));
+      print_effect(out,
+                   "slip (Nitsche)",
+                   counts.slip > 0,
+                   at_points(counts.slip, given.slip_where));
+      print_effect(out,
+                   "traction",
+                   counts.traction > 0,
+                   at_points(counts.traction,
+                             given.traction_where,
+                             "; " + given.traction + " kPa"));
+      print_effect(out,
+                   "pressure",
+                   counts.pressure > 0,
+                   at_points(counts.pressure,
+                             given.pressure_where,
+                             "; " + given.pressure + " kPa"));
+      print_effect(out,
+                   "body force",
+                   pulls,
+                   scene.body_force.force_density + " kPa/um");
+      print_effect(out,
+                   "heterogeneous stiffness",
+                   !Expression("Material/Young's modulus",
+                               scene.material.youngs_modulus)
+                      .is_constant(),
+                   "E = " + scene.material.youngs_modulus + " kPa");
+    }
+
+    template <int dim>
+    void
+    print_slots(std::ostream &out, const CellSlots<dim> &slots)
+    {
+      out << "Slots of a cell: " << slots.n_slots << '\n';
+      for (const auto &[name, slot, size] :
+           {std::tuple("founder position", slots.founder_position, dim),
+            std::tuple("initial volume", slots.initial_volume, 1),
+            std::tuple("deformation", slots.deformation, dim * dim),
+            std::tuple("growth", slots.growth, dim * dim),
+            std::tuple("parent", slots.parent, 1),
+            std::tuple("generation", slots.generation, 1),
+            std::tuple("phase", slots.phase, 1),
+            std::tuple("event time", slots.event_time, 1),
+            std::tuple("lineage key", slots.lineage_key, 2),
+            std::tuple("division axis", slots.division_axis, dim),
+            std::tuple("growth before the cycle", slots.growth_pre, dim * dim)})
+        if (slot == CellSlots<dim>::absent)
+          print_effect(out, name, false, "");
+        else
+          out << "  " << std::left << std::setw(24) << name << size << '\n';
+    }
+
+    template <int dim>
+    void
+    explain_scene(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+    {
+      check_memory(scene, initial_size(scene), comm);
+      const Founders<dim> founders = seed_founders<dim>(scene.tissue, comm);
+      check_at_cells(scene, founders.positions, comm);
+      const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);
+      const ConditionCounts     counts = check_at_surface(scene, surface, comm);
+      const SceneSize size = expected_size(scene, founders.positions, comm);
+      const double    available = physical_memory(comm);
+      if (Utilities::MPI::this_mpi_process(comm) != 0)
+        return;
+
+      std::ostringstream text;
+      text << "The scene is valid.\nTissue\n"
+           << "  " << scene.tissue.shape << " in " << dim << "-D, "
+           << founders.n_global << " cells, " << counts.points
+           << " boundary points\n  grid spacing " << scene.grid.spacing
+           << " um, cell spacing " << scene.tissue.cell_spacing << " um\n"
+           << "  until " << scene.time.end_time << " day in steps of "
+           << scene.time.step << " day\n";
+      print_effects(text, scene, counts);
+      print_slots(text,
+                  CellSlots<dim>(scene.has_growth(),
+                                 scene.has_proliferation()));
+      text << "Size\n  cells at the end: "
+           << (!scene.has_proliferation() ? "" :
+               has_checkpoint(scene)      ? "at least " :
+                                            "at most about ")
+           << std::round(size.cells) << "\n  memory: about "
+           << std::setprecision(3) << estimated_memory(scene, size) / 1e9
+           << " GB of " << available / 1e9 << " GB\n";
+      out << text.str();
+    }
+  } // namespace
+
+
+  void
+  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+  {
+    if (scene.dimension == 2)
+      explain_scene<2>(scene, out, comm);
+    else
+      explain_scene<3>(scene, out, comm);
+  }
+} // namespace Morula

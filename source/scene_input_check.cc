@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/scene.h>
+#include <morula/scene_effects_check.h>
+#include <morula/scene_refusals.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace Morula
+{
+  using namespace Refusals;
+
+  namespace
+  {
+    void
+    check_time(const TimeParameters &time)
+    {
+      refuse_unless(time.end_time > 0.,
+                    "Time/End time",
+                    time.end_time,
+                    "a number of days > 0",
+                    "Choose a later end.");
+      refuse_unless(time.step > 0.,
+                    "Time/Step",
+                    time.step,
+                    "a number of days > 0",
+                    "Choose a positive step.");
+      refuse_unless(time.smallest_step > 0. && time.smallest_step <= time.step,
+                    "Time/Smallest step",
+                    time.smallest_step,
+                    "a number of days > 0 and <= Time/Step = " +
+                      as_text(time.step),
+                    "Lower it, or raise Time/Step.");
+    }
+
+    void
+    check_grid(const GridParameters &grid, const unsigned int dim)
+    {
+      refuse_unless(grid.spacing > 0.,
+                    "Grid/Spacing",
+                    grid.spacing,
+                    "a length in um > 0",
+                    "Choose some cell spacings, e.g. 3 to 5.");
+      refuse_unless(grid.occupation_parameter > 0. &&
+                      grid.occupation_parameter <= 1.,
+                    "Grid/Occupation parameter",
+                    grid.occupation_parameter,
+                    "a share > 0 and <= 1",
+                    "0.85 is a good choice.");
+      if (grid.offset.size() < dim)
+        throw InputError("Grid/Offset",
+                         Patterns::Tools::to_string(grid.offset),
+                         std::to_string(dim) + " numbers",
+                         "Write one for each direction.");
+    }
+
+    void
+    check_material(const MaterialParameters &material)
+    {
+      refuse_constant_unless(Sign::positive,
+                             in_space_only("Material/Young's modulus",
+                                           material.youngs_modulus),
+                             "Choose a positive stiffness.");
+      refuse_unless(material.poissons_ratio > -1. &&
+                      material.poissons_ratio < 0.5,
+                    "Material/Poisson's ratio",
+                    material.poissons_ratio,
+                    "a number > -1 and < 0.5",
+                    "Nearly incompressible tissue is 0.49 or 0.499.");
+    }
+
+    void
+    check_output(const Scene &scene)
+    {
+      if (boost::trim_copy(scene.output_directory).empty())
+        throw InputError("Output directory",
+                         scene.output_directory,
+                         "the name of a directory",
+                         "Name one; it is created if it does not exist.");
+      const auto       &formats = scene.output.formats;
+      const std::string value   = Patterns::Tools::to_string(formats);
+      const bool none = std::count(formats.begin(), formats.end(), "none") > 0;
+      if (formats.empty() || (none && formats.size() > 1))
+        throw InputError("Output/Formats",
+                         value,
+                         "any of vtu, csv, or none alone",
+                         "Remove 'none' or the others.");
+      if (std::set<std::string>(formats.begin(), formats.end()).size() <
+          formats.size())
+        throw InputError("Output/Formats",
+                         value,
+                         "each format once",
+                         "Remove what is written twice.");
+    }
+
+    template <int dim>
+    void
+    check_scene(const Scene &scene)
+    {
+      check_time(scene.time);
+      scene.tissue.check(dim);
+      check_grid(scene.grid, dim);
+      check_material(scene.material);
+      check_effects<dim>(scene);
+      refuse_unless(scene.solver.newton_tolerance > 0. &&
+                      scene.solver.newton_tolerance < 1.,
+                    "Solver/Newton tolerance",
+                    scene.solver.newton_tolerance,
+                    "a number > 0 and < 1",
+                    "1e-6 is a good choice.");
+      check_output(scene);
+    }
+  } // namespace
+
+
+  void
+  Scene::check() const
+  {
+    if (dimension == 2)
+      check_scene<2>(*this);
+    else if (dimension == 3)
+      check_scene<3>(*this);
+    else
+      throw InputError("Dimension",
+                       std::to_string(dimension),
+                       "2 or 3",
+                       "Choose one of them.");
+  }
+} // namespace Morula

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/expression.h>
+#include <morula/input_error.h>
+#include <morula/particles/cell_state.h>
+#include <morula/scene_size.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/math/special_functions/lambert_w.hpp>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Volume of the shape, µm^dim; 0 for shapes from files. */
+    double
+    shape_volume(const TissueParameters &tissue, const unsigned int dim)
+    {
+      const double R       = tissue.radius;
+      const auto  &size    = tissue.size;
+      double       product = 1.;
+      for (unsigned int d = 0; d < std::min<std::size_t>(dim, size.size()); ++d)
+        product *= size[d];
+      if (tissue.shape == "sphere")
+        return dim == 2 ? numbers::PI * R * R :
+                          4. / 3. * numbers::PI * R * R * R;
+      if (tissue.shape == "box")
+        return product;
+      if (tissue.shape == "ellipsoid")
+        return product * numbers::PI / (dim == 2 ? 4. : 6.);
+      if (tissue.shape == "cylinder" && size.size() == 3)
+        return numbers::PI * R * R * size[2];
+      return 0.;
+    }
+
+    /** Number of descendants of a founder at @p X at End time. */
+    template <int dim>
+    class Descendants
+    {
+    public:
+      explicit Descendants(const Scene &scene)
+        : proliferates(scene.has_proliferation())
+        , end_time(scene.time.end_time)
+        , where(section + "Where", scene.cell_cycle.where)
+        , duration(section + "Duration", scene.cell_cycle.duration)
+        , rate(section + "G0 exit rate", scene.cell_cycle.exit_rate)
+        , checkpoint(section + "Size checkpoint",
+                     scene.cell_cycle.size_checkpoint)
+      {}
+
+      double
+      operator()(const Point<dim> &X) const
+      {
+        if (!proliferates || !(where.value(X, 0.) > 0.) ||
+            checkpoint.value(X, 0.) > 0.)
+          return 1.;
+        const double r = growth_rate(duration.value(X, 0.), rate.value(X, 0.));
+        return 2. * std::exp(r * end_time);
+      }
+
+    private:
+      static inline const std::string section = "Proliferation/Cell cycle/";
+
+      bool       proliferates;
+      double     end_time;
+      Expression where, duration, rate, checkpoint;
+    };
+
+    template <int dim>
+    double
+    memory(const Scene &scene, const SceneSize &size)
+    {
+      // position, reference position, id, place in the grid, about 200 bytes;
+      // two more copies while points are exchanged, sorted and written
+      const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
+      const double         cell_bytes = 3. * (8. * slots.n_slots + 200.);
+
+      // grid cells of the tissue and of one and a half layers on each side
+      const double L         = std::pow(size.volume, 1. / dim);
+      const double n_splines = std::pow(L / scene.grid.spacing + 3., dim);
+
+      // a matrix row couples with 5^dim splines, 12 bytes an entry; matrix,
+      // preconditioner and positions of the entries
+      const double row_bytes = 3. * 12. * dim * std::pow(5., dim);
+      double bytes = size.cells * cell_bytes + n_splines * dim * row_bytes;
+
+      // nested dissection: the top separator is two layers of splines, a dense
+      // block, and all others together need about three times as much
+      if (scene.solver.linear_solver == "direct")
+        {
+          const double separator =
+            2. * dim * std::pow(n_splines, (dim - 1.) / dim);
+          bytes += 4. * 8. * separator * separator / 2.;
+        }
+      return bytes;
+    }
+
+    std::string
+    gigabytes(const double bytes)
+    {
+      std::ostringstream out;
+      out.precision(3);
+      out << bytes / 1e9 << " GB";
+      return out.str();
+    }
+  } // namespace
+
+
+  SceneSize
+  initial_size(const Scene &scene)
+  {
+    const double volume = shape_volume(scene.tissue, scene.dimension);
+    return {volume / std::pow(scene.tissue.cell_spacing, scene.dimension),
+            volume};
+  }
+
+
+  double
+  growth_rate(const double T, const double Lambda)
+  {
+    if (Lambda == 0.)
+      return 0.;
+    // beyond, exp(Lambda T) overflows, and r is ln(2)/T within 0.2 %
+    if (Lambda * T > 500.)
+      return std::log(2.) / T;
+    // (Lambda + r) T exp((Lambda + r) T) = 2 Lambda T exp(Lambda T)
+    return boost::math::lambert_w0(2. * Lambda * T * std::exp(Lambda * T)) / T -
+           Lambda;
+  }
+
+
+  template <int dim>
+  SceneSize
+  expected_size(const Scene                   &scene,
+                const std::vector<Point<dim>> &founders,
+                const MPI_Comm                 comm)
+  {
+    const double           t = scene.time.end_time;
+    const double           V = std::pow(scene.tissue.cell_spacing, dim);
+    const IsotropicGrowth  growth(scene.isotropic_growth);
+    const Descendants<dim> descendants(scene);
+    SceneSize              size;
+    for (const Point<dim> &X : founders)
+      {
+        const double n = descendants(X);
+        size.cells += n;
+        size.volume +=
+          n * V *
+          (scene.has_growth() ? std::pow(growth.stretch(X, t), dim) : 1.);
+      }
+    size.cells  = Utilities::MPI::sum(size.cells, comm);
+    size.volume = Utilities::MPI::sum(size.volume, comm);
+
+    const double limit =
+      std::max(2. * scene.time.stop_at_cells,
+               Utilities::MPI::sum(1. * founders.size(), comm));
+    if (scene.time.stop_at_cells > 0 && size.cells > limit)
+      size = {limit, size.volume * limit / size.cells};
+    return size;
+  }
+
+
+  double
+  estimated_memory(const Scene &scene, const SceneSize &size)
+  {
+    return scene.dimension == 2 ? memory<2>(scene, size) :
+                                  memory<3>(scene, size);
+  }
+
+
+  double
+  physical_memory(const MPI_Comm comm)
+  {
+    MPI_Comm machine;
+    MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    const bool first = Utilities::MPI::this_mpi_process(machine) == 0;
+    MPI_Comm_free(&machine);
+    const double mine = 1. * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+    return Utilities::MPI::sum(first ? mine : 0., comm);
+  }
+
+
+  void
+  check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm)
+  {
+    const double needed    = estimated_memory(scene, size);
+    const double available = physical_memory(comm);
+    if (!(needed <= available))
+      {
+        std::ostringstream value;
+        value << size.cells << " cells of " << scene.tissue.cell_spacing
+              << " um on a grid of " << scene.grid.spacing << " um";
+        throw InputError("The scene",
+                         value.str() + ", about " + gigabytes(needed),
+                         "at most the " + gigabytes(available) +
+                           " of memory here",
+                         "Raise Tissue/Cell spacing or Grid/Spacing, shorten "
+                         "Time/End time, set Time/Stop at cells, or use more "
+                         "machines.");
+      }
+  }
+
+
+  template SceneSize
+  expected_size(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
+  template SceneSize
+  expected_size(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
+} // namespace Morula

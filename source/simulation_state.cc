@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/boundary_state.h>
+#include <morula/output/cell_fields.h>
+#include <morula/output/surface_fields.h>
+#include <morula/scene_checks.h>
+#include <morula/simulation.h>
+#include <morula/snapshot_check.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <ostream>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    CellGrowth<dim>
+    growth_of(const Scene &scene)
+    {
+      std::optional<IsotropicGrowth> isotropic;
+      if (scene.has_growth())
+        isotropic.emplace(scene.isotropic_growth);
+      std::optional<CellCycle<dim>> cycle;
+      if (scene.has_proliferation())
+        cycle.emplace(scene.cell_cycle,
+                      scene.random_seed,
+                      1e-9 * scene.time.step);
+      return CellGrowth<dim>(std::move(isotropic), std::move(cycle));
+    }
+
+    template <int dim>
+    std::optional<Expression>
+    body_force_of(const Scene &scene)
+    {
+      const Expression force("Body force/Force density",
+                             scene.body_force.force_density,
+                             3,
+                             dim);
+      if (force.is_constant() &&
+          force.vector(Point<dim>(), 0.) == Tensor<1, dim>())
+        return {};
+      return force;
+    }
+  } // namespace
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene   &scene,
+                              const MPI_Comm comm,
+                              const bool     resume)
+    : scene(scene)
+    , comm(comm)
+    , timer(comm, std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , material{Expression("Material/Young's modulus",
+                          scene.material.youngs_modulus),
+               scene.material.poissons_ratio,
+               scene.material.per_grown_volume()}
+    , boundary_conditions(scene.boundary_conditions)
+    , growth(growth_of<dim>(scene))
+    , body_force(body_force_of<dim>(scene))
+    , tissue(scene.grid,
+             CellSlots<dim>(scene.has_growth(), scene.has_proliferation()),
+             comm)
+    , time_steps(scene.time)
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    if (resume)
+      restore();
+    else
+      seed();
+    double largest = 0.;
+    for (const auto &particle : tissue.cells().order())
+      largest = std::max(
+        largest, youngs_modulus(tissue.cell(particle).founder_position()));
+    typical_stiffness = Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::seed()
+  {
+    const Founders<dim>       founders = seed_founders<dim>(scene.tissue, comm);
+    const SurfacePatches<dim> patches  = seed_surface<dim>(scene.tissue, comm);
+    check_at_cells(scene, founders.positions, comm);
+    check_at_surface(scene, patches, comm);
+
+    PointList<dim> cells;
+    cells.n_slots = tissue.slots().n_slots;
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    for (std::size_t i = 0; i < founders.positions.size(); ++i)
+      {
+        std::vector<double>         slots(cells.n_slots);
+        const CellView<dim, double> cell(make_array_view(slots),
+                                         tissue.slots());
+        cell.set_vector(tissue.slots().founder_position,
+                        founders.positions[i]);
+        cell.set_scalar(tissue.slots().initial_volume, founders.volumes[i]);
+        cell.set_tensor(tissue.slots().deformation, identity);
+        growth.initialize(founders.first_id + i, cell);
+        cells.ids.push_back(founders.first_id + i);
+        cells.positions.push_back(founders.positions[i]);
+        cells.properties.insert(cells.properties.end(),
+                                slots.begin(),
+                                slots.end());
+        births.push_back(
+          {cells.ids.back(), -1, 0, 0., founders.positions[i]});
+      }
+
+    PointList<dim> points;
+    points.n_slots = BoundarySlots<dim>::n_slots;
+    for (std::size_t i = 0; i < patches.positions.size(); ++i)
+      {
+        points.ids.push_back(patches.first_id + i);
+        points.positions.push_back(patches.positions[i]);
+        const std::vector<double> slots = initial_boundary_slots<dim>(
+          patches.positions[i],
+          patches.normals[i],
+          patches.areas[i],
+          boundary_conditions.condition(patches.positions[i],
+                                        patches.normals[i]));
+        points.properties.insert(points.properties.end(),
+                                 slots.begin(),
+                                 slots.end());
+      }
+    tissue.place(cells, points);
+    next_id = founders.n_global;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::restore()
+  {
+    resumed_from =
+      read_snapshot<dim>(scene.output_directory + "/snapshot.h5", comm);
+    check_resumable(scene, resumed_from->parameters);
+    const auto &numbers = resumed_from->numbers;
+    const auto &tables  = resumed_from->integer_tables;
+
+    GridIndex<dim> first, n;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = tables.at("box_first")[d];
+        n[d]     = tables.at("box_n")[d];
+      }
+    const std::vector<int> &weights = tables.at("box_weights");
+    tissue.restore(resumed_from->cells,
+                   resumed_from->boundary_points,
+                   first,
+                   n,
+                   std::vector<unsigned int>(weights.begin(), weights.end()));
+    next_id    = numbers.at("next_id");
+    n_steps    = numbers.at("steps");
+    n_rejected = numbers.at("rejected_steps");
+    time_steps.restore(
+      {resumed_from->time,
+       numbers.at("step_length"),
+       static_cast<unsigned int>(numbers.at("step_interval")),
+       numbers.at("step_begin"),
+       static_cast<unsigned int>(numbers.at("step_part")),
+       static_cast<unsigned int>(numbers.at("step_level"))});
+    row = statistics();
+  }
+
+  template <int dim>
+  SnapshotData<dim>
+  Simulation<dim>::snapshot() const
+  {
+    SnapshotData<dim> data;
+    data.program_version       = MORULA_VERSION;
+    const TimeSteps::State now = time_steps.state();
+    data.time                  = now.time;
+    data.numbers               = {{"next_id", double(next_id)},
+                                  {"steps", double(n_steps)},
+                                  {"rejected_steps", double(n_rejected)},
+                                  {"step_length", now.step},
+                                  {"step_interval", double(now.interval)},
+                                  {"step_begin", now.begin},
+                                  {"step_part", double(now.part)},
+                                  {"step_level", double(now.level)}};
+    const GridBox<dim> &box    = tissue.grid().box();
+    data.integer_tables["box_first"].assign(box.first().begin(),
+                                            box.first().end());
+    data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
+    data.integer_tables["box_weights"].assign(tissue.grid().weights().begin(),
+                                              tissue.grid().weights().end());
+    data.cells           = tissue.cells().copy();
+    data.boundary_points = tissue.boundary_points().copy();
+    return data;
+  }
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::phase(const CellView<dim, const double> &cell) const
+  {
+    constexpr unsigned int does_not_proliferate = 9;
+    return growth.cycle() == nullptr ?
+             does_not_proliferate :
+             growth.cycle()->phase_number(CycleState<dim>::load(cell),
+                                          cell.founder_position(),
+                                          time_steps.time());
+  }
+
+  template <int dim>
+  StatisticsRow
+  Simulation<dim>::statistics() const
+  {
+    StatisticsRow   state;
+    TissueSums<dim> sums;
+    std::uint64_t   held = 0;
+    for (const auto &particle : tissue.cells().order())
+      {
+        const auto       cell = tissue.cell(particle);
+        const Point<dim> X    = cell.founder_position();
+        sums.add_cell(cell_quantities(cell,
+                                      lame(youngs_modulus(X),
+                                           material.poissons_ratio),
+                                      material.per_grown_volume),
+                      particle->get_location());
+        if (growth.cycle() != nullptr)
+          held += growth.cycle()->is_held(CycleState<dim>::load(cell),
+                                          X,
+                                          time_steps.time(),
+                                          elastic_volume_ratio(cell));
+      }
+    for (const auto &point : tissue.boundary_points().order())
+      sums.add_boundary_point(point->get_location());
+    state.step               = n_steps;
+    state.time               = time_steps.time();
+    state.cells              = Utilities::MPI::sum<std::uint64_t>(
+      tissue.cells().order().size(), comm);
+    state.tissue             = sums.totals(comm);
+    state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+    return state;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::complete_row(const SplineSpace<dim> &space)
+  {
+    const TimerOutput::Scope section(timer, "statistics");
+    StatisticsRow            complete = statistics();
+    complete.dt                       = row.dt;
+    complete.dividing                 = row.dividing;
+    complete.active_grid_cells        = space.n_active_cells();
+    complete.inner_splines            = space.n_inner_splines();
+    complete.outer_splines            = space.n_outer_splines();
+    complete.unknowns                 = space.n_unknowns();
+    complete.newton_iterations        = row.newton_iterations;
+    complete.linear_iterations        = row.linear_iterations;
+    complete.rejected_steps           = row.rejected_steps;
+    complete.residual                 = row.residual;
+    row                               = complete;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::output(const bool last)
+  {
+    const double t = time_steps.time();
+    if (files->writes_points() && files->output_due(t, last))
+      {
+        const TimerOutput::Scope section(timer, "output");
+        CellFields<dim>          cells(t);
+        for (const auto &particle : tissue.cells().order())
+          {
+            const auto cell = tissue.cell(particle);
+            cells.add(particle->get_id(),
+                      cell,
+                      particle->get_location(),
+                      phase(cell),
+                      cell_quantities(cell,
+                                      lame(youngs_modulus(
+                                             cell.founder_position()),
+                                           material.poissons_ratio),
+                                      material.per_grown_volume));
+          }
+        SurfaceFields<dim> surface(t);
+        for (const auto &point : tissue.boundary_points().order())
+          surface.add(point->get_id(),
+                      boundary_properties<dim>(point),
+                      point->get_location());
+        files->write_points(cells.fields(), surface.fields(), t);
+      }
+    if (files->snapshot_due(t, last))
+      {
+        const TimerOutput::Scope section(timer, "snapshot");
+        files->write_snapshot(snapshot(), timer);
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up(const std::string &reason)
+  {
+    --n_steps; // not done
+    files->write_snapshot(snapshot(), timer);
+    files->write_timings(timer);
+    std::ostringstream text;
+    text << "The step from t = " << time_steps.time()
+         << " day failed even at a length of "
+         << time_steps.next() - time_steps.time()
+         << " day (Time/Smallest step = " << scene.time.smallest_step
+         << "): " << reason << ". The state at t = " << time_steps.time()
+         << " day is saved in snapshot.h5.";
+    throw std::runtime_error(text.str());
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/parameter_file.h>
+#include <morula/snapshot_check.h>
+
+#include <map>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    bool
+    may_differ(const std::string &path)
+    {
+      return path == "Output directory" || path == "Time/End time" ||
+             path == "Time/Step" || path == "Time/Stop at cells" ||
+             path.rfind("Solver/", 0) == 0 || path.rfind("Output/", 0) == 0;
+    }
+
+    std::map<std::string, std::string>
+    values(const std::string &parameters, const std::string &name)
+    {
+      std::istringstream                 input(parameters);
+      std::map<std::string, std::string> map;
+      for (const Statement &statement : read_statements(input, name))
+        if (statement.kind == Statement::set)
+          map[statement.path] = statement.value;
+      return map;
+    }
+  } // namespace
+
+  void
+  check_resumable(const Scene &scene, const std::string &parameters)
+  {
+    const auto before = values(parameters, "the snapshot's scene");
+    for (const auto &[path, value] : values(scene.parameters(), "the scene"))
+      {
+        const auto found = before.find(path);
+        if (may_differ(path) ||
+            (found != before.end() && found->second == value))
+          continue;
+        throw InputError(
+          path,
+          value,
+          found == before.end() ?
+            "nothing: the snapshot's scene does not have this key" :
+            "'" + found->second + "', as in the snapshot",
+          "A resumed run may differ only in Time/End time, Time/Step, "
+          "Time/Stop at cells, Solver and Output. Put the old value back, or "
+          "start a new run without --resume.");
+      }
+  }
+} // namespace Morula

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_appended_csv_h
+#define morula_output_appended_csv_h
+
+#include <morula/output/posix_file.h>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * A CSV file that grows by rows during a run. Rank 0 writes; all members are
+   * collective and throw on all ranks alike. A row that was torn by a crash is
+   * never read: a resumed run cuts the file behind the rows it knows of.
+   */
+  class AppendedCsv
+  {
+  public:
+    /**
+     * Starts a new file with its header.
+     * @throws std::runtime_error with path and reason
+     */
+    AppendedCsv(const std::string              &path,
+                const std::vector<std::string> &names,
+                const MPI_Comm                  comm);
+
+    /**
+     * Continues a file behind its first @p n_rows rows; what follows is cut.
+     * @throws InputError if the file is missing, has another header or fewer
+     *   rows
+     */
+    AppendedCsv(const std::string              &path,
+                const std::vector<std::string> &names,
+                const std::uint64_t             n_rows,
+                const MPI_Comm                  comm);
+
+    /**
+     * Appends rank 0's @p rows, complete lines; they have left the program on
+     * return.
+     * @throws std::runtime_error with path and reason
+     */
+    void
+    append(const std::string &rows);
+
+    /** Forces the rows to the disk: before a snapshot that counts them. */
+    void
+    sync();
+
+    /** Rows below the header, to be stored in a snapshot. */
+    std::uint64_t
+    n_rows() const
+    {
+      return n_rows_;
+    }
+
+  private:
+    MPI_Comm                   comm;
+    std::uint64_t              n_rows_;
+    std::unique_ptr<PosixFile> file; // on rank 0
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_cell_fields_h
+#define morula_output_cell_fields_h
+
+#include <morula/mechanics/material.h>
+#include <morula/output/point_fields.h>
+#include <morula/particles/cell_state.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Morula
+{
+  /** What the output says about a cell's mechanics. */
+  struct CellQuantities
+  {
+    /** V⁰, µm^dim. */
+    double initial_volume;
+    /** V = V⁰ det F, µm^dim. */
+    double volume;
+    /** det F_g. */
+    double growth_volume_ratio;
+    /** J_e. */
+    double elastic_volume_ratio;
+    /** Ψ of equation (14), kPa. */
+    double energy_density;
+    /**
+     * Cauchy stress σ = W τ / V, kPa, where W is V⁰ or, per grown volume,
+     * V⁰ det F_g. In 2-D with the σ_zz of plane strain.
+     */
+    SymmetricTensor<2, 3> stress;
+  };
+
+  template <int dim>
+  CellQuantities
+  cell_quantities(const CellView<dim, const double> &cell,
+                  const Lame                        &lame,
+                  const bool                         per_grown_volume);
+
+  /**
+   * The table behind cells-NNNN.csv and cells-NNNN.vtu. The latter also gets
+   * pressure (-tr σ / 3), the principal stresses (largest first), and the
+   * displacement x - X and σ in a form that ParaView knows as vector and
+   * tensor.
+   */
+  template <int dim>
+  class CellFields
+  {
+  public:
+    /** @param time day */
+    explicit CellFields(const double time);
+
+    /**
+     * Adds one cell of this rank.
+     * @param position current, µm
+     * @param phase    number as in the file; 9: does not proliferate
+     */
+    void
+    add(const types::particle_index        id,
+        const CellView<dim, const double> &cell,
+        const Point<dim>                  &position,
+        const unsigned int                 phase,
+        const CellQuantities              &quantities);
+
+    const PointFields<dim> &
+    fields() const
+    {
+      return table;
+    }
+
+  private:
+    double           time;
+    PointFields<dim> table;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_csv_h
+#define morula_output_csv_h
+
+#include <morula/output/point_fields.h>
+
+#include <mpi.h>
+
+#include <string>
+
+namespace Morula
+{
+  /**
+   * Writes one CSV file for all ranks: a header, then the rows in id order,
+   * the same for any number of ranks. The file appears when it is complete.
+   * Collective.
+   * @throws std::runtime_error, on all ranks, with path and reason
+   */
+  template <int dim>
+  void
+  write_csv(const std::string      &path,
+            const PointFields<dim> &fields,
+            const MPI_Comm          comm);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_hdf5_handle_h
+#define morula_output_hdf5_handle_h
+
+#include <hdf5.h>
+#include <mpi.h>
+
+#include <type_traits>
+#include <utility>
+
+// deal.II's HDF5 wrappers check the library's return values with Assert only,
+// so that in Release a full disk or a damaged file would go unnoticed; and they
+// know no string data sets and cannot list names. Hence the C interface.
+
+namespace Morula
+{
+  /** Owns one of the HDF5 library's identifiers. */
+  class Hdf5Handle
+  {
+  public:
+    Hdf5Handle(const hid_t id, herr_t (*const close)(hid_t))
+      : id(id)
+      , close(close)
+    {}
+
+    ~Hdf5Handle()
+    {
+      if (id >= 0)
+        close(id);
+    }
+
+    Hdf5Handle(Hdf5Handle &&other) noexcept
+      : id(std::exchange(other.id, H5I_INVALID_HID))
+      , close(other.close)
+    {}
+
+    operator hid_t() const
+    {
+      return id;
+    }
+
+    /** Closes now, for those that want to know whether it worked. */
+    bool
+    release()
+    {
+      return close(std::exchange(id, H5I_INVALID_HID)) >= 0;
+    }
+
+  private:
+    hid_t id;
+    herr_t (*close)(hid_t);
+  };
+
+  /** Keeps the HDF5 library from printing its errors while this lives. */
+  class Hdf5Silence
+  {
+  public:
+    Hdf5Silence();
+    ~Hdf5Silence();
+
+    Hdf5Silence(const Hdf5Silence &) = delete;
+    Hdf5Silence &
+    operator=(const Hdf5Silence &) = delete;
+
+  private:
+    H5E_auto2_t function;
+    void       *data;
+  };
+
+  /**
+   * Properties of a file that these ranks access through MPI I/O. For a single
+   * rank, too: it takes no locks, which some file systems do not have.
+   */
+  Hdf5Handle
+  access_by(const MPI_Comm comm);
+
+  /** HDF5's name of T: double, int, unsigned int, unsigned long long. */
+  template <typename T>
+  hid_t
+  native_type()
+  {
+    if constexpr (std::is_same_v<T, double>)
+      return H5T_NATIVE_DOUBLE;
+    else if constexpr (std::is_same_v<T, int>)
+      return H5T_NATIVE_INT;
+    else if constexpr (std::is_same_v<T, unsigned int>)
+      return H5T_NATIVE_UINT;
+    else
+      {
+        static_assert(std::is_same_v<T, unsigned long long>,
+                      "no such values in a file");
+        return H5T_NATIVE_ULLONG;
+      }
+  }
+} // namespace Morula
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_lineage_h
+#define morula_output_lineage_h
+
+#include <morula/output/appended_csv.h>
+#include <morula/particles/birth.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * lineage.csv: one row per cell that ever lived, in id order. All members are
+   * collective; errors as in AppendedCsv.
+   */
+  template <int dim>
+  class LineageFile
+  {
+  public:
+    /** A new file. */
+    LineageFile(const std::string &path, const MPI_Comm comm);
+
+    /** Continues the file behind its first @p n_rows rows. */
+    LineageFile(const std::string  &path,
+                const std::uint64_t n_rows,
+                const MPI_Comm      comm);
+
+    /**
+     * Appends all ranks' births since the last call; their ids follow those in
+     * the file, in any order and on any rank.
+     */
+    void
+    append(const std::vector<Birth<dim>> &births);
+
+    /** See AppendedCsv. */
+    void
+    sync()
+    {
+      file.sync();
+    }
+
+    std::uint64_t
+    n_rows() const
+    {
+      return file.n_rows();
+    }
+
+  private:
+    MPI_Comm    comm;
+    AppendedCsv file;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_point_fields_h
+#define morula_output_point_fields_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * This rank's rows of a table about points (cells or boundary points). One
+   * description serves the CSV file, which holds the first columns, and the
+   * VTU file, which holds all.
+   */
+  template <int dim>
+  struct PointFields
+  {
+    /**
+     * Consecutive columns that ParaView shall see as one vector (3 columns) or
+     * one tensor (9 columns, row by row), also in 2-D.
+     */
+    struct Nonscalar
+    {
+      std::string  name;
+      unsigned int first_column;
+      unsigned int n_columns;
+    };
+
+    std::vector<std::string> names;
+    /** The columns behind these are for VTU files only. */
+    unsigned int           n_csv_columns = 0;
+    std::vector<Nonscalar> nonscalars;
+
+    std::vector<types::particle_index> ids;
+    /** Current, µm. */
+    std::vector<Point<dim>> positions;
+    /** Row by row, as many in a row as there are names. */
+    std::vector<double> values;
+
+    /** Appends a vector's or tensor's columns. */
+    void
+    add_nonscalar(const std::string &name, const unsigned int n_columns)
+    {
+      const unsigned int first_column = names.size();
+      nonscalars.push_back({name, first_column, n_columns});
+      names.insert(names.end(), n_columns, name);
+    }
+
+    /** Appends the three values of a vector to the last row, 2-D: z = 0. */
+    void
+    add_vector(const Tensor<1, dim> &vector)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        values.push_back(d < dim ? vector[d] : 0.);
+    }
+
+    std::size_t
+    size() const
+    {
+      return ids.size();
+    }
+
+    const double *
+    row(const std::size_t i) const
+    {
+      return values.data() + i * names.size();
+    }
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_snapshot_h
+#define morula_output_snapshot_h
+
+#include <morula/particles/point_list.h>
+
+#include <mpi.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Raised whenever older programs could not read the file. */
+  constexpr int snapshot_format = 1;
+
+  /**
+   * Everything that outlives a step. The points are this rank's; of all else
+   * the file gets what rank 0 has. Names of tables hold no '/'.
+   */
+  template <int dim>
+  struct SnapshotData
+  {
+    /** Of the program that wrote the file, for information. */
+    std::string program_version;
+    /** The scene, a .prm file with all keys. */
+    std::string parameters;
+    /** day */
+    double                                     time = 0.;
+    std::map<std::string, double>              numbers;
+    std::map<std::string, std::vector<double>> tables;
+    std::map<std::string, std::vector<int>>    integer_tables;
+    PointList<dim>                             cells;
+    PointList<dim>                             boundary_points;
+  };
+
+  /**
+   * Writes snapshot.h5, all ranks together. Doubles keep their bits. The file
+   * replaces an older one when it is complete and on the disk. Collective.
+   * @throws std::runtime_error, on all ranks; the older file stays
+   */
+  template <int dim>
+  void
+  write_snapshot(const std::string       &path,
+                 const SnapshotData<dim> &data,
+                 const MPI_Comm           comm);
+
+  /**
+   * Reads a snapshot that any number of ranks wrote; each rank gets a
+   * contiguous piece of the points, in the order of the file. Collective.
+   * @throws InputError, on all ranks, if the file is missing, damaged, of
+   *   another program, format or dimension
+   */
+  template <int dim>
+  SnapshotData<dim>
+  read_snapshot(const std::string &path, const MPI_Comm comm);
+
+  /**
+   * Only the scene of a snapshot, to compare it before anything is built.
+   * Errors as above, except that any dimension will do.
+   */
+  std::string
+  read_snapshot_parameters(const std::string &path, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

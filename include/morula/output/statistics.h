@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_statistics_h
+#define morula_output_statistics_h
+
+#include <morula/output/appended_csv.h>
+#include <morula/output/tissue_sums.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  /** One row of statistics.csv: the state after a step, and what it cost. */
+  struct StatisticsRow
+  {
+    unsigned int  step  = 0;
+    double        time  = 0.; // day
+    double        dt    = 0.; // day
+    std::uint64_t cells = 0;
+    TissueTotals  tissue;
+    std::uint64_t dividing           = 0; // divisions in this step
+    std::uint64_t held_at_checkpoint = 0;
+    std::uint64_t active_grid_cells  = 0;
+    std::uint64_t inner_splines      = 0;
+    std::uint64_t outer_splines      = 0;
+    std::uint64_t unknowns           = 0;
+    unsigned int  newton_iterations  = 0; // with those of rejected attempts
+    unsigned int  linear_iterations  = 0; // with those of rejected attempts
+    unsigned int  rejected_steps     = 0;
+    double        residual           = 0.; // relative to the step's first
+    double        wall_seconds       = 0.; // since the start, across resumes
+
+    /** The file's columns in their order, names and values. */
+    std::vector<std::pair<std::string, double>>
+    columns() const;
+  };
+
+  /** statistics.csv. All members are collective; errors as in AppendedCsv. */
+  class StatisticsFile
+  {
+  public:
+    /** A new file. */
+    StatisticsFile(const std::string &path, const MPI_Comm comm);
+
+    /** Continues the file behind its first @p n_rows rows. */
+    StatisticsFile(const std::string  &path,
+                   const std::uint64_t n_rows,
+                   const MPI_Comm      comm);
+
+    void
+    append(const StatisticsRow &row);
+
+    /** See AppendedCsv. */
+    void
+    sync()
+    {
+      file.sync();
+    }
+
+    std::uint64_t
+    n_rows() const
+    {
+      return file.n_rows();
+    }
+
+  private:
+    AppendedCsv file;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/atomic_file.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr std::size_t buffer_size = 1 << 20;
+
+    /**
+     * Makes a rename last. Not every file system can; the file itself is safe
+     * by then, so that errors do not matter.
+     */
+    void
+    sync_directory_of(const std::string &path)
+    {
+      const std::string directory =
+        std::filesystem::path(path).parent_path().string();
+      const int descriptor = ::open(directory.empty() ? "." : directory.c_str(),
+                                    O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      if (descriptor >= 0)
+        {
+          ::fsync(descriptor);
+          ::close(descriptor);
+        }
+    }
+
+    void
+    take_name(const std::string &path)
+    {
+      if (std::rename(path_aside(path).c_str(), path.c_str()) != 0)
+        {
+          const int reason = errno;
+          throw std::runtime_error("cannot replace the file '" + path +
+                                   "': " + std::strerror(reason));
+        }
+      sync_directory_of(path);
+    }
+  } // namespace
+
+  std::string
+  path_aside(const std::string &path)
+  {
+    return path + ".tmp";
+  }
+
+  void
+  publish(const std::string &path)
+  {
+    PosixFile file(path_aside(path), PosixFile::Mode::change);
+    file.sync();
+    file.close();
+    take_name(path);
+  }
+
+  AtomicFile::AtomicFile(const std::string &path)
+    : path(path)
+    , file(path_aside(path), PosixFile::Mode::create)
+  {}
+
+  AtomicFile::~AtomicFile()
+  {
+    if (!committed)
+      std::remove(path_aside(path).c_str());
+  }
+
+  void
+  AtomicFile::write(const std::string_view text)
+  {
+    buffer += text;
+    if (buffer.size() >= buffer_size)
+      {
+        file.write(buffer);
+        buffer.clear();
+      }
+  }
+
+  void
+  AtomicFile::commit()
+  {
+    file.write(buffer);
+    file.sync();
+    file.close();
+    take_name(path);
+    committed = true;
+  }
+
+  void
+  write_atomically(const std::string &path, const std::string_view text)
+  {
+    AtomicFile file(path);
+    file.write(text);
+    file.commit();
+  }
+} // namespace Morula

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/neo_hookean.h>
+#include <morula/output/cell_fields.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The true σ also in plane strain: τ in the plane and τ_zz. */
+    template <int dim>
+    SymmetricTensor<2, 3>
+    kirchhoff_stress(const NeoHookean<dim> &material)
+    {
+      SymmetricTensor<2, 3>         full;
+      const SymmetricTensor<2, dim> tau = material.kirchhoff_stress();
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          full[i][j] = tau[i][j];
+      full[2][2] = material.kirchhoff_stress_zz();
+      return full;
+    }
+  } // namespace
+
+  template <int dim>
+  CellQuantities
+  cell_quantities(const CellView<dim, const double> &cell,
+                  const Lame                        &lame,
+                  const bool                         per_grown_volume)
+  {
+    const Tensor<2, dim>  F     = cell.deformation();
+    const Tensor<2, dim>  F_g   = cell.growth();
+    const double          det_F = determinant(F);
+    const NeoHookean<dim> material(F * invert(F_g), lame);
+
+    CellQuantities q;
+    q.initial_volume       = cell.initial_volume();
+    q.volume               = q.initial_volume * det_F;
+    q.growth_volume_ratio  = determinant(F_g);
+    q.elastic_volume_ratio = material.J();
+    q.energy_density       = material.energy();
+    q.stress               = kirchhoff_stress(material) *
+               ((per_grown_volume ? q.growth_volume_ratio : 1.) / det_F);
+    return q;
+  }
+
+  template <int dim>
+  CellFields<dim>::CellFields(const double time)
+    : time(time)
+  {
+    table.names         = {"time",
+                           "id",
+                           "parent",
+                           "generation",
+                           "phase",
+                           "x",
+                           "y",
+                           "z",
+                           "X",
+                           "Y",
+                           "Z",
+                           "initial_volume",
+                           "volume",
+                           "growth_volume_ratio",
+                           "elastic_volume_ratio",
+                           "energy_density",
+                           "sigma_xx",
+                           "sigma_yy",
+                           "sigma_zz",
+                           "sigma_xy",
+                           "sigma_yz",
+                           "sigma_zx"};
+    table.n_csv_columns = table.names.size();
+
+    for (const char *name : {"pressure",
+                             "principal_stress_1",
+                             "principal_stress_2",
+                             "principal_stress_3"})
+      table.names.push_back(name);
+    table.add_nonscalar("displacement", 3);
+    table.add_nonscalar("sigma", 9);
+  }
+
+  template <int dim>
+  void
+  CellFields<dim>::add(const types::particle_index        id,
+                       const CellView<dim, const double> &cell,
+                       const Point<dim>                  &position,
+                       const unsigned int                 phase,
+                       const CellQuantities              &q)
+  {
+    const SymmetricTensor<2, 3> &sigma  = q.stress;
+    std::vector<double>         &values = table.values;
+    table.ids.push_back(id);
+    table.positions.push_back(position);
+
+    for (const double value : {time,
+                               static_cast<double>(id),
+                               static_cast<double>(cell.parent()),
+                               static_cast<double>(cell.generation()),
+                               static_cast<double>(phase)})
+      values.push_back(value);
+    table.add_vector(position);
+    table.add_vector(cell.founder_position());
+    for (const double value : {q.initial_volume,
+                               q.volume,
+                               q.growth_volume_ratio,
+                               q.elastic_volume_ratio,
+                               q.energy_density,
+                               sigma[0][0],
+                               sigma[1][1],
+                               sigma[2][2],
+                               sigma[0][1],
+                               sigma[1][2],
+                               sigma[2][0],
+                               -trace(sigma) / 3.})
+      values.push_back(value);
+    for (const double principal : eigenvalues(sigma))
+      values.push_back(principal);
+    table.add_vector(position - cell.founder_position());
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        values.push_back(sigma[i][j]);
+  }
+
+  template CellQuantities
+  cell_quantities<2>(const CellView<2, const double> &,
+                     const Lame &,
+                     const bool);
+  template CellQuantities
+  cell_quantities<3>(const CellView<3, const double> &,
+                     const Lame &,
+                     const bool);
+
+  template class CellFields<2>;
+  template class CellFields<3>;
+} // namespace Morula

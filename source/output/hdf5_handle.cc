@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/hdf5_handle.h>
+
+namespace Morula
+{
+  Hdf5Silence::Hdf5Silence()
+  {
+    H5Eget_auto2(H5E_DEFAULT, &function, &data);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+
+  Hdf5Silence::~Hdf5Silence()
+  {
+    H5Eset_auto2(H5E_DEFAULT, function, data);
+  }
+
+  Hdf5Handle
+  access_by(const MPI_Comm comm)
+  {
+    Hdf5Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_mpio(list, comm, MPI_INFO_NULL);
+    return list;
+  }
+} // namespace Morula

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/csv_rows.h>
+#include <morula/output/lineage.h>
+
+#include <array>
+
+namespace Morula
+{
+  namespace
+  {
+    std::vector<std::string>
+    names()
+    {
+      return {"id", "parent", "generation", "birth_time", "x", "y", "z"};
+    }
+  } // namespace
+
+  template <int dim>
+  LineageFile<dim>::LineageFile(const std::string &path, const MPI_Comm comm)
+    : comm(comm)
+    , file(path, names(), comm)
+  {}
+
+  template <int dim>
+  LineageFile<dim>::LineageFile(const std::string  &path,
+                                const std::uint64_t n_rows,
+                                const MPI_Comm      comm)
+    : comm(comm)
+    , file(path, names(), n_rows, comm)
+  {}
+
+  template <int dim>
+  void
+  LineageFile<dim>::append(const std::vector<Birth<dim>> &births)
+  {
+    CsvRows local;
+    for (const Birth<dim> &birth : births)
+      {
+        std::array<double, 7> values = {{static_cast<double>(birth.id),
+                                         static_cast<double>(birth.parent),
+                                         static_cast<double>(birth.generation),
+                                         birth.time,
+                                         0.,
+                                         0.,
+                                         0.}};
+        for (unsigned int d = 0; d < dim; ++d)
+          values[4 + d] = birth.position[d];
+        local.add(birth.id, values.data(), values.size());
+      }
+
+    const GatheredRows rows(local, comm);
+    std::string        text;
+    for (const std::string_view row : rows.in_id_order())
+      text += row;
+    file.append(text);
+  }
+
+  template class LineageFile<2>;
+  template class LineageFile<3>;
+} // namespace Morula

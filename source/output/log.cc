@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/agreement.h>
+#include <morula/output/log.h>
+
+namespace Morula
+{
+  Log::Log(const std::string &path, const bool resume, const MPI_Comm comm)
+    : comm(comm)
+  {
+    on_root(comm, [&]() {
+      file = std::make_unique<PosixFile>(path,
+                                         resume ? PosixFile::Mode::append :
+                                                  PosixFile::Mode::create);
+    });
+  }
+
+  void
+  Log::write(const std::string &text)
+  {
+    on_root(comm, [&]() { file->write(text + '\n'); });
+  }
+
+  void
+  Log::write_if_possible(const std::string &text) noexcept
+  {
+    try
+      {
+        if (file)
+          file->write(text + '\n');
+      }
+    catch (const std::exception &)
+      {
+        // what went wrong before is worth more than this
+      }
+  }
+} // namespace Morula

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/posix_file.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    int
+    flags(const PosixFile::Mode mode)
+    {
+      switch (mode)
+        {
+          case PosixFile::Mode::create:
+            return O_WRONLY | O_CREAT | O_TRUNC;
+          case PosixFile::Mode::append:
+            return O_WRONLY | O_CREAT | O_APPEND;
+          default:
+            return O_WRONLY | O_APPEND;
+        }
+    }
+  } // namespace
+
+  PosixFile::PosixFile(const std::string &path, const Mode mode)
+    : path(path)
+    , descriptor(::open(path.c_str(), flags(mode) | O_CLOEXEC, 0666))
+  {
+    if (descriptor < 0)
+      fail("open");
+  }
+
+  PosixFile::~PosixFile()
+  {
+    if (descriptor >= 0)
+      ::close(descriptor);
+  }
+
+  void
+  PosixFile::write(std::string_view text)
+  {
+    while (!text.empty())
+      {
+        const ssize_t n = ::write(descriptor, text.data(), text.size());
+        if (n >= 0)
+          text.remove_prefix(n);
+        else if (errno != EINTR)
+          fail("write");
+      }
+  }
+
+  void
+  PosixFile::reserve(const std::size_t size)
+  {
+    errno = ::posix_fallocate(descriptor, 0, size);
+    if (errno != 0 && errno != EOPNOTSUPP && errno != EINVAL)
+      fail("write");
+  }
+
+  void
+  PosixFile::truncate(const std::size_t size)
+  {
+    if (::ftruncate(descriptor, size) != 0)
+      fail("shorten");
+  }
+
+  void
+  PosixFile::sync()
+  {
+    // pipes and some special files cannot be synchronised, and need not
+    if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
+      fail("write");
+  }
+
+  void
+  PosixFile::close()
+  {
+    if (::close(std::exchange(descriptor, -1)) != 0)
+      fail("write");
+  }
+
+  void
+  PosixFile::fail(const std::string &what) const
+  {
+    const int reason = errno;
+    throw std::runtime_error("cannot " + what + " the file '" + path +
+                             "': " + std::strerror(reason));
+  }
+} // namespace Morula

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/progress.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <typename... Values>
+    std::string
+    format(const char *pattern, const Values... values)
+    {
+      char text[256];
+      std::snprintf(text, sizeof(text), pattern, values...);
+      return text;
+    }
+
+    /** Columns of a terminal; 0: it has none, or is no terminal. */
+    unsigned int
+    columns_of(const int descriptor)
+    {
+      winsize size{};
+      return ioctl(descriptor, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+    }
+
+    /**
+     * Columns of the terminal behind stdout; 0: the output goes elsewhere. Open
+     * MPI's mpirun gives its processes a terminal without a size, also when it
+     * writes into a file itself; then its own stdout is looked at.
+     */
+    unsigned int
+    terminal_columns()
+    {
+      const unsigned int columns = columns_of(STDOUT_FILENO);
+      if (columns > 0 || isatty(STDOUT_FILENO) == 0)
+        return columns;
+
+      const std::string path = "/proc/" + std::to_string(getppid()) + "/fd/1";
+      const int         descriptor = open(path.c_str(), O_WRONLY | O_NOCTTY);
+      if (descriptor < 0)
+        return 0;
+      const unsigned int columns_of_parent = columns_of(descriptor);
+      close(descriptor);
+      return columns_of_parent;
+    }
+
+    /** A name and its value, the values below each other. */
+    std::string
+    summary_line(const char *name, const std::string &value)
+    {
+      return format("\n  %-16s", name) + value;
+    }
+  } // namespace
+
+  std::string
+  progress_line(const StepReport &report,
+                const double      end_time,
+                const double      seconds_left)
+  {
+    std::string line = format(
+      "step %u: day %.6g of %.6g, dt %.3g, %llu cells, %u Newton iterations, "
+      "%s",
+      report.step,
+      report.time,
+      end_time,
+      report.dt,
+      static_cast<unsigned long long>(report.cells),
+      report.newton_iterations,
+      duration(report.wall_seconds).c_str());
+    if (seconds_left > 0.)
+      line += ", about " + duration(seconds_left) + " left";
+    return line;
+  }
+
+  std::string
+  progress_bar(const StepReport  &report,
+               const double       start_time,
+               const double       end_time,
+               const double       seconds_left,
+               const unsigned int width)
+  {
+    const double fraction =
+      end_time > start_time ?
+        std::clamp((report.time - start_time) / (end_time - start_time),
+                   0.,
+                   1.) :
+        1.;
+
+    constexpr std::size_t smallest_bar = 10, largest_bar = 40;
+    constexpr std::size_t brackets_and_space = 3;
+    constexpr std::size_t with_bar = smallest_bar + brackets_and_space;
+
+    // most wanted first
+    const std::vector<std::string> parts = {
+      seconds_left >= 0. ? duration(seconds_left) + " left" : "",
+      format("day %.4g of %.4g", report.time, end_time),
+      format("%llu cells", static_cast<unsigned long long>(report.cells)),
+      format("%u Newton", report.newton_iterations)};
+    std::string text = format("%3.0f %%", std::floor(100. * fraction));
+    if (text.size() + with_bar >= width)
+      return text.size() < width ? text : "";
+    for (const std::string &part : parts)
+      if (!part.empty() && text.size() + 2 + part.size() + with_bar < width)
+        text += "  " + part;
+
+    const std::size_t length =
+      std::min(width - 1 - text.size() - brackets_and_space, largest_bar);
+    const std::size_t filled = static_cast<std::size_t>(fraction * length);
+    return '[' + std::string(filled, '#') + std::string(length - filled, '.') +
+           "] " + text;
+  }
+
+  std::string
+  summary_block(const RunSummary &summary)
+  {
+    std::vector<std::pair<std::string, double>> sections;
+    for (const auto &section : summary.sections)
+      sections.emplace_back(section.first, section.second.wall_seconds);
+    std::stable_sort(sections.begin(),
+                     sections.end(),
+                     [](const auto &a, const auto &b) {
+                       return a.second > b.second;
+                     });
+    constexpr std::size_t n_shown = 3;
+    sections.resize(std::min(sections.size(), n_shown));
+
+    std::string dearest;
+    for (const auto &section : sections)
+      dearest += (dearest.empty() ? "" : ", ") + section.first +
+                 format(" %.0f %%",
+                        summary.wall_seconds > 0. ?
+                          100. * section.second / summary.wall_seconds :
+                          0.);
+
+    std::string text = summary.outcome;
+    text += summary_line("day", format("%.6g", summary.time));
+    text += summary_line(
+      "cells", format("%llu", static_cast<unsigned long long>(summary.cells)));
+    text +=
+      summary_line("volume",
+                   format("%.6g um^%u", summary.volume, summary.dimension));
+    text += summary_line("steps",
+                         format("%u, %u rejected",
+                                summary.steps,
+                                summary.rejected_steps));
+    text += summary_line("wall time", duration(summary.wall_seconds));
+    if (!dearest.empty())
+      text += summary_line("spent mostly in", dearest);
+    text += summary_line("files in", summary.directory);
+    return text;
+  }
+
+  Progress::Progress(const std::string &log_path,
+                     const bool         resume,
+                     const double       start_time,
+                     const double       end_time,
+                     const MPI_Comm     comm)
+    : start_time(start_time)
+    , end_time(end_time)
+    , speaks(Utilities::MPI::this_mpi_process(comm) == 0)
+    , time_left(start_time, end_time)
+    , log(log_path, resume, comm)
+  {}
+
+  void
+  Progress::message(const std::string &text)
+  {
+    clear_bar();
+    if (speaks)
+      std::cout << text << std::endl;
+    log.write(text);
+  }
+
+  void
+  Progress::step(const StepReport &report)
+  {
+    time_left.add(report.time, report.wall_seconds);
+    const double      seconds_left = time_left.seconds();
+    const std::string line = progress_line(report, end_time, seconds_left);
+
+    const unsigned int columns = speaks ? terminal_columns() : 0;
+    if (columns > 0)
+      {
+        // "\033[K" clears what a longer bar has left behind
+        std::cout
+          << '\r'
+          << progress_bar(report, start_time, end_time, seconds_left, columns)
+          << "\033[K" << std::flush;
+        bar_shown = true;
+      }
+    else if (speaks)
+      std::cout << line << std::endl;
+    log.write(line);
+  }
+
+  void
+  Progress::finish(const RunSummary &summary)
+  {
+    if (bar_shown)
+      std::cout << std::endl;
+    bar_shown = false;
+    message(summary_block(summary));
+  }
+
+  void
+  Progress::fail(const std::string &text) noexcept
+  {
+    if (bar_shown)
+      std::cout << std::endl;
+    bar_shown = false;
+    log.write_if_possible(text);
+  }
+
+  void
+  Progress::clear_bar()
+  {
+    if (bar_shown)
+      std::cout << "\r\033[K" << std::flush;
+    bar_shown = false;
+  }
+} // namespace Morula

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/output/agreement.h>
+#include <morula/output/atomic_file.h>
+#include <morula/output/hdf5_reader.h>
+#include <morula/output/hdf5_writer.h>
+#include <morula/output/snapshot.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <type_traits>
+
+namespace Morula
+{
+  namespace
+  {
+    using Id =
+      std::conditional_t<sizeof(types::particle_index) == sizeof(unsigned int),
+                         unsigned int,
+                         unsigned long long>;
+
+    constexpr const char *format_name = "Morula snapshot format";
+
+    template <int dim>
+    void
+    write_points(Hdf5Writer           &file,
+                 const std::string    &group,
+                 const PointList<dim> &points,
+                 const MPI_Comm        comm)
+    {
+      // ranks without points may not know the number of slots
+      const unsigned int n_slots = Utilities::MPI::max(points.n_slots, comm);
+
+      const std::vector<Id> ids(points.ids.begin(), points.ids.end());
+      std::vector<double>   coordinates;
+      coordinates.reserve(dim * points.size());
+      for (const Point<dim> &position : points.positions)
+        for (unsigned int d = 0; d < dim; ++d)
+          coordinates.push_back(position[d]);
+
+      file.group(group);
+      file.rows(group + "/ids", ids.data(), ids.size(), 1);
+      file.rows(group + "/positions", coordinates.data(), ids.size(), dim);
+      file.rows(group + "/properties",
+                points.properties.data(),
+                ids.size(),
+                n_slots);
+    }
+
+    /**
+     * Rank 0's data without the points. HDF5 demands that all ranks write the
+     * same attributes; wall times, for one, are not.
+     */
+    template <int dim>
+    SnapshotData<dim>
+    shared_parts_of_root(const SnapshotData<dim> &data, const MPI_Comm comm)
+    {
+      SnapshotData<dim> shared;
+      shared.program_version =
+        Utilities::MPI::broadcast(comm, data.program_version);
+      shared.parameters = Utilities::MPI::broadcast(comm, data.parameters);
+      shared.time       = Utilities::MPI::broadcast(comm, data.time);
+      shared.numbers    = Utilities::MPI::broadcast(comm, data.numbers);
+      shared.tables     = Utilities::MPI::broadcast(comm, data.tables);
+      shared.integer_tables =
+        Utilities::MPI::broadcast(comm, data.integer_tables);
+      return shared;
+    }
+
+    /** Upper bound of what the file takes, bytes. */
+    template <int dim>
+    std::size_t
+    size_in_file(const SnapshotData<dim> &data,
+                 const SnapshotData<dim> &shared,
+                 const MPI_Comm           comm)
+    {
+      constexpr std::size_t n_bytes_an_object = 2048;
+      std::size_t           n_objects         = 32 + shared.numbers.size();
+      std::size_t           n_values          = 0;
+      for (const auto &table : shared.tables)
+        n_values += table.second.size();
+      for (const auto &table : shared.integer_tables)
+        n_values += table.second.size();
+      n_objects += shared.tables.size() + shared.integer_tables.size();
+
+      std::size_t n_point_values = 0;
+      for (const auto *points : {&data.cells, &data.boundary_points})
+        n_point_values +=
+          points->size() * (1 + dim) + points->properties.size();
+      return (n_values + Utilities::MPI::sum(n_point_values, comm)) *
+               sizeof(double) +
+             shared.parameters.size() + n_objects * n_bytes_an_object;
+    }
+
+    /** The slice [n r / size, n (r + 1) / size) for rank r. */
+    template <int dim>
+    PointList<dim>
+    read_points(const Hdf5Reader  &file,
+                const std::string &group,
+                const MPI_Comm     comm)
+    {
+      const auto ids        = file.size(group + "/ids");
+      const auto positions  = file.size(group + "/positions");
+      const auto properties = file.size(group + "/properties");
+      if (ids.size() != 2 || positions.size() != 2 || properties.size() != 2 ||
+          ids[1] != 1 || positions[0] != ids[0] || properties[0] != ids[0] ||
+          positions[1] != dim)
+        throw std::runtime_error("the points '" + group + "' do not fit");
+
+      const hsize_t rank    = Utilities::MPI::this_mpi_process(comm);
+      const hsize_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      const hsize_t begin   = ids[0] * rank / n_ranks;
+      const hsize_t end     = ids[0] * (rank + 1) / n_ranks;
+
+      PointList<dim> points;
+      points.n_slots       = properties[1];
+      const auto local_ids = file.rows<Id>(group + "/ids", begin, end);
+      points.ids.assign(local_ids.begin(), local_ids.end());
+      const auto coordinates =
+        file.rows<double>(group + "/positions", begin, end);
+      points.positions.resize(points.ids.size());
+      for (std::size_t i = 0; i < coordinates.size(); ++i)
+        points.positions[i / dim][i % dim] = coordinates[i];
+      points.properties = file.rows<double>(group + "/properties", begin, end);
+      return points;
+    }
+
+    [[noreturn]] void
+    refuse(const std::string &path, const std::string &allowed)
+    {
+      throw InputError("--resume",
+                       path,
+                       allowed,
+                       "Resume with the program and the scene that wrote the "
+                       "snapshot, or start the run anew.");
+    }
+
+    /** Tells missing and foreign files from damaged ones. */
+    void
+    check_signature(const std::string &path)
+    {
+      std::ifstream in(path, std::ios::binary);
+      if (!in)
+        throw InputError("--resume",
+                         path,
+                         "a snapshot that can be read",
+                         "There is none: start the run without --resume.");
+      const std::string signature = "\x89HDF\r\n\x1a\n";
+      std::string       start(signature.size(), '\0');
+      in.read(&start[0], start.size());
+      if (start != signature)
+        refuse(path, "a snapshot of Morula (this is no HDF5 file)");
+    }
+
+    /** Checks whose file it is, and lets @p read read it. */
+    template <typename Read>
+    void
+    read_checked(const std::string &path, const Read &read)
+    {
+      check_signature(path);
+      try
+        {
+          const Hdf5Reader file(path);
+          const auto       names = file.attribute_names("/");
+          if (std::find(names.begin(), names.end(), format_name) == names.end())
+            refuse(path,
+                   "a snapshot of Morula (this is the HDF5 file of another "
+                   "program)");
+          const int format = file.attribute<int>("/", format_name);
+          if (format != snapshot_format)
+            refuse(path,
+                   "a snapshot of format " + std::to_string(snapshot_format) +
+                     " (this is of format " + std::to_string(format) + ")");
+          read(file);
+        }
+      catch (const InputError &)
+        {
+          throw;
+        }
+      catch (const std::exception &error)
+        {
+          refuse(path,
+                 std::string("an undamaged snapshot (") + error.what() + ")");
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  write_snapshot(const std::string       &path,
+                 const SnapshotData<dim> &data,
+                 const MPI_Comm           comm)
+  {
+    const SnapshotData<dim> shared = shared_parts_of_root(data, comm);
+
+    // When the disk is full, MPI I/O fails on some ranks only and the others
+    // wait for ever, and HDF5 crashes at the end of the program; so do not
+    // begin. The reservation ends with the temporary object.
+    const std::size_t size = size_in_file(data, shared, comm);
+    on_root(comm, [&]() { AtomicFile(path).reserve(size); });
+
+    Hdf5Writer file(path_aside(path), comm);
+    file.attribute("/", format_name, snapshot_format);
+    file.attribute("/", "dimension", dim);
+    file.attribute("/", "time", shared.time);
+    file.text("program version", shared.program_version);
+    file.text("parameters", shared.parameters);
+    file.group("numbers");
+    for (const auto &number : shared.numbers)
+      file.attribute("numbers", number.first, number.second);
+    file.group("tables");
+    for (const auto &table : shared.tables)
+      file.table("tables/" + table.first, table.second);
+    file.group("integer tables");
+    for (const auto &table : shared.integer_tables)
+      file.table("integer tables/" + table.first, table.second);
+    write_points(file, "cells", data.cells, comm);
+    write_points(file, "boundary points", data.boundary_points, comm);
+    const bool written = file.close();
+
+    on_root(comm, [&]() {
+      if (!written)
+        {
+          std::remove(path_aside(path).c_str());
+          throw std::runtime_error("cannot write the snapshot '" + path +
+                                   "': is the disk full? The last good "
+                                   "snapshot, if there is one, stays");
+        }
+      publish(path);
+    });
+  }
+
+  template <int dim>
+  SnapshotData<dim>
+  read_snapshot(const std::string &path, const MPI_Comm comm)
+  {
+    SnapshotData<dim> data;
+    const auto        read = [&](const Hdf5Reader &file) {
+      const int dimension = file.attribute<int>("/", "dimension");
+      if (dimension != dim)
+        refuse(path,
+               "a snapshot in " + std::to_string(dim) +
+                 " dimensions (this one has " + std::to_string(dimension) +
+                 ")");
+      data.time            = file.attribute<double>("/", "time");
+      data.program_version = file.text("program version");
+      data.parameters      = file.text("parameters");
+      for (const std::string &name : file.attribute_names("numbers"))
+        data.numbers[name] = file.attribute<double>("numbers", name);
+      for (const std::string &name : file.dataset_names("tables"))
+        data.tables[name] = file.table<double>("tables/" + name);
+      for (const std::string &name : file.dataset_names("integer tables"))
+        data.integer_tables[name] = file.table<int>("integer tables/" + name);
+      data.cells           = read_points<dim>(file, "cells", comm);
+      data.boundary_points = read_points<dim>(file, "boundary points", comm);
+    };
+    everywhere(comm, [&]() { read_checked(path, read); });
+    return data;
+  }
+
+  std::string
+  read_snapshot_parameters(const std::string &path, const MPI_Comm comm)
+  {
+    std::string parameters;
+    everywhere(comm, [&]() {
+      read_checked(path, [&](const Hdf5Reader &file) {
+        parameters = file.text("parameters");
+      });
+    });
+    return parameters;
+  }
+
+  template void
+  write_snapshot<2>(const std::string &,
+                    const SnapshotData<2> &,
+                    const MPI_Comm);
+  template void
+  write_snapshot<3>(const std::string &,
+                    const SnapshotData<3> &,
+                    const MPI_Comm);
+  template SnapshotData<2>
+  read_snapshot<2>(const std::string &, const MPI_Comm);
+  template SnapshotData<3>
+  read_snapshot<3>(const std::string &, const MPI_Comm);
+} // namespace Morula

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/csv_rows.h>
+#include <morula/output/statistics.h>
+
+namespace Morula
+{
+  namespace
+  {
+    std::vector<std::string>
+    names()
+    {
+      std::vector<std::string> all;
+      for (const auto &column : StatisticsRow().columns())
+        all.push_back(column.first);
+      return all;
+    }
+  } // namespace
+
+  std::vector<std::pair<std::string, double>>
+  StatisticsRow::columns() const
+  {
+    const auto number = [](const auto count) {
+      return static_cast<double>(count);
+    };
+    return {{"step", number(step)},
+            {"time", time},
+            {"dt", dt},
+            {"cells", number(cells)},
+            {"total_volume", tissue.total_volume},
+            {"grown_volume", tissue.grown_volume},
+            {"mean_energy_density", tissue.mean_energy_density},
+            {"cell_mean_energy_density", tissue.cell_mean_energy_density},
+            {"max_energy_density", tissue.max_energy_density},
+            {"min_elastic_volume_ratio", tissue.min_elastic_volume_ratio},
+            {"max_elastic_volume_ratio", tissue.max_elastic_volume_ratio},
+            {"dividing", number(dividing)},
+            {"held_at_checkpoint", number(held_at_checkpoint)},
+            {"xmin", tissue.lower[0]},
+            {"xmax", tissue.upper[0]},
+            {"ymin", tissue.lower[1]},
+            {"ymax", tissue.upper[1]},
+            {"zmin", tissue.lower[2]},
+            {"zmax", tissue.upper[2]},
+            {"active_grid_cells", number(active_grid_cells)},
+            {"inner_splines", number(inner_splines)},
+            {"outer_splines", number(outer_splines)},
+            {"unknowns", number(unknowns)},
+            {"newton_iterations", number(newton_iterations)},
+            {"linear_iterations", number(linear_iterations)},
+            {"rejected_steps", number(rejected_steps)},
+            {"residual", residual},
+            {"wall_seconds", wall_seconds}};
+  }
+
+  StatisticsFile::StatisticsFile(const std::string &path, const MPI_Comm comm)
+    : file(path, names(), comm)
+  {}
+
+  StatisticsFile::StatisticsFile(const std::string  &path,
+                                 const std::uint64_t n_rows,
+                                 const MPI_Comm      comm)
+    : file(path, names(), n_rows, comm)
+  {}
+
+  void
+  StatisticsFile::append(const StatisticsRow &row)
+  {
+    std::vector<double> values;
+    for (const auto &column : row.columns())
+      values.push_back(column.second);
+    CsvRows rows;
+    rows.add(row.step, values.data(), values.size());
+    file.append(rows.text);
+  }
+} // namespace Morula

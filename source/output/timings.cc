@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/agreement.h>
+#include <morula/output/atomic_file.h>
+#include <morula/output/csv_rows.h>
+#include <morula/output/timings.h>
+
+namespace Morula
+{
+  SectionTimes
+  section_times(const TimerOutput &timer, const SectionTimes &before)
+  {
+    SectionTimes times = before;
+    for (const auto &section :
+         timer.get_summary_data(TimerOutput::total_wall_time))
+      times[section.first].wall_seconds += section.second;
+    for (const auto &section : timer.get_summary_data(TimerOutput::n_calls))
+      times[section.first].calls += section.second;
+    return times;
+  }
+
+  void
+  write_timings(const std::string  &path,
+                const SectionTimes &sections,
+                const double        total_seconds,
+                const MPI_Comm      comm)
+  {
+    std::string text =
+      csv_header({"section", "calls", "wall_seconds", "share"});
+    const auto add = [&](const std::string &name, const SectionTime &time) {
+      text += name + ',';
+      append_number(text, time.calls);
+      text += ',';
+      append_number(text, time.wall_seconds);
+      text += ',';
+      append_number(text,
+                    total_seconds > 0. ? time.wall_seconds / total_seconds :
+                                         0.);
+      text += '\n';
+    };
+    for (const auto &section : sections)
+      add(section.first, section.second);
+    add("total", {1., total_seconds});
+
+    on_root(comm, [&]() { write_atomically(path, text); });
+  }
+} // namespace Morula

@@ -1,0 +1,181 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/output/lineage.h>
+#include <morula/output/statistics.h>
+
+#include <gtest/gtest.h>
+
+#include "scratch_directory.h"
+
+using namespace Morula;
+
+namespace
+{
+  const std::string statistics_header =
+    "step,time,dt,cells,total_volume,grown_volume,mean_energy_density,"
+    "cell_mean_energy_density,max_energy_density,min_elastic_volume_ratio,"
+    "max_elastic_volume_ratio,dividing,held_at_checkpoint,xmin,xmax,ymin,ymax,"
+    "zmin,zmax,active_grid_cells,inner_splines,outer_splines,unknowns,"
+    "newton_iterations,linear_iterations,rejected_steps,residual,"
+    "wall_seconds\n";
+
+  /** A row whose every column can be told from the others. */
+  StatisticsRow
+  row(const unsigned int step)
+  {
+    StatisticsRow row;
+    row.step                            = step;
+    row.time                            = 0.25;
+    row.dt                              = 3;
+    row.cells                           = 4;
+    row.tissue.total_volume             = 5;
+    row.tissue.grown_volume             = 6;
+    row.tissue.mean_energy_density      = 7;
+    row.tissue.cell_mean_energy_density = 8;
+    row.tissue.max_energy_density       = 9;
+    row.tissue.min_elastic_volume_ratio = 10;
+    row.tissue.max_elastic_volume_ratio = 11;
+    row.dividing                        = 12;
+    row.held_at_checkpoint              = 13;
+    row.tissue.lower                    = {{14, 16, 18}};
+    row.tissue.upper                    = {{15, 17, 19}};
+    row.active_grid_cells               = 20;
+    row.inner_splines                   = 21;
+    row.outer_splines                   = 22;
+    row.unknowns                        = 23;
+    row.newton_iterations               = 24;
+    row.linear_iterations               = 25;
+    row.rejected_steps                  = 26;
+    row.residual                        = 27e-10;
+    row.wall_seconds                    = 28;
+    return row;
+  }
+
+  std::string
+  row_text(const unsigned int step)
+  {
+    return std::to_string(step) +
+           ",0.25,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,"
+           "25,26,2.7e-09,28\n";
+  }
+
+  void
+  tear(const std::string &path, const std::string &rest)
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    on_root(MPI_COMM_WORLD, [&]() { write(path, content(path) + rest); });
+  }
+} // namespace
+
+TEST(Statistics, HaveTheColumnsOfTheContract)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "statistics.csv";
+  StatisticsFile         file(path, MPI_COMM_WORLD);
+  EXPECT_EQ(file.n_rows(), 0u);
+  file.append(row(0));
+  file.append(row(1));
+  EXPECT_EQ(file.n_rows(), 2u);
+  file.sync();
+  EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
+}
+
+TEST(Statistics, AreCutWhenResumed)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "statistics.csv";
+  {
+    StatisticsFile file(path, MPI_COMM_WORLD);
+    for (unsigned int step = 0; step < 4; ++step)
+      file.append(row(step));
+  }
+  tear(path, "4,0.25,3,4,5");
+  {
+    StatisticsFile file(path, 2, MPI_COMM_WORLD);
+    EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
+    MPI_Barrier(MPI_COMM_WORLD);
+    file.append(row(7));
+    EXPECT_EQ(file.n_rows(), 3u);
+  }
+  EXPECT_EQ(content(path),
+            statistics_header + row_text(0) + row_text(1) + row_text(7));
+
+  // a torn row does not count
+  tear(path, "8,0.25");
+  EXPECT_THROW(StatisticsFile(path, 4, MPI_COMM_WORLD), InputError);
+  EXPECT_NO_THROW(StatisticsFile(path, 3, MPI_COMM_WORLD));
+}
+
+TEST(Statistics, RefuseToResumeFromOtherFiles)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "statistics.csv";
+  EXPECT_THROW(StatisticsFile(path, 0, MPI_COMM_WORLD), InputError);
+  on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
+  EXPECT_THROW(StatisticsFile(path, 1, MPI_COMM_WORLD), InputError);
+  EXPECT_EQ(content(path), "step,time\n0,0\n");
+}
+
+TEST(Statistics, SayWhenTheDiskIsFull)
+{
+  const ScratchDirectory directory;
+  StatisticsFile         file(directory / "statistics.csv", MPI_COMM_WORLD);
+  file.append(row(0));
+  const FullDisk full(statistics_header.size() + row_text(0).size() + 5);
+  EXPECT_THROW(file.append(row(1)), std::runtime_error);
+}
+
+TEST(Lineage, IsInIdOrder)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "lineage.csv";
+  const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const std::string  header  = "id,parent,generation,birth_time,x,y,z\n";
+
+  LineageFile<3> file(path, MPI_COMM_WORLD);
+  // the last rank holds the first founder
+  const types::particle_index id = n_ranks - 1 - rank;
+  file.append({{id, -1, 0, 0., Point<3>(1.5, 2., id)}});
+  std::string expected = header;
+  for (unsigned int i = 0; i < n_ranks; ++i)
+    {
+      const std::string name = std::to_string(i);
+      expected += name + ",-1,0,0,1.5,2," + name + "\n";
+    }
+  EXPECT_EQ(content(path), expected);
+  EXPECT_EQ(file.n_rows(), n_ranks);
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  // two daughters on one rank, none elsewhere, and a step without any
+  std::vector<Birth<3>> births;
+  if (rank == n_ranks - 1)
+    births = {{11, 0, 1, 0.625, Point<3>(0., 0., 1e-7)},
+              {10, 0, 1, 0.625, Point<3>(0., 0., -1e-7)}};
+  file.append(births);
+  file.append({});
+  expected += "10,0,1,0.625,0,0,-1e-07\n11,0,1,0.625,0,0,1e-07\n";
+  EXPECT_EQ(content(path), expected);
+  EXPECT_EQ(file.n_rows(), n_ranks + 2);
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  LineageFile<3> resumed(path, 1, MPI_COMM_WORLD);
+  EXPECT_EQ(content(path), header + "0,-1,0,0,1.5,2,0\n");
+}
+
+TEST(Lineage, HasAZeroZInTwoDimensions)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "lineage.csv";
+  LineageFile<2>         file(path, MPI_COMM_WORLD);
+  std::vector<Birth<2>>  births;
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};
+  file.append(births);
+  EXPECT_EQ(content(path),
+            "id,parent,generation,birth_time,x,y,z\n"
+            "3,1,2,0.3333333333,4,5,0\n");
+}

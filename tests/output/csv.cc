@@ -1,0 +1,128 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/csv.h>
+#include <morula/output/csv_rows.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+
+#include "scratch_directory.h"
+
+using namespace Morula;
+
+namespace
+{
+  std::string
+  number(const double value)
+  {
+    std::string text;
+    append_number(text, value);
+    return text;
+  }
+
+  std::string
+  printed(const double value)
+  {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.10g", value);
+    return text;
+  }
+
+  /** This rank's part of the points 0 ... n-1, dealt out and backwards. */
+  PointFields<3>
+  dealt_points(const int n)
+  {
+    const int      rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const int      n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    PointFields<3> fields;
+    fields.names         = {"id", "third", "root"};
+    fields.n_csv_columns = 2;
+    for (int id = n - 1; id >= 0; --id)
+      if (id % n_ranks == rank)
+        {
+          fields.ids.push_back(id);
+          fields.positions.emplace_back(id, 0., 0.);
+          for (const double value : {double(id), id / 3., std::sqrt(id)})
+            fields.values.push_back(value);
+        }
+    return fields;
+  }
+} // namespace
+
+TEST(Csv, PrintsNumbersLikePrintf)
+{
+  EXPECT_EQ(number(0.1), "0.1");
+  EXPECT_EQ(number(2. / 3.), "0.6666666667");
+  EXPECT_EQ(number(65752), "65752");
+  EXPECT_EQ(number(-1), "-1");
+  EXPECT_EQ(number(-0.), "0");
+  EXPECT_EQ(number(1e-4), "0.0001");
+  EXPECT_EQ(number(1.5e-5), "1.5e-05");
+  EXPECT_EQ(number(12345678912.), "1.234567891e+10");
+  for (const double value : {std::numeric_limits<double>::max(),
+                             std::numeric_limits<double>::denorm_min(),
+                             -std::numeric_limits<double>::infinity(),
+                             double(NAN),
+                             9999999999.5,
+                             999999999.95})
+    EXPECT_EQ(number(value), printed(value));
+
+  std::mt19937                           generator(1);
+  std::uniform_real_distribution<double> exponent(-12., 12.);
+  for (unsigned int i = 0; i < 10000; ++i)
+    {
+      const double value = std::pow(10., exponent(generator));
+      ASSERT_EQ(number(-value), printed(-value));
+    }
+}
+
+TEST(Csv, WritesRowsInIdOrder)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "cells-0000.csv";
+  write_csv(path, dealt_points(1000), MPI_COMM_WORLD);
+
+  std::string expected = "id,third\n";
+  for (int id = 0; id < 1000; ++id)
+    expected += printed(id) + ',' + printed(id / 3.) + '\n';
+  EXPECT_EQ(content(path), expected);
+}
+
+TEST(Csv, WritesAHeaderWithoutRows)
+{
+  const ScratchDirectory directory;
+  write_csv(directory / "a.csv", dealt_points(0), MPI_COMM_WORLD);
+  EXPECT_EQ(content(directory / "a.csv"), "id,third\n");
+  MPI_Barrier(MPI_COMM_WORLD);
+  write_csv(directory / "a.csv", dealt_points(1), MPI_COMM_WORLD);
+  EXPECT_EQ(content(directory / "a.csv"), "id,third\n0,0\n");
+}
+
+TEST(Csv, LeavesTheOldFileWhenTheDiskIsFull)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "a.csv";
+  write_csv(path, dealt_points(1), MPI_COMM_WORLD);
+  {
+    const FullDisk full(1000);
+    try
+      {
+        write_csv(path, dealt_points(1000), MPI_COMM_WORLD);
+        ADD_FAILURE() << "a full disk went unnoticed";
+      }
+    catch (const std::runtime_error &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("File too large"),
+                  std::string::npos);
+      }
+  }
+  EXPECT_EQ(content(path), "id,third\n0,0\n");
+  EXPECT_EQ(directory.files(), std::vector<std::string>{"a.csv"});
+}

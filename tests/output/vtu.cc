@@ -1,0 +1,203 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/vtu.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "scratch_directory.h"
+
+using namespace Morula;
+
+namespace
+{
+  using Tree = boost::property_tree::ptree;
+
+  /** Points 0 ... n-1 dealt out from the second rank on, if there is one. */
+  template <int dim>
+  PointFields<dim>
+  dealt_points(const unsigned int n)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    PointFields<dim> fields;
+    fields.names         = {"id", "energy"};
+    fields.n_csv_columns = 1;
+    fields.add_nonscalar("displacement", 3);
+    fields.add_nonscalar("sigma", 9);
+    for (unsigned int id = 0; id < n; ++id)
+      if (n_ranks == 1 || 1 + id % (n_ranks - 1) == rank)
+        {
+          Point<dim> position;
+          for (unsigned int d = 0; d < dim; ++d)
+            position[d] = 10. * id + d;
+          fields.ids.push_back(id);
+          fields.positions.push_back(position);
+          fields.values.push_back(id);
+          fields.values.push_back(0.5 * id);
+          fields.add_vector(0.25 * position);
+          for (unsigned int i = 0; i < 9; ++i)
+            fields.values.push_back(100. * id + i);
+        }
+    return fields;
+  }
+
+  /** Points of all pieces, and the number of components of every array. */
+  std::pair<unsigned int, std::map<std::string, unsigned int>>
+  summary(const std::string &path)
+  {
+    Tree file;
+    boost::property_tree::read_xml(path, file);
+    unsigned int                        n_points = 0;
+    std::map<std::string, unsigned int> arrays;
+    for (const auto &piece : file.get_child("VTKFile.UnstructuredGrid"))
+      if (piece.first == "Piece")
+        {
+          n_points +=
+            piece.second.get<unsigned int>("<xmlattr>.NumberOfPoints");
+          for (const auto &array : piece.second.get_child("PointData"))
+            if (array.first == "DataArray")
+              arrays[array.second.get<std::string>("<xmlattr>.Name")] =
+                array.second.get<unsigned int>("<xmlattr>.NumberOfComponents",
+                                               1);
+        }
+    return {n_points, arrays};
+  }
+
+  template <int dim>
+  void
+  expect_fields()
+  {
+    const ScratchDirectory directory;
+    const std::string      path = directory / "cells-0002.vtu";
+    write_vtu(path, dealt_points<dim>(7), 0.5, 2, MPI_COMM_WORLD);
+    const auto found = summary(path);
+    EXPECT_EQ(found.first, 7u);
+    EXPECT_EQ(found.second,
+              (std::map<std::string, unsigned int>{
+                {"id", 1}, {"energy", 1}, {"displacement", 3}, {"sigma", 9}}));
+    EXPECT_EQ(directory.files(), std::vector<std::string>{"cells-0002.vtu"});
+  }
+
+  /** Checks in Python what the VTK library, that is ParaView, reads. */
+  const char *const reader = R"(
+import sys
+import vtk
+for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutput()
+    data = grid.GetPointData()
+    assert grid.GetNumberOfPoints() == 7 and grid.GetNumberOfCells() == 7
+    assert grid.GetCellType(0) == vtk.VTK_VERTEX
+    assert grid.GetFieldData().GetArray('TIME').GetValue(0) == 0.5
+    for i in range(7):
+        n = data.GetArray('id').GetValue(i)
+        x = [10 * n + d if d < dim else 0 for d in range(3)]
+        assert grid.GetPoint(i) == tuple(x), grid.GetPoint(i)
+        assert data.GetArray('energy').GetValue(i) == 0.5 * n
+        u = data.GetArray('displacement').GetTuple(i)
+        assert u == tuple(0.25 * c for c in x), u
+        sigma = data.GetArray('sigma').GetTuple(i)
+        assert sigma == tuple(100 * n + k for k in range(9)), sigma
+    ids = sorted(data.GetArray('id').GetValue(i) for i in range(7))
+    assert ids == list(range(7)), ids
+)";
+
+  /** The command of one; the first in the path may be without. Collective. */
+  std::string
+  python_with_vtk()
+  {
+    std::string found;
+    on_root(MPI_COMM_WORLD, [&]() {
+      for (const std::string python : {"python3", "/usr/bin/python3"})
+        if (found.empty() &&
+            std::system((python + " -c 'import vtk' 2> /dev/null").c_str()) ==
+              0)
+          found = python;
+    });
+    return Utilities::MPI::broadcast(MPI_COMM_WORLD, found);
+  }
+} // namespace
+
+TEST(Vtu, MarksVectorsAndTensors)
+{
+  expect_fields<2>();
+  expect_fields<3>();
+}
+
+TEST(Vtu, CanBeEmpty)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "surface-0000.vtu";
+  write_vtu(path, dealt_points<3>(0), 0., 0, MPI_COMM_WORLD);
+  EXPECT_EQ(summary(path).first, 0u);
+}
+
+TEST(Vtu, IsReadByTheVtkLibrary)
+{
+  const ScratchDirectory directory;
+  write_vtu(directory / "a.vtu", dealt_points<2>(7), 0.5, 2, MPI_COMM_WORLD);
+  write_vtu(directory / "b.vtu", dealt_points<3>(7), 0.5, 2, MPI_COMM_WORLD);
+  const std::string python = python_with_vtk();
+  if (python.empty())
+    GTEST_SKIP() << "there is no Python with the VTK library";
+
+  int status = 0;
+  on_root(MPI_COMM_WORLD, [&]() {
+    write(directory / "reader.py", reader);
+    status =
+      std::system((python + " '" + (directory / "reader.py") + "' '" +
+                   (directory / "a.vtu") + "' '" + (directory / "b.vtu") + "'")
+                    .c_str());
+  });
+  EXPECT_EQ(status, 0);
+}
+
+TEST(Vtu, LeavesTheOldFileWhenTheDiskIsFull)
+{
+  const ScratchDirectory directory;
+  const std::string      path = directory / "a.vtu";
+  on_root(MPI_COMM_WORLD, [&]() { write(path, "old"); });
+  {
+    const FullDisk full(500);
+    EXPECT_THROW(write_vtu(path, dealt_points<3>(7), 0.5, 2, MPI_COMM_WORLD),
+                 std::runtime_error);
+  }
+  EXPECT_EQ(content(path), "old");
+}
+
+TEST(Pvd, ListsTheFilesThatExist)
+{
+  const ScratchDirectory directory;
+  on_root(MPI_COMM_WORLD, [&]() {
+    write(directory / "cells-0000.vtu", "");
+    write(directory / "cells-0002.vtu", "");
+  });
+  write_pvd(directory / "cells.pvd",
+            {{0., "cells-0000.vtu"},
+             {0.25, "cells-0001.vtu"},
+             {1. / 3., "cells-0002.vtu"}},
+            MPI_COMM_WORLD);
+
+  Tree record;
+  boost::property_tree::read_xml(directory / "cells.pvd", record);
+  std::vector<std::pair<double, std::string>> entries;
+  for (const auto &entry : record.get_child("VTKFile.Collection"))
+    if (entry.first == "DataSet")
+      entries.emplace_back(entry.second.get<double>("<xmlattr>.timestep"),
+                           entry.second.get<std::string>("<xmlattr>.file"));
+  ASSERT_EQ(entries.size(), 2u);
+  EXPECT_EQ(entries[0].first, 0.);
+  EXPECT_EQ(entries[0].second, "cells-0000.vtu");
+  EXPECT_NEAR(entries[1].first, 1. / 3., 1e-11);
+  EXPECT_EQ(entries[1].second, "cells-0002.vtu");
+}

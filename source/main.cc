@@ -33,6 +33,17 @@ namespace
     simulation.run();
   }
 
+  /** The part of --explain that only the first step's splines can tell. */
+  template <int dim>
+  void
+  explain_equations(const Scene &scene)
+  {
+    const unsigned int n =
+      Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
+    if (is_first_rank())
+      std::cout << "Unknowns of the first step: " << n << '\n';
+  }
+
   /** Prints what was asked for instead of a run; false if that is nothing. */
   bool
   print_information(const CommandLine &command)
@@ -66,6 +77,10 @@ namespace
     if (command.explain)
       {
         explain(scene, std::cout, MPI_COMM_WORLD);
+        if (scene.dimension == 2)
+          explain_equations<2>(scene);
+        else
+          explain_equations<3>(scene);
         return;
       }
     check_memory(scene, initial_size(scene), MPI_COMM_WORLD);

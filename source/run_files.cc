@@ -47,16 +47,16 @@ namespace Morula
               sections_before[section]  = {
                 resumed_from->numbers.at(calls_prefix + section), seconds};
             }
-        prepare_resume(scene.output_directory,
-                       scene.parameters(),
-                       output_times.size(),
-                       comm);
         statistics.emplace(path("statistics.csv"),
                            resumed_from->numbers.at("statistics_rows"),
                            comm);
         lineage.emplace(path("lineage.csv"),
                         resumed_from->numbers.at("lineage_rows"),
                         comm);
+        prepare_resume(scene.output_directory,
+                       scene.parameters(),
+                       output_times.size(),
+                       comm);
       }
     else
       {

@@ -6,6 +6,7 @@
 #include <morula/mechanics/internal_force.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/simulation.h>
+#include <morula/step_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -57,14 +58,16 @@ namespace Morula
   void
   Simulation<dim>::step()
   {
-    row = StatisticsRow();
+    row           = StatisticsRow();
+    newton_report = NewtonReport();
     births.clear();
     ++n_steps;
 
     const SplineSpace<dim> space = splines();
+    const RigidModes<dim>  modes = rigid_modes(space);
     Equilibrium::Vector    u;
-    solve_step(space, u);
-    remove_rigid_motion(space, u);
+    solve_step(space, modes, u);
+    remove_rigid_motion(space, modes, u);
     commit(space, u);
 
     row.dt = time_steps.next() - time_steps.time();
@@ -84,12 +87,13 @@ namespace Morula
   template <int dim>
   void
   Simulation<dim>::solve_step(const SplineSpace<dim> &space,
+                              const RigidModes<dim>  &rigid_modes,
                               Equilibrium::Vector    &u)
   {
     while (true)
       try
         {
-          try_step(space, u);
+          try_step(space, rigid_modes, u);
           return;
         }
       catch (const StepFailed &failure)
@@ -104,6 +108,7 @@ namespace Morula
   template <int dim>
   void
   Simulation<dim>::try_step(const SplineSpace<dim> &space,
+                            const RigidModes<dim>  &rigid_modes,
                             Equilibrium::Vector    &u)
   {
     if (growth.present())
@@ -112,73 +117,15 @@ namespace Morula
         growth_of_step =
           growth.of_step(tissue, time_steps.time(), time_steps.next());
       }
-    const MaterialPoints<dim> points = material_points(space);
-    const auto                list   = terms(points, space);
-
-    MomentumBalance<dim> balance(space,
-                                 list,
-                                 typical_stiffness,
-                                 rigid_modes(space),
-                                 timer,
-                                 comm);
-    NewtonReport         report;
-    try
-      {
-        solve(balance, scene.solver, timer, u, report);
-      }
-    catch (const StepFailed &)
-      {
-        row.newton_iterations += report.newton_iterations;
-        row.linear_iterations += report.linear_iterations;
-        throw;
-      }
-    row.newton_iterations += report.newton_iterations;
-    row.linear_iterations += report.linear_iterations;
-    row.residual = report.residual;
-  }
-
-  template <int dim>
-  MaterialPoints<dim>
-  Simulation<dim>::material_points(const SplineSpace<dim> &space)
-  {
-    const TimerOutput::Scope section(timer, "points");
-    MaterialPoints<dim>      points;
-    const auto               state = [&](const CellView<dim, const double> &cell,
-                           const Tensor<2, dim>              &F_g) {
-      return ElasticState<dim>{cell.deformation() * invert(F_g),
-                               cell.initial_volume() *
-                                 (material.per_grown_volume ?
-                                                  determinant(F_g) :
-                                                  1.)};
-    };
-    const PointGroups groups =
-      group_points(tissue.cells(), space, [](const auto &) { return true; });
-    points.offsets = groups.offsets;
-    points.h       = space.box().spacing();
-    if (material.youngs_modulus.is_constant())
-      points.lame.push_back(lame(typical_stiffness, material.poissons_ratio));
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
-      for (unsigned int p = groups.offsets[c]; p < groups.offsets[c + 1]; ++p)
-        {
-          const auto &particle = tissue.cells().order()[p];
-          const auto  cell     = tissue.cell(particle);
-          points.xi.push_back(
-            space.box().unit_position(particle->get_location(),
-                                      space.box().index(
-                                        space.cells()[c].number)));
-          if (!material.youngs_modulus.is_constant())
-            points.lame.push_back(lame(youngs_modulus(cell.founder_position()),
-                                       material.poissons_ratio));
-          if (growth.present())
-            {
-              points.previous.push_back(
-                state(cell, growth_of_step.previous[p]));
-              points.current.push_back(state(cell, growth_of_step.current[p]));
-            }
-          else
-            points.current.push_back(state(cell, cell.growth()));
-        }
-    return points;
+    MaterialPoints<dim> points;
+    {
+      const TimerOutput::Scope section(timer, "points");
+      points = material_points(tissue, space, growth_of_step, material);
+    }
+    const auto           list = terms(points, space);
+    MomentumBalance<dim> balance(
+      space, list, typical_stiffness, rigid_modes, timer, comm);
+    solve(balance, scene.solver, timer, u, newton_report);
   }
 
   template <int dim>
@@ -186,6 +133,7 @@ namespace Morula
   Simulation<dim>::terms(const MaterialPoints<dim> &points,
                          const SplineSpace<dim>    &space)
   {
+    const double                            t = time_steps.next();
     typename MomentumBalance<dim>::TermList list;
     list.push_back(std::make_unique<InternalForce<dim>>(points));
     if (body_force)
@@ -195,25 +143,28 @@ namespace Morula
         for (const auto &particle : tissue.cells().order())
           {
             const auto cell = tissue.cell(particle);
-            forces.push_back(
-              cell.initial_volume() *
-              body_force->vector(cell.founder_position(), time_steps.next()));
+            forces.push_back(cell.initial_volume() *
+                             body_force->vector(cell.founder_position(), t));
           }
         list.push_back(
-          std::make_unique<DeadLoad<dim>>(points, std::move(forces)));
+          std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
+                                          std::move(forces)));
       }
-    if (boundary_conditions.has_dirichlet() ||
-        boundary_conditions.has_traction() ||
-        boundary_conditions.has_pressure())
+    if (boundary_conditions.has_dirichlet())
       {
-        const TimerOutput::Scope section(timer, "boundary conditions");
-        add_boundary_terms(boundary_conditions,
-                           material,
-                           tissue,
-                           space,
-                           growth_of_step,
-                           time_steps.next(),
-                           list);
+        const TimerOutput::Scope section(timer, "nitsche");
+        list.push_back(nitsche_term(
+          boundary_conditions, material, tissue, space, growth_of_step, t));
+      }
+    if (boundary_conditions.has_traction())
+      {
+        const TimerOutput::Scope section(timer, "traction");
+        list.push_back(traction_term(boundary_conditions, tissue, space, t));
+      }
+    if (boundary_conditions.has_pressure())
+      {
+        const TimerOutput::Scope section(timer, "pressure");
+        list.push_back(pressure_term(boundary_conditions, tissue, space, t));
       }
     return list;
   }
@@ -247,9 +198,9 @@ namespace Morula
   template <int dim>
   void
   Simulation<dim>::remove_rigid_motion(const SplineSpace<dim> &space,
+                                       const RigidModes<dim>  &modes,
                                        Equilibrium::Vector    &u)
   {
-    const RigidModes<dim> modes = rigid_modes(space);
     if (!modes.any())
       return;
     const TimerOutput::Scope section(timer, "rigid motion");
@@ -348,13 +299,6 @@ namespace Morula
   Simulation<dim>::n_unknowns()
   {
     return splines().n_unknowns();
-  }
-
-  template <int dim>
-  double
-  Simulation<dim>::youngs_modulus(const Point<dim> &X) const
-  {
-    return material.youngs_modulus.value(X, 0.);
   }
 
   template class Simulation<2>;

@@ -54,10 +54,7 @@ namespace Morula
     : scene(scene)
     , comm(comm)
     , timer(comm, std::cout, TimerOutput::never, TimerOutput::wall_times)
-    , material{Expression("Material/Young's modulus",
-                          scene.material.youngs_modulus),
-               scene.material.poissons_ratio,
-               scene.material.per_grown_volume()}
+    , material(scene.material)
     , boundary_conditions(scene.boundary_conditions)
     , growth(growth_of<dim>(scene))
     , body_force(body_force_of<dim>(scene))
@@ -74,7 +71,7 @@ namespace Morula
     double largest = 0.;
     for (const auto &particle : tissue.cells().order())
       largest = std::max(
-        largest, youngs_modulus(tissue.cell(particle).founder_position()));
+        largest, material.youngs_modulus(tissue.cell(particle).founder_position()));
     typical_stiffness = Utilities::MPI::max(largest, comm);
   }
 
@@ -215,9 +212,8 @@ namespace Morula
         const auto       cell = tissue.cell(particle);
         const Point<dim> X    = cell.founder_position();
         sums.add_cell(cell_quantities(cell,
-                                      lame(youngs_modulus(X),
-                                           material.poissons_ratio),
-                                      material.per_grown_volume),
+                                      material.lame_at(X),
+                                      material.per_grown_volume()),
                       particle->get_location());
         if (growth.cycle() != nullptr)
           held += growth.cycle()->is_held(CycleState<dim>::load(cell),
@@ -248,10 +244,10 @@ namespace Morula
     complete.inner_splines            = space.n_inner_splines();
     complete.outer_splines            = space.n_outer_splines();
     complete.unknowns                 = space.n_unknowns();
-    complete.newton_iterations        = row.newton_iterations;
-    complete.linear_iterations        = row.linear_iterations;
+    complete.newton_iterations        = newton_report.newton_iterations;
+    complete.linear_iterations        = newton_report.linear_iterations;
     complete.rejected_steps           = row.rejected_steps;
-    complete.residual                 = row.residual;
+    complete.residual                 = newton_report.residual;
     row                               = complete;
   }
 
@@ -272,10 +268,8 @@ namespace Morula
                       particle->get_location(),
                       phase(cell),
                       cell_quantities(cell,
-                                      lame(youngs_modulus(
-                                             cell.founder_position()),
-                                           material.poissons_ratio),
-                                      material.per_grown_volume));
+                                      material.lame_at(cell.founder_position()),
+                                      material.per_grown_volume()));
           }
         SurfaceFields<dim> surface(t);
         for (const auto &point : tissue.boundary_points().order())

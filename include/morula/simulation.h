@@ -53,15 +53,18 @@ namespace Morula
     bool must_stop() const;
     void step();
     SplineSpace<dim> splines();
-    void solve_step(const SplineSpace<dim> &space, Equilibrium::Vector &u);
-    void try_step(const SplineSpace<dim> &space, Equilibrium::Vector &u);
+    void solve_step(const SplineSpace<dim> &space,
+                    const RigidModes<dim>  &rigid_modes,
+                    Equilibrium::Vector    &u);
+    void try_step(const SplineSpace<dim> &space,
+                  const RigidModes<dim>  &rigid_modes,
+                  Equilibrium::Vector    &u);
     void remove_rigid_motion(const SplineSpace<dim> &space,
+                             const RigidModes<dim>  &rigid_modes,
                              Equilibrium::Vector    &u);
     void commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     void divide();
 
-    MaterialPoints<dim>
-    material_points(const SplineSpace<dim> &space);
     typename MomentumBalance<dim>::TermList
     terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
     std::vector<typename RigidModes<dim>::Mass>
@@ -75,8 +78,6 @@ namespace Morula
     void              output(const bool last);
     [[noreturn]] void give_up(const std::string &reason);
 
-    /** kPa, of a founder's initial position. */
-    double youngs_modulus(const Point<dim> &X) const;
     /** As in cells-NNNN.csv. */
     unsigned int phase(const CellView<dim, const double> &cell) const;
 
@@ -84,7 +85,7 @@ namespace Morula
     const MPI_Comm comm;
     TimerOutput    timer;
 
-    const BoundaryMaterial          material;
+    const TissueMaterial            material;
     const BoundaryConditions<dim>   boundary_conditions;
     const CellGrowth<dim>           growth;
     const std::optional<Expression> body_force;
@@ -99,6 +100,7 @@ namespace Morula
     // Of the present step.
     GrowthOfStep<dim>       growth_of_step;
     std::vector<Birth<dim>> births; // on this rank
+    NewtonReport            newton_report;
     StatisticsRow           row;
 
     std::optional<SnapshotData<dim>> resumed_from; // until run()

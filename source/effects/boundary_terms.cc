@@ -15,7 +15,7 @@ namespace Morula
   namespace
   {
     /** Least penalty that keeps Nitsche's form definite, in units of
-     *  (λ + 2μ)/h (numerics: section 4). */
+     *  (λ + 2μ)/h (doc/theory.md, section 4). */
     constexpr double least_penalty = 20.;
 
     template <int dim>
@@ -97,129 +97,130 @@ namespace Morula
     }
 
     template <int dim>
-    void
-    add_nitsche(const BoundaryConditions<dim>           &conditions,
-                const BoundaryMaterial                  &material,
-                const Tissue<dim>                       &tissue,
-                const SplineSpace<dim>                  &space,
-                const GrowthOfStep<dim>                 &growth,
-                const double                             t,
-                std::vector<std::unique_ptr<Term<dim>>> &terms)
+    PointGroups
+    loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
     {
-      const auto       &store  = tissue.boundary_points();
-      const PointGroups groups = group_points(
-        store, space, [](const Iterator<dim> &point) {
-          return is_dirichlet(view<dim>(point).condition());
-        });
-      std::vector<Point<dim>> queries;
-      for (const unsigned int p : groups.points)
-        queries.push_back(store.order()[p]->get_location());
-      std::vector<double> F_g_nearest;
-      if (growth.present)
-        F_g_nearest = nearest_growth(queries, tissue, growth);
-
-      std::vector<typename Nitsche<dim>::Condition> list;
-      std::vector<ElasticState<dim>>                current, previous;
-      const auto tensor = [&](const std::size_t first) {
-        Tensor<2, dim> F_g;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = 0; e < dim; ++e)
-            F_g[d][e] = F_g_nearest[first + d * dim + e];
-        return F_g;
-      };
-      for (std::size_t k = 0; k < groups.points.size(); ++k)
-        {
-          const BoundaryView<dim> point =
-            view<dim>(store.order()[groups.points[k]]);
-          const Point<dim>     x = queries[k], X = point.initial_position();
-          Point<dim>           target = X;
-          if (point.condition() == SurfaceCondition::fixed)
-            target += conditions.displacement(X, t);
-          const Tensor<1, dim> area = point.area_vector();
-          const double         E    = material.youngs_modulus.value(X, 0.);
-
-          typename Nitsche<dim>::Condition condition;
-          condition.projection     = projection(point);
-          condition.gap            = condition.projection * (x - target);
-          condition.position_scale = std::max(x.norm(), target.norm());
-          condition.area           = area.norm();
-          condition.normal         = area / area.norm();
-          condition.lame           = lame(E, material.poissons_ratio);
-          condition.penalty =
-            std::max(conditions.penalty() * E,
-                     least_penalty *
-                       (condition.lame.lambda + 2. * condition.lame.mu)) /
-            space.box().spacing();
-          list.push_back(condition);
-
-          const Tensor<2, dim> F = point.deformation();
-          if (!growth.present)
-            current.push_back(state(F,
-                                    Tensor<2, dim>(unit_symmetric_tensor<dim>()),
-                                    material.per_grown_volume));
-          else
-            {
-              const std::size_t row = k * 2 * dim * dim;
-              previous.push_back(
-                state(F, tensor(row), material.per_grown_volume));
-              current.push_back(state(F,
-                                      tensor(row + dim * dim),
-                                      material.per_grown_volume));
-            }
-        }
-      terms.push_back(
-        std::make_unique<Nitsche<dim>>(positions(tissue, space, groups),
-                                       std::move(list),
-                                       std::move(current),
-                                       std::move(previous)));
-    }
-
-    template <int dim>
-    void
-    add_loads(const BoundaryConditions<dim>           &conditions,
-              const Tissue<dim>                       &tissue,
-              const SplineSpace<dim>                  &space,
-              const double                             t,
-              std::vector<std::unique_ptr<Term<dim>>> &terms)
-    {
-      const auto       &store  = tissue.boundary_points();
-      const PointGroups groups = group_points(
-        store, space, [](const Iterator<dim> &point) {
-          return view<dim>(point).condition() == SurfaceCondition::loaded;
-        });
-      std::vector<Tensor<1, dim>>                        forces;
-      std::vector<typename FollowingPressure<dim>::Load> loads;
-      for (const unsigned int p : groups.points)
-        {
-          const BoundaryView<dim> point = view<dim>(store.order()[p]);
-          const Point<dim>        X     = point.initial_position();
-          forces.push_back(point.initial_area() * conditions.traction(X, t));
-          loads.push_back({conditions.pressure(X, t), point.area_vector()});
-        }
-      const GroupedPoints<dim> points = positions(tissue, space, groups);
-      if (conditions.has_traction())
-        terms.push_back(
-          std::make_unique<DeadLoad<dim>>(points, std::move(forces)));
-      if (conditions.has_pressure())
-        terms.push_back(
-          std::make_unique<FollowingPressure<dim>>(points, std::move(loads)));
+      return group_points(tissue.boundary_points(),
+                          space,
+                          [](const Iterator<dim> &point) {
+                            return view<dim>(point).condition() ==
+                                   SurfaceCondition::loaded;
+                          });
     }
   } // namespace
 
   template <int dim>
-  void
-  add_boundary_terms(const BoundaryConditions<dim>           &conditions,
-                     const BoundaryMaterial                  &material,
-                     const Tissue<dim>                       &tissue,
-                     const SplineSpace<dim>                  &space,
-                     const GrowthOfStep<dim>                 &growth,
-                     const double                             t,
-                     std::vector<std::unique_ptr<Term<dim>>> &terms)
+  std::unique_ptr<Term<dim>>
+  nitsche_term(const BoundaryConditions<dim> &conditions,
+               const TissueMaterial          &material,
+               const Tissue<dim>             &tissue,
+               const SplineSpace<dim>        &space,
+               const GrowthOfStep<dim>       &growth,
+               const double                   t)
   {
-    if (conditions.has_dirichlet())
-      add_nitsche(conditions, material, tissue, space, growth, t, terms);
-    if (conditions.has_traction() || conditions.has_pressure())
-      add_loads(conditions, tissue, space, t, terms);
+    const auto       &store  = tissue.boundary_points();
+    const PointGroups groups = group_points(
+      store, space, [](const Iterator<dim> &point) {
+        return is_dirichlet(view<dim>(point).condition());
+      });
+    std::vector<Point<dim>> queries;
+    for (const unsigned int p : groups.points)
+      queries.push_back(store.order()[p]->get_location());
+    std::vector<double> F_g_nearest;
+    if (growth.present)
+      F_g_nearest = nearest_growth(queries, tissue, growth);
+
+    std::vector<typename Nitsche<dim>::Condition> list;
+    std::vector<ElasticState<dim>>                current, previous;
+    const auto tensor = [&](const std::size_t first) {
+      Tensor<2, dim> F_g;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          F_g[d][e] = F_g_nearest[first + d * dim + e];
+      return F_g;
+    };
+    for (std::size_t k = 0; k < groups.points.size(); ++k)
+      {
+        const BoundaryView<dim> point =
+          view<dim>(store.order()[groups.points[k]]);
+        const Point<dim>     x = queries[k], X = point.initial_position();
+        Point<dim>           target = X;
+        if (point.condition() == SurfaceCondition::fixed)
+          target += conditions.displacement(X, t);
+        const Tensor<1, dim> area = point.area_vector();
+        const double         E    = material.youngs_modulus(X);
+
+        typename Nitsche<dim>::Condition condition;
+        condition.projection     = projection(point);
+        condition.gap            = condition.projection * (x - target);
+        condition.position_scale = std::max(x.norm(), target.norm());
+        condition.area           = area.norm();
+        condition.normal         = area / area.norm();
+        condition.lame           = material.lame_at(X);
+        condition.penalty =
+          std::max(conditions.penalty() * E,
+                   least_penalty *
+                     (condition.lame.lambda + 2. * condition.lame.mu)) /
+          space.box().spacing();
+        list.push_back(condition);
+
+        const Tensor<2, dim> F = point.deformation();
+        if (!growth.present)
+          current.push_back(state(F,
+                                  Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                                  material.per_grown_volume()));
+        else
+          {
+            const std::size_t row = k * 2 * dim * dim;
+            previous.push_back(
+              state(F, tensor(row), material.per_grown_volume()));
+            current.push_back(state(F,
+                                    tensor(row + dim * dim),
+                                    material.per_grown_volume()));
+          }
+      }
+    return std::make_unique<Nitsche<dim>>(positions(tissue, space, groups),
+                                     std::move(list),
+                                     std::move(current),
+                                     std::move(previous));
+  }
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  traction_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t)
+  {
+    const PointGroups           groups = loaded_points(tissue, space);
+    std::vector<Tensor<1, dim>> forces;
+    for (const unsigned int p : groups.points)
+      {
+        const auto point = view<dim>(tissue.boundary_points().order()[p]);
+        forces.push_back(point.initial_area() *
+                         conditions.traction(point.initial_position(), t));
+      }
+    return std::make_unique<DeadLoad<dim>>(positions(tissue, space, groups),
+                                           std::move(forces));
+  }
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  pressure_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t)
+  {
+    const PointGroups groups = loaded_points(tissue, space);
+    std::vector<typename FollowingPressure<dim>::Load> loads;
+    for (const unsigned int p : groups.points)
+      {
+        const auto point = view<dim>(tissue.boundary_points().order()[p]);
+        loads.push_back({conditions.pressure(point.initial_position(), t),
+                         point.area_vector()});
+      }
+    return std::make_unique<FollowingPressure<dim>>(
+      positions(tissue, space, groups), std::move(loads));
   }
 
   template <int dim>
@@ -245,17 +246,27 @@ namespace Morula
     return list;
   }
 
-#define INSTANTIATE(dim)                                                       \
-  template void add_boundary_terms(const BoundaryConditions<dim> &,            \
-                                   const BoundaryMaterial &,                   \
-                                   const Tissue<dim> &,                        \
-                                   const SplineSpace<dim> &,                   \
-                                   const GrowthOfStep<dim> &,                  \
-                                   const double,                               \
-                                   std::vector<std::unique_ptr<Term<dim>>> &); \
-  template std::vector<typename RigidModes<dim>::Support> supports(            \
-    const BoundaryConditions<dim> &,                                           \
-    const Tissue<dim> &,                                                       \
+#define INSTANTIATE(dim)                                            \
+  template std::unique_ptr<Term<dim>> nitsche_term(                 \
+    const BoundaryConditions<dim> &,                                \
+    const TissueMaterial &,                                         \
+    const Tissue<dim> &,                                            \
+    const SplineSpace<dim> &,                                       \
+    const GrowthOfStep<dim> &,                                      \
+    const double);                                                  \
+  template std::unique_ptr<Term<dim>> traction_term(                \
+    const BoundaryConditions<dim> &,                                \
+    const Tissue<dim> &,                                            \
+    const SplineSpace<dim> &,                                       \
+    const double);                                                  \
+  template std::unique_ptr<Term<dim>> pressure_term(                \
+    const BoundaryConditions<dim> &,                                \
+    const Tissue<dim> &,                                            \
+    const SplineSpace<dim> &,                                       \
+    const double);                                                  \
+  template std::vector<typename RigidModes<dim>::Support> supports( \
+    const BoundaryConditions<dim> &,                                \
+    const Tissue<dim> &,                                            \
     const SplineSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -91,9 +91,6 @@ namespace Morula
     std::optional<unsigned int> best;
     double                      best_sum = std::numeric_limits<double>::max();
     std::size_t                 n_before = 0;
-    // A block one or two grid cells farther can beat a nearer one on the
-    // diagonal (Σ|e| = 17 against 7·7·7); beyond that none.
-    unsigned int n_more = 2;
     for (int radius = 2;; ++radius)
       {
         const auto list = connected(spline, radius);
@@ -107,7 +104,10 @@ namespace Morula
                   best_sum = sum;
                 }
             }
-        if (best ? n_more-- == 0 : (radius > 2 && list.size() == n_before))
+        // A farther block can beat a nearer one on the diagonal (Σ|e| = 17
+        // against 7·7·7); those outside of this window have at least this sum.
+        const double least = 2. * (radius + 1) * (radius + 1) - 1.;
+        if (best_sum < least || (radius > 2 && list.size() == n_before))
           return best;
         n_before = list.size();
       }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/grid/occupancy.h>
+#include <morula/grid/particle_domain.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,21 +18,16 @@ namespace Morula
   Occupancy<dim>::Occupancy(const GridBox<dim> &box)
     : box_(box)
     , volumes(box.size(), 0)
-    , particles(box.size(), 0)
-    , boundary_points(box.size(), 0)
+    , quadrature_points(box.size(), 0)
+    , others(box.size(), 0)
   {}
 
   template <int dim>
   void
   Occupancy<dim>::add_particle(const Point<dim> &x, const double V)
   {
-    const double half = 0.5 * std::pow(V, 1. / dim);
-    Point<dim>   lower = x, upper = x;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] -= half;
-        upper[d] += half;
-      }
+    const ParticleDomain<dim> domain(x, V);
+    const Point<dim>          lower = domain.lower(), upper = domain.upper();
     GridIndex<dim> first = box_.locate(lower), last = box_.locate(upper);
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -51,21 +47,26 @@ namespace Morula
                      box_.spacing();
         volumes[number] += std::llround(overlap * resolution);
       });
-    ++particles[box_.number(box_.locate(x))];
+    domain.for_quadrature_points(domain.n_per_direction(box_.spacing()),
+                                 [&](const Point<dim> &point) {
+                                   ++quadrature_points[box_.number(
+                                     box_.locate(point))];
+                                 });
+    ++others[box_.number(box_.locate(x))];
   }
 
   template <int dim>
   void
   Occupancy<dim>::add_boundary_point(const Point<dim> &x)
   {
-    ++boundary_points[box_.number(box_.locate(x))];
+    ++others[box_.number(box_.locate(x))];
   }
 
   template <int dim>
   void
   Occupancy<dim>::sum(const MPI_Comm comm)
   {
-    for (auto *table : {&volumes, &particles, &boundary_points})
+    for (auto *table : {&volumes, &quadrature_points, &others})
       Utilities::MPI::sum(*table, comm, *table);
   }
 
@@ -78,16 +79,16 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  Occupancy<dim>::n_particles(const unsigned int number) const
+  Occupancy<dim>::n_quadrature_points(const unsigned int number) const
   {
-    return particles[number];
+    return quadrature_points[number];
   }
 
   template <int dim>
   bool
   Occupancy<dim>::active(const unsigned int number) const
   {
-    return particles[number] > 0 || boundary_points[number] > 0;
+    return quadrature_points[number] > 0 || others[number] > 0;
   }
 
   template <int dim>
@@ -117,7 +118,7 @@ namespace Morula
         const double threshold = occupation_parameter * std::min(1., largest);
         const bool   inner =
           occupancy.fill(number) >= threshold - 1e-9 &&
-          occupancy.n_particles(number) >= (1u << dim);
+          occupancy.n_quadrature_points(number) >= (1u << dim);
         classes[number] = inner ? GridCellClass::inner : GridCellClass::cut;
       }
     return classes;

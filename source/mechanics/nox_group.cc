@@ -73,7 +73,13 @@ namespace Morula
   {
     // Inversion is no failure: NOX would stop. It shows as infinite energy.
     if (!has_residual)
-      evaluation_ = problem.residual(u.values, R.values);
+      {
+        evaluation_ = problem.residual(u.values, R.values);
+        // Nothing balances a force along an unsupported motion, and nothing
+        // moves along it: what counts is the rest.
+        for (const Equilibrium::Vector &direction : problem.null_space())
+          R.values.add(-(R.values * direction), direction);
+      }
     has_residual = true;
     return Ok;
   }

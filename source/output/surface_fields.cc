@@ -2,37 +2,10 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/output/surface_fields.h>
+#include <morula/particles/boundary_state.h>
 
 namespace Morula
 {
-  namespace
-  {
-    template <int dim>
-    Tensor<1, dim>
-    vector_at(const ArrayView<const double> &properties, const unsigned slot)
-    {
-      Tensor<1, dim> v;
-      for (unsigned int d = 0; d < dim; ++d)
-        v[d] = properties[slot + d];
-      return v;
-    }
-  } // namespace
-
-  template <int dim>
-  Tensor<1, dim>
-  current_area_vector(const ArrayView<const double> &properties)
-  {
-    using Slots = BoundarySlots<dim>;
-    Tensor<2, dim> F;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        F[i][j] = properties[Slots::deformation + i * dim + j];
-
-    return determinant(F) * properties[Slots::initial_area] *
-           (transpose(invert(F)) *
-            vector_at<dim>(properties, Slots::initial_normal));
-  }
-
   template <int dim>
   SurfaceFields<dim>::SurfaceFields(const double time)
     : time(time)
@@ -61,12 +34,10 @@ namespace Morula
                           const ArrayView<const double> &properties,
                           const Point<dim>              &position)
   {
-    using Slots                      = BoundarySlots<dim>;
-    const Tensor<1, dim> area_vector = current_area_vector<dim>(properties);
-    const double         area        = area_vector.norm();
-    const Tensor<1, dim> normal      = area_vector / area;
-    const Tensor<1, dim> initial_position =
-      vector_at<dim>(properties, Slots::initial_position);
+    const BoundaryView<dim> point(properties);
+    const Tensor<1, dim>    area_vector = point.area_vector();
+    const double            area        = area_vector.norm();
+    const Tensor<1, dim>    normal      = area_vector / area;
 
     std::vector<double> &values = table.values;
     table.ids.push_back(id);
@@ -75,18 +46,13 @@ namespace Morula
     values.push_back(time);
     values.push_back(id);
     table.add_vector(position);
-    table.add_vector(initial_position);
+    table.add_vector(point.initial_position());
     table.add_vector(normal);
     values.push_back(area);
-    values.push_back(properties[Slots::condition]);
+    values.push_back(static_cast<int>(point.condition()));
     table.add_vector(normal);
-    table.add_vector(position - initial_position);
+    table.add_vector(position - point.initial_position());
   }
-
-  template Tensor<1, 2>
-  current_area_vector<2>(const ArrayView<const double> &);
-  template Tensor<1, 3>
-  current_area_vector<3>(const ArrayView<const double> &);
 
   template class SurfaceFields<2>;
   template class SurfaceFields<3>;

@@ -181,7 +181,7 @@ namespace Morula
     const Header header = read_header<dim>(stream);
     throw_first(header.problem, file, comm);
 
-    PointRows<dim>      rows = read_share(stream, header, default_volume, comm);
+    PointRows<dim> rows = read_share<dim>(stream, header, default_volume, comm);
     const std::uint64_t lines_before =
       header.line + sum_below(rows.n_lines, comm);
     for (std::uint64_t &line : rows.lines)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/grid/particle_domain.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,6 +26,24 @@ namespace Morula
     , cells_(slots.n_slots)
     , boundary_points_(BoundarySlots<dim>::n_slots)
   {}
+
+  template <int dim>
+  std::vector<Point<dim>>
+  Tissue<dim>::domain_corners(const PointList<dim> &cells) const
+  {
+    std::vector<Point<dim>> corners;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        const CellView<dim, const double> state(
+          ArrayView<const double>(&cells.properties[i * cells.n_slots],
+                                  cells.n_slots),
+          slots_);
+        const ParticleDomain<dim> domain(cells.positions[i], volume(state));
+        corners.push_back(domain.lower());
+        corners.push_back(domain.upper());
+      }
+    return corners;
+  }
 
   template <int dim>
   bool
@@ -54,8 +73,9 @@ namespace Morula
   {
     cells_.take();
     boundary_points_.take();
+    const std::vector<Point<dim>> corners = domain_corners(cells);
     const auto [first, last] =
-      extent<dim>({&cells.positions, &boundary_points.positions}, grid_);
+      extent<dim>({&corners, &boundary_points.positions}, grid_);
     bool made_anew = !grid_.covers(first, last);
     if (made_anew)
       grid_.enclose(first, last);
@@ -101,7 +121,8 @@ namespace Morula
     const PointList<dim>                                  &daughters)
   {
     // Daughters stand next to their mothers, but that may be the box's edge.
-    const auto [first, last] = extent<dim>({&daughters.positions}, grid_);
+    const std::vector<Point<dim>> corners = domain_corners(daughters);
+    const auto [first, last]              = extent<dim>({&corners}, grid_);
     if (!grid_.covers(first, last))
       {
         PointList<dim> all = daughters;
@@ -127,12 +148,8 @@ namespace Morula
   {
     Occupancy<dim> occupancy(grid_.box());
     for (const auto &particle : cells_.order())
-      {
-        const CellView<dim, const double> state = cell(particle);
         occupancy.add_particle(particle->get_location(),
-                               state.initial_volume() *
-                                 determinant(state.deformation()));
-      }
+                               volume(cell(particle)));
     for (const auto &point : boundary_points_.order())
       occupancy.add_boundary_point(point->get_location());
     occupancy.sum(grid_.communicator());

@@ -3,6 +3,7 @@
 
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
+#include <morula/particles/boundary_state.h>
 
 #include <gtest/gtest.h>
 
@@ -278,7 +279,8 @@ TEST(SurfaceFields, AreLengthsInTwoDimensions)
   data[Slots::deformation + 1] = 1.;
   data[Slots::deformation + 3] = 3.;
   const auto vector =
-    current_area_vector<2>(ArrayView<const double>(data.data(), data.size()));
+    BoundaryView<2>(ArrayView<const double>(data.data(), data.size()))
+      .area_vector();
   EXPECT_NEAR(vector[0], 6., 1e-15);
   EXPECT_NEAR(vector[1], -2., 1e-15);
 }

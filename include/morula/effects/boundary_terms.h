@@ -9,6 +9,7 @@
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
+#include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>
@@ -16,28 +17,34 @@
 
 namespace Morula
 {
-  /** What the boundary terms need to know of the material. */
-  struct BoundaryMaterial
-  {
-    Expression youngs_modulus; // kPa, of the initial position
-    double     poissons_ratio;
-    bool       per_grown_volume;
-  };
-
   /**
-   * The boundary terms of one step up to time @p t: Nitsche's for fixed and
-   * slip points, dead traction, following pressure; only those that the scene
-   * calls for. Collective.
+   * Nitsche's term for the fixed and slip points, over the step up to time
+   * @p t. Collective.
    */
   template <int dim>
-  void
-  add_boundary_terms(const BoundaryConditions<dim>           &conditions,
-                     const BoundaryMaterial                  &material,
-                     const Tissue<dim>                       &tissue,
-                     const SplineSpace<dim>                  &space,
-                     const GrowthOfStep<dim>                 &growth,
-                     const double                             t,
-                     std::vector<std::unique_ptr<Term<dim>>> &terms);
+  std::unique_ptr<Term<dim>>
+  nitsche_term(const BoundaryConditions<dim> &conditions,
+               const TissueMaterial          &material,
+               const Tissue<dim>             &tissue,
+               const SplineSpace<dim>        &space,
+               const GrowthOfStep<dim>       &growth,
+               const double                   t);
+
+  /** Dead traction on the loaded points at time @p t. */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  traction_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t);
+
+  /** Following pressure on the loaded points at time @p t. */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  pressure_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t);
 
   /** The fixed and slip points of this rank. */
   template <int dim>

@@ -13,7 +13,7 @@ namespace Morula
 {
   /**
    * Prescribed positions of boundary points by Nitsche's method in total-gap
-   * form (numerics: section 4):
+   * form (doc/theory.md, section 4):
    *
    *   Π = Σ a_t (β/2 g·g - T·g), g = M (x_t + u - x̄),
    *

@@ -29,7 +29,10 @@ namespace Morula
   public:
     explicit Occupancy(const GridBox<dim> &box);
 
-    /** Adds a particle at @p x with current volume @p V (µm^dim). */
+    /**
+     * Adds a particle at @p x with current volume @p V (µm^dim), and its
+     * quadrature points (see ParticleDomain).
+     */
     void
     add_particle(const Point<dim> &x, const double V);
 
@@ -45,9 +48,10 @@ namespace Morula
     fill(const unsigned int number) const;
 
     unsigned int
-    n_particles(const unsigned int number) const;
+    n_quadrature_points(const unsigned int number) const;
 
-    /** Whether the grid cell holds a particle or a boundary point. */
+    /** Whether the grid cell holds a particle, a quadrature point or a
+     *  boundary point. */
     bool
     active(const unsigned int number) const;
 
@@ -57,11 +61,11 @@ namespace Morula
   private:
     GridBox<dim>              box_;
     std::vector<std::int64_t> volumes;
-    std::vector<std::int64_t> particles;
-    std::vector<std::int64_t> boundary_points;
+    std::vector<std::int64_t> quadrature_points;
+    std::vector<std::int64_t> others; // particles and boundary points
   };
 
-  /** What a grid cell is to the splines (numerics: section 3). */
+  /** What a grid cell is to the splines (doc/theory.md, section 3). */
   enum class GridCellClass : char
   {
     inactive,
@@ -72,7 +76,7 @@ namespace Morula
   /**
    * Classifies the grid cells of the box: *inner* is an active grid cell whose
    * fill is at least C_C min(1, largest fill among it and its neighbours) and
-   * that holds at least 2^dim particles; the minimum lets thin sheets and
+   * that holds at least 2^dim quadrature points; the minimum lets thin sheets and
    * small clusters have inner grid cells.
    */
   template <int dim>

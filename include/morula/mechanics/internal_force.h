@@ -11,7 +11,7 @@ namespace Morula
 {
   /**
    * The internal virtual work Σ_p W τ : ∇δu of the neo-Hookean tissue, its
-   * energy Σ_p W Ψ and its tangent (numerics: section 2):
+   * energy Σ_p W Ψ and its tangent (doc/theory.md, section 2):
    *
    *   R_a = Σ_p W τ g_a, g_a = f⁻ᵀ ∇N_a,
    *   K_ab^ij = Σ_p W [λ g_a^i g_b^j + (μ - λ ln J_e) g_a^j g_b^i

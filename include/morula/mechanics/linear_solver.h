@@ -17,11 +17,13 @@ namespace Morula
   /**
    * Solves the linear systems of one step. Symmetric systems go to a conjugate
    * gradient method that reacts to negative curvature, with an incomplete
-   * Cholesky factorisation that is made once a step and kept (numerics:
-   * section 8); where that is not positive, Jacobi. Unsymmetric systems
-   * (following pressure) go to GMRES with an incomplete LU factorisation.
-   * Along the problem's null space nothing is solved for: there rounding could
-   * pass for negative curvature.
+   * Cholesky factorisation that is made once a step and kept
+   * (doc/theory.md, section 5); where that is not positive, Jacobi.
+   * Unsymmetric systems (following pressure) go to GMRES with an incomplete LU
+   * factorisation. Along the problem's null space nothing is solved for: there
+   * rounding could pass for negative curvature.
+   * `automatic` does the same, and turns to the direct solver for a system that
+   * this cannot solve.
    * `direct` uses MUMPS, or KLU where Trilinos lacks it.
    */
   class LinearSolver
@@ -52,11 +54,19 @@ namespace Morula
           const double  tolerance);
 
   private:
-    unsigned int
-    solve_symmetric(const Matrix &K, Vector &x, const Vector &b, double tol);
+    void
+    solve_symmetric(const Matrix &K,
+                    Vector       &x,
+                    const Vector &b,
+                    const double  tolerance,
+                    unsigned int &iterations);
 
-    unsigned int
-    solve_unsymmetric(const Matrix &K, Vector &x, const Vector &b, double tol);
+    void
+    solve_unsymmetric(const Matrix &K,
+                      Vector       &x,
+                      const Vector &b,
+                      const double  tolerance,
+                      unsigned int &iterations);
 
     unsigned int
     solve_direct(const Matrix &K, Vector &x, const Vector &b);
@@ -69,6 +79,7 @@ namespace Morula
     project(Vector &x) const;
 
     const bool                                       direct;
+    const bool                                       automatic;
     const Equilibrium                               &problem;
     const bool                                       symmetric;
     TimerOutput                                     &timer;

@@ -44,8 +44,8 @@ namespace Morula
   };
 
   /**
-   * The particles as quadrature points of one step (numerics: section 2). The
-   * configuration at t is the reference.
+   * The particles as quadrature points of one step (doc/theory.md, section 2).
+   * The configuration at t is the reference.
    */
   template <int dim>
   struct MaterialPoints : public GroupedPoints<dim>

@@ -19,8 +19,8 @@ namespace Morula
    * of grid cells to it. Rows that this rank owns are written straight into
    * the matrix's own arrays through a table of positions that is made once a
    * step: TrilinosWrappers' add() searches every entry again, which costs more
-   * than all the particles at fine grids (numerics: section 8). Rows of other
-   * ranks go through add().
+   * than all the particles at fine grids (doc/theory.md, section 3). Rows of
+   * other ranks go through add().
    */
   template <int dim>
   class MatrixScatter

@@ -21,7 +21,7 @@ namespace Morula
   /**
    * The momentum balance of one step: the sum of the scene's terms over the
    * active grid cells, condensed to the unknown splines inside each grid cell
-   * (numerics: sections 2 and 3).
+   * (doc/theory.md, sections 2 and 3).
    */
   template <int dim>
   class MomentumBalance : public Equilibrium

@@ -22,7 +22,7 @@ namespace Morula
 
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
-   * NOX), starting from u = 0 (numerics: section 5):
+   * NOX), starting from u = 0 (doc/theory.md, section 5):
    * - the first tangent is taken at the growth of the step's beginning;
    * - conservative problems: backtracking on the energy with Armijo's rule,
    *   which rejects inversion (infinite energy) and tolerates rounding; others:

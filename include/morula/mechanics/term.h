@@ -16,7 +16,7 @@ namespace Morula
   /**
    * Which growth a linearisation is taken at. The residual always has the
    * growth at t + dt; the first tangent of a step is taken at the growth at t
-   * (numerics: section 5).
+   * (doc/theory.md, section 5).
    */
   enum class GrowthAt
   {

@@ -13,14 +13,6 @@
 namespace Morula
 {
   /**
-   * Current area times outward unit normal, a n = det F F⁻ᵀ a⁰ N (11), of a
-   * boundary point with these properties (layout BoundarySlots), µm^(dim-1).
-   */
-  template <int dim>
-  Tensor<1, dim>
-  current_area_vector(const ArrayView<const double> &properties);
-
-  /**
    * The table behind surface-NNNN.csv and surface-NNNN.vtu. The latter also
    * gets normal and displacement as vectors.
    */

@@ -208,6 +208,22 @@ namespace Morula
     const CellSlots<dim> &slots;
   };
 
+  /** V = V⁰ det F, equation (8) of the paper, µm^dim. */
+  template <int dim, typename Number>
+  double
+  volume(const CellView<dim, Number> &cell)
+  {
+    return cell.initial_volume() * determinant(cell.deformation());
+  }
+
+  /** J_e = det F / det F_g. */
+  template <int dim, typename Number>
+  double
+  elastic_volume_ratio(const CellView<dim, Number> &cell)
+  {
+    return determinant(cell.deformation()) / determinant(cell.growth());
+  }
+
   /**
    * The property array of a boundary point: the same for every scene.
    */

@@ -73,6 +73,10 @@ namespace Morula
     communicator() const;
 
   private:
+    /** Corners of the cells' domains: the grid must reach as far. */
+    std::vector<Point<dim>>
+    domain_corners(const PointList<dim> &cells) const;
+
     bool
     balanced(const std::vector<unsigned int> &counts) const;
 

@@ -35,7 +35,7 @@ namespace Morula
             {particle->get_id(),
              particle->get_location(),
              cycle.placement_axis(CycleState<dim>::load(cell), F_e),
-             std::pow(cell.initial_volume() * determinant(F), 1. / dim)});
+             std::pow(volume(cell), 1. / dim)});
         }
       return list;
     }
@@ -59,12 +59,14 @@ namespace Morula
       return points;
     }
 
-    /** Fixed and slip boundary points of this rank and those within reach. */
+    /** Fixed and slip boundary points of this rank, and those of others whose
+     *  wall a ray of length @p longest may hit. */
     template <int dim>
     std::vector<WallPoint<dim>>
-    walls(const Tissue<dim> &tissue, const double reach)
+    walls(const Tissue<dim> &tissue, const double longest)
     {
       PointList<dim> points;
+      double         largest_area = 0.;
       points.n_slots = dim;
       for (const auto &particle : tissue.boundary_points().order())
         {
@@ -75,11 +77,16 @@ namespace Morula
           points.ids.push_back(particle->get_id());
           points.positions.push_back(particle->get_location());
           const Tensor<1, dim> area = point.area_vector();
+          largest_area              = std::max(largest_area, area.norm());
           for (unsigned int d = 0; d < dim; ++d)
             points.properties.push_back(area[d]);
         }
       std::vector<WallPoint<dim>> list;
-      const PointList<dim>        others = halo(points, tissue.grid(), reach);
+      largest_area = Utilities::MPI::max(largest_area, tissue.communicator());
+      const PointList<dim> others =
+        halo(points,
+             tissue.grid(),
+             longest + std::pow(largest_area, 1. / (dim - 1)));
       for (const PointList<dim> *from :
            std::array<const PointList<dim> *, 2>{{&points, &others}})
         for (std::size_t i = 0; i < from->size(); ++i)
@@ -131,7 +138,7 @@ namespace Morula
     const auto           distances = daughter_distances(dividing,
                                               neighbors.ids,
                                               neighbors.positions,
-                                              walls(tissue, 2. * longest));
+                                              walls(tissue, longest));
 
     std::vector<DivisionEvent>                      events;
     std::vector<typename PointStore<dim>::Iterator> mothers;

@@ -72,14 +72,6 @@ namespace Morula
     std::optional<IsotropicGrowth> isotropic;
     std::optional<CellCycle<dim>>  cycle_;
   };
-
-  /** J_e = det F / det F_g. */
-  template <int dim, typename Number>
-  double
-  elastic_volume_ratio(const CellView<dim, Number> &cell)
-  {
-    return determinant(cell.deformation()) / determinant(cell.growth());
-  }
 } // namespace Morula
 
 #endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_tissue_material_h
+#define morula_mechanics_tissue_material_h
+
+#include <morula/expression.h>
+#include <morula/mechanics/material.h>
+
+namespace Morula
+{
+  /** The material of the tissue, by initial position. */
+  class TissueMaterial
+  {
+  public:
+    /** @throws InputError for an expression that cannot be parsed */
+    explicit TissueMaterial(const MaterialParameters &parameters)
+      : E("Material/Young's modulus", parameters.youngs_modulus)
+      , nu(parameters.poissons_ratio)
+      , per_grown_volume_(parameters.per_grown_volume())
+    {}
+
+    /** Whether it is the same everywhere. */
+    bool
+    is_uniform() const
+    {
+      return E.is_constant();
+    }
+
+    /** Young's modulus at the initial position @p X (µm), kPa. */
+    template <int dim>
+    double
+    youngs_modulus(const Point<dim> &X) const
+    {
+      return E.value(X, 0.);
+    }
+
+    /** Lamé's constants at the initial position @p X (µm). */
+    template <int dim>
+    Lame
+    lame_at(const Point<dim> &X) const
+    {
+      return lame(youngs_modulus(X), nu);
+    }
+
+    /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
+    bool
+    per_grown_volume() const
+    {
+      return per_grown_volume_;
+    }
+
+  private:
+    Expression E;
+    double     nu;
+    bool       per_grown_volume_;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_body_on_grid_h
+#define morula_tests_body_on_grid_h
+
+#include <morula/grid/spline_space.h>
+#include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/material_points.h>
+#include <morula/particles/point_store.h>
+#include <morula/particles/tissue.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace Morula
+{
+  /** Calls @p check for both dimensions, with the dimension in the messages. */
+#define MORULA_BOTH_DIMENSIONS(check) \
+  {                                   \
+    SCOPED_TRACE("2-D");              \
+    check<2>();                       \
+  }                                   \
+  {                                   \
+    SCOPED_TRACE("3-D");              \
+    check<3>();                       \
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  unit_tensor()
+  {
+    return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+  }
+
+  /** Components in [-1, 1]. */
+  template <int rank, int dim>
+  Tensor<rank, dim>
+  random_tensor(std::mt19937 &generator)
+  {
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    Tensor<rank, dim>                      t;
+    if constexpr (rank == 1)
+      for (unsigned int d = 0; d < dim; ++d)
+        t[d] = uniform(generator);
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+        t[d] = random_tensor<rank - 1, dim>(generator);
+    return t;
+  }
+
+  /** The points of a lattice for which @p inside holds, within @p reach of
+   *  @p center. */
+  template <int dim, typename Inside>
+  std::vector<Point<dim>>
+  lattice_points(const Point<dim> &center,
+                 const double      reach,
+                 const double      spacing,
+                 const Inside     &inside)
+  {
+    const int               n = static_cast<int>(std::ceil(reach / spacing));
+    std::vector<Point<dim>> points;
+    for (int k = dim == 3 ? -n : 0; k <= (dim == 3 ? n : 0); ++k)
+      for (int j = -n; j <= n; ++j)
+        for (int i = -n; i <= n; ++i)
+          {
+            const int  index[3] = {i, j, k};
+            Point<dim> x        = center;
+            for (unsigned int d = 0; d < dim; ++d)
+              x[d] += (index[d] + 0.5) * spacing;
+            if (inside(x))
+              points.push_back(x);
+          }
+    return points;
+  }
+
+  template <int dim>
+  std::vector<Point<dim>>
+  ball_points(const Point<dim> &center,
+              const double      radius,
+              const double      spacing)
+  {
+    return lattice_points<dim>(center, radius, spacing, [&](const auto &x) {
+      return x.distance(center) < radius;
+    });
+  }
+
+  /**
+   * A background grid with particles of volume @p V each, the same lists on all
+   * ranks, and the splines around them.
+   */
+  template <int dim>
+  struct BodyOnGrid
+  {
+    BodyOnGrid(const std::vector<Point<dim>> &particles,
+               const double                   V,
+               const GridParameters          &parameters = GridParameters(),
+               const std::vector<Point<dim>> &boundary   = {},
+               const MPI_Comm                 comm       = MPI_COMM_WORLD)
+      : particles(particles)
+      , boundary(boundary)
+      , comm(comm)
+      , grid(parameters, comm)
+    {
+      const auto [first, last] = extent<dim>({&particles, &boundary}, grid);
+      grid.enclose(first, last);
+      // All ranks count all particles.
+      std::vector<unsigned int> weights(grid.box().size(), 0);
+      for (const Point<dim> &x : particles)
+        ++weights[grid.box().number(grid.box().locate(x))];
+      grid.partition(weights);
+      Occupancy<dim> occupancy(grid.box());
+      if (Utilities::MPI::this_mpi_process(comm) == 0)
+        {
+          for (const Point<dim> &x : particles)
+            occupancy.add_particle(x, V);
+          for (const Point<dim> &x : boundary)
+            occupancy.add_boundary_point(x);
+        }
+      occupancy.sum(comm);
+      space.emplace(grid, occupancy, parameters);
+    }
+
+    /** Those of @p points in active grid cells of this rank. */
+    PointGroups
+    group(const std::vector<Point<dim>> &points) const
+    {
+      std::map<unsigned int, std::vector<unsigned int>> by_cell;
+      for (unsigned int i = 0; i < points.size(); ++i)
+        by_cell[grid.box().number(grid.box().locate(points[i]))].push_back(i);
+      PointGroups groups;
+      groups.offsets.push_back(0);
+      for (const auto &cell : space->cells())
+        {
+          const auto &list = by_cell[cell.number];
+          groups.points.insert(groups.points.end(), list.begin(), list.end());
+          groups.offsets.push_back(groups.points.size());
+        }
+      return groups;
+    }
+
+    GroupedPoints<dim>
+    grouped(const std::vector<Point<dim>> &points,
+            const PointGroups             &groups) const
+    {
+      GroupedPoints<dim> result;
+      result.offsets = groups.offsets;
+      result.h       = grid.box().spacing();
+      for (const unsigned int i : groups.points)
+        result.xi.push_back(
+          grid.box().unit_position(points[i], grid.box().locate(points[i])));
+      return result;
+    }
+
+    /** All pieces' coefficients of the affine field a + A x: field(centre). */
+    std::vector<double>
+    affine(const Tensor<1, dim> &a, const Tensor<2, dim> &A) const
+    {
+      std::vector<double> sum(space->owned_dofs().n_elements(), 0.);
+      for (unsigned int piece = 0; piece < space->n_pieces(); ++piece)
+        {
+          const auto part = space->affine_coefficients(piece, a, A);
+          for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += part[i];
+        }
+      return sum;
+    }
+
+    /**
+     * The coefficient vector with value(centre of the spline) at each unknown
+     * spline. Not for pieces without inner grid cells.
+     */
+    template <typename Value>
+    Equilibrium::Vector
+    interpolate(const Value &value) const
+    {
+      const std::vector<double> centers =
+        affine(Tensor<1, dim>(), unit_tensor<dim>());
+      std::vector<double> values(centers.size());
+      for (std::size_t s = 0; s < centers.size() / dim; ++s)
+        {
+          Point<dim> center;
+          for (unsigned int d = 0; d < dim; ++d)
+            center[d] = centers[s * dim + d];
+          const Tensor<1, dim> v = value(center);
+          for (unsigned int d = 0; d < dim; ++d)
+            values[s * dim + d] = v[d];
+        }
+      return vector_of(values);
+    }
+
+    /** @param values of owned_dofs(), in order */
+    Equilibrium::Vector
+    vector_of(const std::vector<double> &values) const
+    {
+      Equilibrium::Vector vector(space->owned_dofs(), comm);
+      std::copy(values.begin(), values.end(), vector.begin());
+      vector.compress(VectorOperation::insert);
+      return vector;
+    }
+
+    /** The field on each active grid cell of this rank, straight from the
+     *  weights of SplineSpace::cells(). */
+    std::vector<LocalField<dim>>
+    fields(const Equilibrium::Vector &u) const
+    {
+      constexpr unsigned int n = BSpline<dim>::n;
+      Equilibrium::Vector    ghosted(space->owned_dofs(),
+                                  space->relevant_dofs(),
+                                  comm);
+      ghosted = u;
+      std::vector<LocalField<dim>> result;
+      for (const auto &cell : space->cells())
+        {
+          const unsigned int m = cell.unknowns.size();
+          LocalField<dim>    field;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int a = 0; a < n; ++a)
+              {
+                field.coefficient[i][a] = 0.;
+                for (unsigned int s = 0; s < m; ++s)
+                  {
+                    const double weight = cell.weights.empty() ?
+                                            (s == a ? 1. : 0.) :
+                                            cell.weights[a * m + s];
+                    if (weight != 0.)
+                      field.coefficient[i][a] +=
+                        weight *
+                        ghosted(
+                          space->relevant().nth_index_in_set(cell.unknowns[s]) *
+                            dim +
+                          i);
+                  }
+              }
+          result.push_back(field);
+        }
+      return result;
+    }
+
+    /** Calls visit(i, field, splines) for those of @p points on this rank. */
+    template <typename Visit>
+    void
+    at_points(const std::vector<Point<dim>> &points,
+              const Equilibrium::Vector     &u,
+              const Visit                   &visit) const
+    {
+      const PointGroups        groups = group(points);
+      const GroupedPoints<dim> list   = grouped(points, groups);
+      const auto               all    = fields(u);
+      for (unsigned int c = 0; c < all.size(); ++c)
+        for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
+          visit(groups.points[k],
+                all[c],
+                SplineValues<dim>(list.xi[k], list.h));
+    }
+
+    const std::vector<Point<dim>>   particles, boundary;
+    const MPI_Comm                  comm;
+    BackgroundGrid<dim>             grid;
+    std::optional<SplineSpace<dim>> space;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,295 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/boundary_terms.h>
+#include <morula/mechanics/neo_hookean.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "small_tissue.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr double area = 30.; // a⁰
+
+  TissueMaterial
+  material(const std::string &E, const double nu, const bool grown = false)
+  {
+    MaterialParameters parameters;
+    parameters.youngs_modulus = E;
+    parameters.poissons_ratio = nu;
+    parameters.energy_per     = grown ? "grown volume" : "initial volume";
+    return TissueMaterial(parameters);
+  }
+
+  /**
+   * A ball with boundary points where the axes leave it, each with its
+   * condition. Points are displaced by @p moved from their initial positions,
+   * and have the deformation gradient @p F.
+   */
+  template <int dim>
+  struct Problem
+  {
+    const BoundaryConditions<dim>     conditions;
+    const CellGrowth<dim>             growth;
+    Tissue<dim>                       tissue;
+    std::unique_ptr<SplineSpace<dim>> space;
+
+    Problem(const BoundaryConditionParameters &parameters,
+            const CellGrowth<dim>             &growth,
+            const Tensor<1, dim>              &moved = Tensor<1, dim>(),
+            const Tensor<2, dim>              &F     = unit_tensor<dim>())
+      : conditions(parameters)
+      , growth(growth)
+      , tissue(GridParameters(),
+               CellSlots<dim>(growth.present(), false),
+               MPI_COMM_WORLD)
+    {
+      PointList<dim> boundary;
+      boundary.n_slots = BoundarySlots<dim>::n_slots;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const int sign : {-1, 1})
+          {
+            Tensor<1, dim> N;
+            N[d] = sign;
+            const Point<dim> X(90. * N);
+            auto slots =
+              initial_boundary_slots(X, N, area, conditions.condition(X, N));
+            deform_boundary_point<dim>(make_array_view(slots), F);
+            boundary.ids.push_back(boundary.ids.size());
+            boundary.positions.push_back(X + moved);
+            boundary.properties.insert(boundary.properties.end(),
+                                       slots.begin(),
+                                       slots.end());
+          }
+      tissue.place(
+        only_first_rank(founders(ball_points(Point<dim>(), 88., 20.),
+                                 std::pow(20., dim),
+                                 tissue.slots(),
+                                 growth,
+                                 [](const auto &) { return unit_tensor<dim>(); }),
+                        MPI_COMM_WORLD),
+        only_first_rank(boundary, MPI_COMM_WORLD));
+      space = std::make_unique<SplineSpace<dim>>(tissue.splines());
+    }
+
+    struct Sums
+    {
+      double         energy = 0.;
+      Tensor<1, dim> force;
+    };
+
+    /** Energy and resultant of a term at u = 0, over all ranks. */
+    Sums
+    sums(const Term<dim> &term, const GrowthAt at = GrowthAt::current) const
+    {
+      LocalField<dim> rest{};
+      Sums            result;
+      for (unsigned int c = 0; c < space->cells().size(); ++c)
+        {
+          LocalSystem<dim> system(LocalSystem<dim>::energy_and_residual);
+          term.add(c, rest, at, system);
+          result.energy += system.energy;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+              result.force[i] += system.residual[i * BSpline<dim>::n + a];
+        }
+      result.energy = Utilities::MPI::sum(result.energy, MPI_COMM_WORLD);
+      result.force  = Utilities::MPI::sum(result.force, MPI_COMM_WORLD);
+      return result;
+    }
+
+    std::unique_ptr<Term<dim>>
+    nitsche(const TissueMaterial &material, const double t) const
+    {
+      return nitsche_term(conditions,
+                          material,
+                          tissue,
+                          *space,
+                          growth.of_step(tissue, 0., t),
+                          t);
+    }
+  };
+
+  const std::string at_top = "X > 80"; // one point
+
+  template <int dim>
+  void
+  check_penalty()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where     = at_top;
+    parameters.displacement    = "2*t; -t; 0";
+    parameters.nitsche_penalty = 1e3;
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    Tensor<1, dim>     U;
+    U[0] = 1.;
+    U[1] = -0.5;
+    // E = 2 at X = 90; close to incompressible the least penalty counts.
+    const double h = 50.;
+    for (const auto &[nu, beta] :
+         {std::pair<double, double>(0.4, 2e3 / h),
+          {0.4999,
+           20. * (lame(2., 0.4999).lambda + 2. * lame(2., 0.4999).mu) / h}})
+      {
+        const auto sums =
+          problem.sums(*problem.nitsche(material("X/45", nu), 0.5));
+        EXPECT_NEAR(sums.energy,
+                    0.5 * beta * area * (U * U),
+                    1e-10 * sums.energy);
+        EXPECT_LE((sums.force + beta * area * U).norm(),
+                  1e-10 * sums.force.norm());
+      }
+  }
+
+  /** The total position counts, not the increment. */
+  template <int dim>
+  void
+  check_total_gap()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where  = at_top;
+    parameters.displacement = "1; 2; 0";
+    parameters.slip_where   = "Y > 80";
+    Tensor<1, dim> moved;
+    moved[0] = 0.7;
+    moved[1] = -0.4;
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}), moved);
+    Tensor<1, dim>     gap; // fixed: moved - displacement; slip: along y
+    gap[0] = -0.3;
+    gap[1] = -2.4 + moved[1];
+    const auto sums = problem.sums(*problem.nitsche(material("1", 0.4), 1.));
+    EXPECT_LE((sums.force - 1e3 / 50. * area * gap).norm(),
+              1e-10 * sums.force.norm());
+    EXPECT_NEAR(sums.energy,
+                10. * area * (0.3 * 0.3 + 2.4 * 2.4 + moved[1] * moved[1]),
+                1e-10 * sums.energy);
+  }
+
+  /** Growth of the nearest cell presses on the held point. */
+  template <int dim>
+  void
+  check_growth()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where = at_top;
+    // At X = 70, the nearest cells, and elsewhere.
+    const std::string     stretch = "1 + t*(X > 65 && Y*Y + Z*Z < 500 ? 0.2 : 7)";
+    const CellGrowth<dim> growth(isotropic_growth(stretch), {});
+    Tensor<2, dim>        F = unit_tensor<dim>();
+    F[0][0]                 = 1.1;
+    F[0][1]                 = 0.2;
+    const Problem<dim> problem(parameters, growth, Tensor<1, dim>(), F);
+    for (const bool grown : {false, true})
+      for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
+        {
+          const double          theta = at == GrowthAt::current ? 1.2 : 1.;
+          const NeoHookean<dim> state(F / theta, lame(3., 0.3));
+          Tensor<1, dim>        N;
+          N[0] = 1.;
+          // a_t n_t = det F F⁻ᵀ a⁰ N, and W / V_t = det F_g^(0, 1) / det F
+          const Tensor<1, dim> expected =
+            -area * (grown ? std::pow(theta, dim) : 1.) *
+            (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+          const auto sums =
+            problem.sums(*problem.nitsche(material("3", 0.3, grown), 1.), at);
+          EXPECT_LE((sums.force - expected).norm(), 1e-12 * expected.norm());
+        }
+  }
+
+  template <int dim>
+  void
+  check_loads()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.traction_where = "X > 80 || Y > 80";
+    parameters.traction       = "0.1*t; X/90; 0";
+    parameters.pressure_where = at_top;
+    parameters.pressure       = "3*t";
+    Tensor<2, dim> F          = unit_tensor<dim>();
+    F[1][1]                   = 1.5;
+    F[0][1]                   = 0.3;
+    const Problem<dim> problem(
+      parameters, CellGrowth<dim>({}, {}), Tensor<1, dim>(), F);
+    const auto traction =
+      problem.sums(*traction_term(problem.conditions,
+                                  problem.tissue,
+                                  *problem.space,
+                                  2.));
+    Tensor<1, dim> expected;
+    expected[0] = -2. * 0.2 * area; // per initial area, two points
+    expected[1] = -1. * area;
+    EXPECT_LE((traction.force - expected).norm(), 1e-11 * expected.norm());
+
+    Tensor<1, dim> N;
+    N[0]               = 1.;
+    const auto pressed = problem.sums(
+      *pressure_term(problem.conditions, problem.tissue, *problem.space, 2.));
+    expected = 6. * determinant(F) * area * (N * invert(F));
+    EXPECT_LE((pressed.force - expected).norm(), 1e-11 * expected.norm());
+  }
+
+  template <int dim>
+  void
+  check_supports()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where    = at_top;
+    parameters.slip_where     = "Y > 80 || Y < -80";
+    parameters.traction_where = "X < -80";
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    const auto         list =
+      supports(problem.conditions, problem.tissue, *problem.space);
+    EXPECT_EQ(Utilities::MPI::sum<unsigned int>(list.size(), MPI_COMM_WORLD),
+              3u);
+    for (const auto &support : list)
+      {
+        EXPECT_EQ(support.piece, 0u);
+        EXPECT_EQ(support.area, area);
+        Tensor<2, dim> M = unit_tensor<dim>();
+        if (support.x[0] < 80.)
+          {
+            M       = 0.;
+            M[1][1] = 1.;
+          }
+        EXPECT_EQ(support.projection, M);
+      }
+  }
+} // namespace
+
+
+TEST(BoundaryTerms, PenaltyFollowsStiffnessAndSpacing)
+{
+  MORULA_BOTH_DIMENSIONS(check_penalty)
+}
+
+
+TEST(BoundaryTerms, TheTotalPositionIsHeld)
+{
+  MORULA_BOTH_DIMENSIONS(check_total_gap)
+}
+
+
+TEST(BoundaryTerms, TractionOfTheNearestCellsGrowth)
+{
+  MORULA_BOTH_DIMENSIONS(check_growth)
+}
+
+
+TEST(BoundaryTerms, DeadAndFollowingLoads)
+{
+  MORULA_BOTH_DIMENSIONS(check_loads)
+}
+
+
+TEST(BoundaryTerms, SupportsAreFixedAndSlipPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_supports)
+}

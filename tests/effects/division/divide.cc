@@ -1,0 +1,279 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/division/divide.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "../small_tissue.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  double
+  spacing()
+  {
+    return dim == 2 ? 10. : 20.;
+  }
+
+  /** A strained ball of cells that has grown to @p t, and divided. */
+  template <int dim>
+  struct Division
+  {
+    using Cells =
+      std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>;
+
+    const CellGrowth<dim>   growth;
+    const CellSlots<dim>    slots;
+    Tissue<dim>             tissue;
+    Cells                   before, after;
+    types::particle_index   next_id;
+    std::vector<Birth<dim>> births;
+    std::size_t             n_due;
+
+    Division(const std::string &start, const double t, const MPI_Comm comm)
+      : growth({}, cell_cycle<dim>(start))
+      , slots(false, true)
+      , tissue(GridParameters(), slots, comm)
+    {
+      const auto points =
+        ball_points(Point<dim>(), 5. * spacing<dim>(), spacing<dim>());
+      PointList<dim> none;
+      none.n_slots = BoundarySlots<dim>::n_slots;
+      tissue.place(only_first_rank(founders(points,
+                                            std::pow(spacing<dim>(), dim),
+                                            slots,
+                                            growth,
+                                            some_deformation<dim>),
+                                   comm),
+                   none);
+      next_id = points.size();
+      const double half = 0.5 * t;
+      grow(tissue, growth, 0., half);
+      grow(tissue, growth, half, t);
+      before         = all_cells(tissue);
+      const auto due = cells_due(tissue, *growth.cycle(), t);
+      n_due          = Utilities::MPI::sum(due.size(), comm);
+      births         = divide(tissue, *growth.cycle(), due, next_id);
+      after          = all_cells(tissue);
+    }
+
+    CellView<dim, const double>
+    view(const std::pair<Point<dim>, std::vector<double>> &cell) const
+    {
+      return {ArrayView<const double>(cell.second.data(), cell.second.size()),
+              slots};
+    }
+
+    /** Σ V⁰ and Σ V. */
+    std::pair<double, double>
+    volumes(const Cells &cells) const
+    {
+      std::pair<double, double> sums(0., 0.);
+      for (const auto &[id, cell] : cells)
+        {
+          const double V0 = view(cell).initial_volume();
+          sums.first += V0;
+          sums.second += V0 * determinant(view(cell).deformation());
+        }
+      return sums;
+    }
+  };
+
+  template <int dim>
+  void
+  check_conservation(const std::string &start, const double t)
+  {
+    const Division<dim> division(start, t, MPI_COMM_WORLD);
+    const std::size_t   n = division.before.size();
+    ASSERT_GT(division.n_due, 0u);
+    EXPECT_EQ(division.n_due == n, start == "together");
+    EXPECT_EQ(division.after.size(), n + division.n_due);
+    EXPECT_EQ(division.next_id, n + 2 * division.n_due);
+
+    const auto [V0, V]             = division.volumes(division.before);
+    const auto [V0_after, V_after] = division.volumes(division.after);
+    EXPECT_NEAR(V0_after, V0, 1e-12 * V0);
+    EXPECT_NEAR(V_after, V, 1e-12 * V);
+  }
+
+  template <int dim>
+  void
+  check_all()
+  {
+    check_conservation<dim>("together", 0.5);
+  }
+
+  template <int dim>
+  void
+  check_some()
+  {
+    check_conservation<dim>("waiting", 0.9);
+  }
+
+  template <int dim>
+  void
+  check_inheritance()
+  {
+    const Division<dim> division("waiting", 0.9, MPI_COMM_WORLD);
+    const auto         &slots = division.slots;
+    const std::size_t   n     = division.before.size();
+    std::set<int>       mothers;
+    std::set<std::pair<double, double>> keys;
+    double                              last_time = 0.;
+    for (const auto &[id, cell] : division.after)
+      {
+        const auto view = division.view(cell);
+        keys.emplace(view.scalar(slots.lineage_key),
+                     view.scalar(slots.lineage_key + 1));
+        if (id < n)
+          {
+            EXPECT_TRUE(cell == division.before.at(id)); // did not divide
+            continue;
+          }
+        ASSERT_GE(view.parent(), 0);
+        mothers.insert(view.parent());
+        const auto &mother_cell = division.before.at(view.parent());
+        const auto  mother      = division.view(mother_cell);
+        EXPECT_EQ(division.after.count(view.parent()), 0u);
+        EXPECT_EQ(view.generation(), mother.generation() + 1);
+        EXPECT_EQ(view.initial_volume(), 0.5 * mother.initial_volume());
+        EXPECT_EQ(view.founder_position(), mother.founder_position());
+        EXPECT_EQ(view.deformation(), mother.deformation());
+        EXPECT_EQ(view.growth(), mother.growth());
+        for (const unsigned int slot : {slots.event_time})
+          EXPECT_EQ(view.scalar(slot), mother.scalar(slot));
+        EXPECT_EQ(view.vector(slots.division_axis),
+                  mother.vector(slots.division_axis));
+        EXPECT_EQ(view.tensor(slots.growth_pre),
+                  mother.tensor(slots.growth_pre));
+        EXPECT_EQ(view.scalar(slots.phase),
+                  static_cast<int>(CyclePhase::divided));
+        // Along the axis: the first daughter on the side of -n_s.
+        const Tensor<1, dim> from_mother = cell.first - mother_cell.first;
+        const double along =
+          from_mother * view.vector(slots.division_axis) *
+          ((id - n) % 2 == 0 ? -1. : 1.);
+        EXPECT_GT(along, 0.);
+        EXPECT_NEAR(along, from_mother.norm(), 1e-10);
+        // Numbered by the time of their birth.
+        const double time = view.scalar(slots.event_time) + 0.5;
+        EXPECT_GE(time, last_time);
+        EXPECT_LE(time, 0.9 + 1e-9);
+        last_time = time;
+      }
+    EXPECT_EQ(mothers.size(), division.n_due);
+    EXPECT_EQ(keys.size(), division.after.size());
+
+    EXPECT_EQ(Utilities::MPI::sum(division.births.size(), MPI_COMM_WORLD),
+              2 * division.n_due);
+    for (const auto &birth : division.births)
+      {
+        const auto &cell = division.after.at(birth.id);
+        const auto  view = division.view(cell);
+        EXPECT_EQ(birth.parent, view.parent());
+        EXPECT_EQ(birth.generation, 1u);
+        EXPECT_EQ(birth.position, cell.first);
+        EXPECT_NEAR(birth.time, view.scalar(slots.event_time) + 0.5, 1e-15);
+      }
+  }
+
+  /** Bitwise the same for any number of ranks. */
+  template <int dim>
+  void
+  check_ranks()
+  {
+    for (const std::string start : {"waiting", "together"})
+      {
+        const Division<dim> shared(start, 0.9, MPI_COMM_WORLD);
+        const Division<dim> alone(start, 0.9, MPI_COMM_SELF);
+        EXPECT_EQ(shared.n_due, alone.n_due);
+        EXPECT_TRUE(shared.before == alone.before);
+        EXPECT_TRUE(shared.after == alone.after);
+      }
+  }
+
+  template <int dim>
+  void
+  check_distances()
+  {
+    for (const std::string start : {"waiting", "together"})
+      {
+        const Division<dim> division(start, 0.9, MPI_COMM_WORLD);
+        double              shortest = 1e9;
+        for (const auto &[id, cell] : division.after)
+          for (const auto &[other_id, other] : division.after)
+            if (other_id < id)
+              shortest = std::min(shortest, cell.first.distance(other.first));
+        EXPECT_GT(shortest, 0.02 * spacing<dim>());
+      }
+  }
+} // namespace
+
+
+TEST(Divide, ConservesVolumeWhereAllDivide)
+{
+  MORULA_BOTH_DIMENSIONS(check_all)
+}
+
+
+TEST(Divide, ConservesVolumeWhereSomeDivide)
+{
+  MORULA_BOTH_DIMENSIONS(check_some)
+}
+
+
+TEST(Divide, DaughtersInheritTheMothersState)
+{
+  MORULA_BOTH_DIMENSIONS(check_inheritance)
+}
+
+
+TEST(Divide, IsTheSameForAnyNumberOfRanks)
+{
+  MORULA_BOTH_DIMENSIONS(check_ranks)
+}
+
+
+TEST(Divide, LeavesNoTwoCellsInOnePlace)
+{
+  MORULA_BOTH_DIMENSIONS(check_distances)
+}
+
+
+// A single cell: the daughters' walls are as far as the cell is wide.
+TEST(Divide, ASingleCell)
+{
+  const CellGrowth<3> growth({}, cell_cycle<3>("together"));
+  const CellSlots<3>  slots(false, true);
+  Tissue<3>           tissue(GridParameters(), slots, MPI_COMM_WORLD);
+  PointList<3>        none;
+  none.n_slots = BoundarySlots<3>::n_slots;
+  const auto unstrained = [](const Point<3> &) { return unit_tensor<3>(); };
+  tissue.place(only_first_rank(founders<3>({Point<3>(1., 2., 3.)},
+                                           8000.,
+                                           slots,
+                                           growth,
+                                           unstrained),
+                               MPI_COMM_WORLD),
+               none);
+  grow(tissue, growth, 0., 0.5);
+  types::particle_index next_id = 1;
+  divide(tissue,
+         *growth.cycle(),
+         cells_due(tissue, *growth.cycle(), 0.5),
+         next_id);
+  const auto cells = all_cells(tissue);
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_NEAR(cells.at(1).first.distance(cells.at(2).first), 20., 1e-10);
+  EXPECT_LT((0.5 * (cells.at(1).first + Tensor<1, 3>(cells.at(2).first)) -
+             Point<3>(1., 2., 3.) * 1.)
+              .norm(),
+            1e-10);
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/growth/cell_growth.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../small_tissue.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  Tissue<dim>
+  tissue_of(const CellGrowth<dim> &growth, const bool strained)
+  {
+    const CellSlots<dim> slots(growth.present(), growth.cycle() != nullptr);
+    Tissue<dim>          tissue(GridParameters(), slots, MPI_COMM_SELF);
+    PointList<dim>       none;
+    none.n_slots = BoundarySlots<dim>::n_slots;
+    tissue.place(founders(ball_points(Point<dim>(), 60., 20.),
+                          std::pow(20., dim),
+                          slots,
+                          growth,
+                          [=](const Point<dim> &x) {
+                            return strained ? some_deformation<dim>(x) :
+                                              unit_tensor<dim>();
+                          }),
+                 none);
+    return tissue;
+  }
+
+  template <int dim>
+  void
+  check_isotropic()
+  {
+    const CellGrowth<dim> growth(isotropic_growth("1 + t*(1 + X/100)"), {});
+    EXPECT_TRUE(growth.present());
+    EXPECT_EQ(growth.cycle(), nullptr);
+    auto        tissue = tissue_of(growth, true);
+    const auto  before = all_cells(tissue);
+    const auto  step   = growth.of_step(tissue, 0., 0.2);
+    EXPECT_TRUE(step.present);
+    ASSERT_EQ(step.current.size(), tissue.cells().order().size());
+    for (std::size_t i = 0; i < step.current.size(); ++i)
+      {
+        const auto   cell  = tissue.cell(tissue.cells().order()[i]);
+        const double theta = 1. + 0.2 * (1. + cell.founder_position()[0] / 100.);
+        EXPECT_EQ(step.previous[i], unit_tensor<dim>());
+        EXPECT_LE((step.current[i] - theta * unit_tensor<dim>()).norm(),
+                  1e-15);
+      }
+    // A trial changes nothing.
+    EXPECT_TRUE(all_cells(tissue) == before);
+
+    grow(tissue, growth, 0., 0.2);
+    const auto next = growth.of_step(tissue, 0.2, 0.3);
+    EXPECT_EQ(next.previous, step.current);
+    for (std::size_t i = 0; i < next.current.size(); ++i)
+      {
+        const auto cell = tissue.cell(tissue.cells().order()[i]);
+        EXPECT_EQ(cell.growth(), step.current[i]);
+        EXPECT_NEAR(elastic_volume_ratio(cell),
+                    determinant(cell.deformation()) /
+                      std::pow(step.current[i][0][0], dim),
+                    1e-14);
+      }
+  }
+
+  template <int dim>
+  void
+  check_cycle()
+  {
+    const CellGrowth<dim> growth({}, cell_cycle<dim>("together"));
+    auto                  tissue = tissue_of(growth, false);
+    for (const auto &particle : tissue.cells().order())
+      {
+        const auto cell = tissue.cell(particle);
+        EXPECT_EQ(cell.growth(), unit_tensor<dim>());
+        EXPECT_EQ(cell.parent(), -1);
+        EXPECT_EQ(cell.generation(), 0u);
+      }
+    grow(tissue, growth, 0., 0.3);
+    for (const auto &particle : tissue.cells().order())
+      {
+        const auto cell = tissue.cell(particle);
+        const auto axis = cell.vector(tissue.slots().division_axis);
+        EXPECT_NEAR(axis.norm(), 1., 1e-12);
+        EXPECT_LE((cell.growth() - unit_tensor<dim>() -
+                   0.3 * outer_product(axis, axis))
+                    .norm(),
+                  1e-14);
+      }
+  }
+
+  /** F_g = θ F_g,cycle. */
+  template <int dim>
+  void
+  check_both()
+  {
+    const CellGrowth<dim> both(isotropic_growth("1 + t"),
+                               cell_cycle<dim>("waiting"));
+    const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
+    auto                  tissue = tissue_of(both, false);
+    auto                  other  = tissue_of(cycle, false);
+    unsigned int          n_growing = 0;
+    for (const double t : {0., 0.2, 0.4, 0.6})
+      {
+        grow(tissue, both, t, t + 0.2);
+        grow(other, cycle, t, t + 0.2);
+        for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
+          {
+            const auto F_g   = tissue.cell(tissue.cells().order()[i]).growth();
+            const auto cycle_F_g = other.cell(other.cells().order()[i]).growth();
+            EXPECT_LE((F_g - (1.2 + t) * cycle_F_g).norm(), 1e-13);
+            n_growing += determinant(cycle_F_g) > 1.01;
+          }
+      }
+    EXPECT_GT(n_growing, 0u);
+  }
+
+  /** The checkpoint sees J_e at the step's start. */
+  template <int dim>
+  void
+  check_checkpoint()
+  {
+    const CellGrowth<dim> growth({}, cell_cycle<dim>("together", "1.05"));
+    auto                  tissue = tissue_of(growth, true);
+    std::vector<double>   J;
+    for (const auto &particle : tissue.cells().order())
+      J.push_back(determinant(tissue.cell(particle).deformation()));
+    const auto n_large = std::count_if(J.begin(), J.end(), [](const double j) {
+      return j > 1.05;
+    });
+    ASSERT_GT(n_large, 0);
+    ASSERT_LT(n_large, static_cast<int>(J.size()));
+    grow(tissue, growth, 0.1, 0.3);
+    for (std::size_t i = 0; i < J.size(); ++i)
+      EXPECT_NEAR(
+        determinant(tissue.cell(tissue.cells().order()[i]).growth()),
+        J[i] > 1.05 ? 1.2 : 1.,
+        1e-12);
+  }
+
+  template <int dim>
+  void
+  check_none()
+  {
+    const CellGrowth<dim> growth({}, {});
+    EXPECT_FALSE(growth.present());
+    auto       tissue = tissue_of(growth, true);
+    const auto before = all_cells(tissue);
+    const auto step   = growth.of_step(tissue, 0., 1.);
+    EXPECT_FALSE(step.present);
+    EXPECT_TRUE(step.previous.empty());
+    EXPECT_TRUE(step.current.empty());
+    EXPECT_EQ(tissue.cell(tissue.cells().order()[0]).growth(),
+              unit_tensor<dim>());
+  }
+} // namespace
+
+
+TEST(CellGrowth, FollowsTheGrowthLaw)
+{
+  MORULA_BOTH_DIMENSIONS(check_isotropic)
+}
+
+
+TEST(CellGrowth, FollowsTheCellCycle)
+{
+  MORULA_BOTH_DIMENSIONS(check_cycle)
+}
+
+
+TEST(CellGrowth, MultipliesLawAndCycle)
+{
+  MORULA_BOTH_DIMENSIONS(check_both)
+}
+
+
+TEST(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep)
+{
+  MORULA_BOTH_DIMENSIONS(check_checkpoint)
+}
+
+
+TEST(CellGrowth, NothingGrowsWithoutLawAndCycle)
+{
+  MORULA_BOTH_DIMENSIONS(check_none)
+}

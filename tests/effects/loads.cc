@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/dead_load.h>
+#include <morula/effects/following_pressure.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "../finite_differences.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  DeadLoad<dim>
+  random_dead_load(std::mt19937 &generator)
+  {
+    std::vector<Tensor<1, dim>> forces;
+    for (unsigned int p = 0; p < 3; ++p)
+      forces.push_back(5. * random_tensor<1, dim>(generator));
+    return {random_points_in_cell<dim>(generator, 3), forces};
+  }
+
+  template <int dim>
+  void
+  check_dead_load()
+  {
+    std::mt19937        generator(1);
+    const DeadLoad<dim> term  = random_dead_load<dim>(generator);
+    const auto          field = random_field<dim>(generator, 0.2);
+    EXPECT_TRUE(term.is_conservative());
+    const TermOnOneCell<dim> at(term, GrowthAt::current);
+    expect_near(at.energy_differences(field), at.residual(field), 1e-7);
+    for (const double entry : at.tangent(field))
+      EXPECT_EQ(entry, 0.);
+    // Dead: the same forces in any state.
+    expect_near(at.residual(random_field<dim>(generator, 0.2)),
+                at.residual(field),
+                0.);
+  }
+
+  template <int dim>
+  FollowingPressure<dim>
+  random_pressure(std::mt19937 &generator)
+  {
+    std::vector<typename FollowingPressure<dim>::Load> loads;
+    for (unsigned int p = 0; p < 3; ++p)
+      loads.push_back({1.5 - p, 40. * random_tensor<1, dim>(generator)});
+    return {random_points_in_cell<dim>(generator, 3), loads};
+  }
+
+  template <int dim>
+  void
+  check_pressure()
+  {
+    std::mt19937 generator(2);
+    const auto   term = random_pressure<dim>(generator);
+    EXPECT_FALSE(term.is_conservative());
+    expect_derivatives(term, random_field<dim>(generator, 0.2));
+  }
+
+  /**
+   * The pressure on the faces of the box [0.1, 0.8]^dim of the grid cell. The
+   * cofactor of a B-spline's deformation gradient is a polynomial that Gauss
+   * quadrature integrates exactly.
+   */
+  template <int dim>
+  FollowingPressure<dim>
+  closed_surface(const double pressure, const double h)
+  {
+    const double                                       lower = 0.1, side = 0.7;
+    const QGauss<dim - 1>                              quadrature(4);
+    GroupedPoints<dim>                                 points;
+    std::vector<typename FollowingPressure<dim>::Load> loads;
+    points.h = h;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const int sign : {-1, 1})
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            Point<dim>     xi;
+            Tensor<1, dim> area;
+            xi[d] = sign < 0 ? lower : lower + side;
+            for (unsigned int e = 0, k = 0; e < dim; ++e)
+              if (e != d)
+                xi[e] = lower + side * quadrature.point(q)[k++];
+            area[d] =
+              sign * quadrature.weight(q) * Utilities::fixed_power<dim - 1>(side * h);
+            points.xi.push_back(xi);
+            loads.push_back({pressure, area});
+          }
+    points.offsets = {0, static_cast<unsigned int>(loads.size())};
+    return {points, loads};
+  }
+
+  /** Current volume of that box. */
+  template <int dim>
+  double
+  box_volume(const LocalField<dim> &field, const double h)
+  {
+    const QGauss<dim> quadrature(5);
+    double            sum = 0.;
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      {
+        Point<dim> xi;
+        for (unsigned int d = 0; d < dim; ++d)
+          xi[d] = 0.1 + 0.7 * quadrature.point(q)[d];
+        sum += quadrature.weight(q) *
+               determinant(
+                 field.step_deformation(SplineValues<dim>(xi, h)));
+      }
+    return sum * Utilities::fixed_power<dim>(0.7 * h);
+  }
+
+  template <int dim>
+  void
+  check_closed_surface()
+  {
+    constexpr unsigned int n = BSpline<dim>::n;
+    const double           h = 50., pressure = 1.3;
+    std::mt19937           generator(3);
+    const auto             term     = closed_surface<dim>(pressure, h);
+    const auto             field    = random_field<dim>(generator, 0.2);
+    const auto             velocity = random_field<dim>(generator, 0.2);
+    const auto             residual =
+      TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
+    double largest = 0.;
+    for (const double force : residual)
+      largest = std::max(largest, std::abs(force));
+    ASSERT_GT(largest, 0.);
+    double power = 0.;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        double sum = 0.; // splines sum up to 1: the resultant
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            sum += residual[i * n + a];
+            power += residual[i * n + a] * velocity.coefficient[i][a];
+          }
+        EXPECT_NEAR(sum, 0., 1e-12 * largest);
+      }
+
+    // R·v = p dV/dt: the residual has the loads with a minus.
+    const double eps = 1e-3;
+    const auto   moved = [&](const double by) {
+      LocalField<dim> result = field;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < n; ++a)
+          result.coefficient[i][a] += by * velocity.coefficient[i][a];
+      return result;
+    };
+    const double rate =
+      (box_volume(moved(eps), h) - box_volume(moved(-eps), h)) / (2. * eps);
+    EXPECT_NEAR(power, pressure * rate, 1e-6 * std::abs(power));
+  }
+
+  template <int dim>
+  void
+  check_inversion()
+  {
+    std::mt19937   generator(4);
+    const auto     term = random_pressure<dim>(generator);
+    Tensor<2, dim> mirror;
+    mirror[0][0] = -2.5;
+    for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
+                              LocalSystem<dim>::tangent})
+      EXPECT_TRUE(TermOnOneCell<dim>(term, GrowthAt::current)
+                    .inverted(affine_field(Tensor<1, dim>(), mirror, 50.),
+                              wanted));
+  }
+} // namespace
+
+
+TEST(DeadLoad, ResidualIsTheEnergysDerivative)
+{
+  MORULA_BOTH_DIMENSIONS(check_dead_load)
+}
+
+
+TEST(FollowingPressure, TangentIsTheResidualsDerivative)
+{
+  MORULA_BOTH_DIMENSIONS(check_pressure)
+}
+
+
+TEST(FollowingPressure, OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume)
+{
+  MORULA_BOTH_DIMENSIONS(check_closed_surface)
+}
+
+
+TEST(FollowingPressure, NoticesInversion)
+{
+  MORULA_BOTH_DIMENSIONS(check_inversion)
+}

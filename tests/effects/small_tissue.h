@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_effects_small_tissue_h
+#define morula_tests_effects_small_tissue_h
+
+#include <morula/effects/growth/cell_growth.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/tissue.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../body_on_grid.h"
+
+namespace Morula
+{
+  inline std::optional<IsotropicGrowth>
+  isotropic_growth(const std::string &stretch)
+  {
+    IsotropicGrowthParameters parameters;
+    parameters.stretch = stretch;
+    return IsotropicGrowth(parameters);
+  }
+
+  template <int dim>
+  CellCycle<dim>
+  cell_cycle(const std::string &start,
+             const std::string &size_checkpoint = "0")
+  {
+    CellCycleParameters parameters;
+    parameters.start           = start;
+    parameters.size_checkpoint = size_checkpoint;
+    return CellCycle<dim>(parameters, 42, 1e-9);
+  }
+
+  /** A smooth F ≠ I with det F > 0. */
+  template <int dim>
+  Tensor<2, dim>
+  some_deformation(const Point<dim> &x)
+  {
+    Tensor<2, dim> F = unit_tensor<dim>();
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        F[i][j] += 0.1 * std::sin(x[i] / 70. + 2. * j + i);
+    return F;
+  }
+
+  /** Cells at given positions with their state at t = 0, by id. */
+  template <int dim, typename Deformation>
+  PointList<dim>
+  founders(const std::vector<Point<dim>> &positions,
+           const double                   V0,
+           const CellSlots<dim>          &slots,
+           const CellGrowth<dim>         &growth,
+           const Deformation             &deformation)
+  {
+    PointList<dim> cells;
+    cells.n_slots   = slots.n_slots;
+    cells.positions = positions;
+    cells.properties.resize(positions.size() * slots.n_slots);
+    for (unsigned int i = 0; i < positions.size(); ++i)
+      {
+        cells.ids.push_back(i);
+        const CellView<dim, double> cell(
+          ArrayView<double>(&cells.properties[i * slots.n_slots],
+                            slots.n_slots),
+          slots);
+        cell.set_vector(slots.founder_position, positions[i] - Point<dim>());
+        cell.set_scalar(slots.initial_volume, V0 * (1. + 0.1 * (i % 3)));
+        cell.set_tensor(slots.deformation, deformation(positions[i]));
+        growth.initialize(i, cell);
+      }
+    return cells;
+  }
+
+  /** On one rank what all ranks give alike, so that it is placed once. */
+  template <int dim>
+  PointList<dim>
+  only_first_rank(const PointList<dim> &points, const MPI_Comm comm)
+  {
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      return points;
+    PointList<dim> none;
+    none.n_slots = points.n_slots;
+    return none;
+  }
+
+  /** Moves no cell, grows them over (t0, t1], as a step does. */
+  template <int dim>
+  void
+  grow(Tissue<dim>           &tissue,
+       const CellGrowth<dim> &growth,
+       const double           t0,
+       const double           t1)
+  {
+    const auto     of_step = growth.of_step(tissue, t0, t1);
+    PointList<dim> cells   = tissue.cells().copy();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      growth.commit(CellView<dim, double>(
+                      ArrayView<double>(&cells.properties[i * cells.n_slots],
+                                        cells.n_slots),
+                      tissue.slots()),
+                    t0,
+                    t1,
+                    of_step.current[i]);
+    tissue.place(cells, tissue.boundary_points().copy());
+  }
+
+  /** All cells of all ranks: position and properties by id. */
+  template <int dim>
+  std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>
+  all_cells(const Tissue<dim> &tissue)
+  {
+    using Cells =
+      std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>;
+    const PointList<dim> own = tissue.cells().copy();
+    Cells                mine, all;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      {
+        const auto first  = own.properties.begin() + i * own.n_slots;
+        mine[own.ids[i]] = {own.positions[i], {first, first + own.n_slots}};
+      }
+    for (const Cells &part :
+         Utilities::MPI::all_gather(tissue.communicator(), mine))
+      all.insert(part.begin(), part.end());
+    return all;
+  }
+} // namespace Morula
+
+#endif

@@ -1,0 +1,192 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/background_grid.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "../body_on_grid.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr double h = 12.5;
+
+  GridParameters
+  grid_parameters()
+  {
+    GridParameters parameters;
+    parameters.spacing = h;
+    parameters.offset  = {1., -2., 3.};
+    return parameters;
+  }
+
+  template <int dim>
+  GridIndex<dim>
+  index(const int i, const int j, const int k)
+  {
+    const int      all[3] = {i, j, k};
+    GridIndex<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = all[d];
+    return result;
+  }
+
+  template <int dim>
+  GridIndex<dim>
+  shifted(GridIndex<dim> i, const unsigned int d, const int by)
+  {
+    i[d] += by;
+    return i;
+  }
+
+  /** Each grid cell of the box has one owner, which has its cell. */
+  template <int dim>
+  void
+  expect_tables(const BackgroundGrid<dim> &grid)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    unsigned int n_owned = 0;
+    for (unsigned int number = 0; number < grid.box().size(); ++number)
+      {
+        EXPECT_LT(grid.owner(number), n_ranks);
+        EXPECT_EQ(Utilities::MPI::max(grid.owner(number), MPI_COMM_WORLD),
+                  grid.owner(number));
+        const auto cell = grid.cell(number);
+        EXPECT_EQ(cell != grid.triangulation().end(),
+                  grid.owner(number) == rank);
+        if (grid.owner(number) != rank)
+          continue;
+        ++n_owned;
+        EXPECT_TRUE(cell->is_locally_owned());
+        const auto i = grid.box().index(number);
+        EXPECT_LT(cell->center().distance(grid.box().center(i)), 1e-10);
+        EXPECT_NEAR(cell->extent_in_direction(0), h, 1e-10);
+        for (unsigned int d = 0; d < dim; ++d)
+          EXPECT_NEAR(cell->center()[d],
+                      grid_parameters().offset[d] + (i[d] + 0.5) * h,
+                      1e-10);
+      }
+    EXPECT_EQ(Utilities::MPI::sum(n_owned, MPI_COMM_WORLD), grid.box().size());
+  }
+
+  template <int dim>
+  void
+  check_enclose()
+  {
+    BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
+    const auto          first = index<dim>(-5, 2, -1);
+    const auto          last  = index<dim>(4, 2, 9);
+    EXPECT_FALSE(grid.covers(first, last));
+    grid.enclose(first, last);
+    EXPECT_TRUE(grid.covers(first, last));
+    EXPECT_EQ(grid.triangulation().n_global_active_cells(), grid.box().size());
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        // Two grid cells of padding at least, of which one is spare.
+        EXPECT_LE(grid.box().first()[d], first[d] - 2);
+        EXPECT_GE(grid.box().first()[d] + grid.box().n()[d], last[d] + 3);
+        EXPECT_TRUE(grid.covers(shifted<dim>(first, d, -1),
+                                shifted<dim>(last, d, 1)));
+        EXPECT_FALSE(
+          grid.covers(first, shifted<dim>(last, d, grid.box().n()[d])));
+        EXPECT_FALSE(
+          grid.covers(shifted<dim>(first, d, -grid.box().n()[d]), last));
+      }
+    expect_tables(grid);
+
+    // Larger, smaller, elsewhere.
+    for (const int shift : {3, -40})
+      {
+        grid.enclose(shifted<dim>(first, 1, shift), shifted<dim>(last, 0, 9));
+        EXPECT_TRUE(
+          grid.covers(shifted<dim>(first, 1, shift), shifted<dim>(last, 0, 9)));
+        expect_tables(grid);
+      }
+  }
+
+  template <int dim>
+  void
+  check_make()
+  {
+    BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
+    const auto          first = index<dim>(-8, 4, 0);
+    const auto          n     = index<dim>(8, 4, 12);
+    grid.make(first, n);
+    EXPECT_EQ(grid.box().first(), first);
+    EXPECT_EQ(grid.box().n(), n);
+    EXPECT_EQ(grid.weights(),
+              std::vector<unsigned int>(grid.box().size(), 1));
+    expect_tables(grid);
+    // The outermost layer is not covered: its neighbours lie outside.
+    EXPECT_TRUE(grid.covers(shifted<dim>(first, 0, 1), shifted<dim>(first, 0, 1)) ==
+                false);
+    EXPECT_TRUE(grid.covers(index<dim>(-7, 5, 1), index<dim>(-2, 6, 10)));
+    EXPECT_FALSE(grid.covers(index<dim>(-7, 5, 1), index<dim>(-1, 6, 10)));
+    EXPECT_FALSE(grid.covers(index<dim>(-8, 5, 1), index<dim>(-2, 6, 10)));
+  }
+
+  /** All points in one corner of the box: all ranks get their share of them. */
+  template <int dim>
+  void
+  check_partition()
+  {
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
+    grid.make(index<dim>(0, 0, 0), index<dim>(16, 16, 16));
+    std::vector<unsigned int> weights(grid.box().size(), 0);
+    double                    total = 0.;
+    for (unsigned int number = 0; number < weights.size(); ++number)
+      {
+        bool corner = true;
+        for (const int i : grid.box().index(number))
+          corner = corner && i < 8;
+        if (corner)
+          weights[number] = 100;
+        total += weights[number];
+      }
+    grid.partition(weights);
+    expect_tables(grid);
+    EXPECT_EQ(grid.weights(), weights);
+    std::vector<double> loads(n_ranks, 0.);
+    for (unsigned int number = 0; number < weights.size(); ++number)
+      loads[grid.owner(number)] += weights[number];
+    for (const double load : loads)
+      EXPECT_NEAR(load, total / n_ranks, 0.15 * total / n_ranks);
+  }
+} // namespace
+
+
+TEST(BackgroundGrid, EnclosesTheTissueWithPadding)
+{
+  MORULA_BOTH_DIMENSIONS(check_enclose)
+}
+
+
+TEST(BackgroundGrid, IsMadeAgainForAGivenBox)
+{
+  MORULA_BOTH_DIMENSIONS(check_make)
+}
+
+
+TEST(BackgroundGrid, IsDistributedByPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_partition)
+}
+
+
+TEST(BackgroundGrid, LocatesPointsBetweenGridLines)
+{
+  const BackgroundGrid<3> grid(grid_parameters(), MPI_COMM_WORLD);
+  EXPECT_EQ(grid.locate(Point<3>(1., -2., 3.)), (index<3>(0, 0, 0)));
+  EXPECT_EQ(grid.locate(Point<3>(0.9, -2.1, 15.6)), (index<3>(-1, -1, 1)));
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/extension.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "../body_on_grid.h"
+
+using namespace Morula;
+
+namespace
+{
+  using Classes = std::vector<GridCellClass>;
+
+  template <int dim>
+  GridBox<dim>
+  cube(const int n)
+  {
+    GridIndex<dim> first, size;
+    first.fill(-3);
+    size.fill(n);
+    return GridBox<dim>(first, size, 50., Point<dim>());
+  }
+
+  /** Σ|e| in each direction by distance from the block's nearest spline. */
+  template <int dim>
+  double
+  sum_of_magnitudes(const GridIndex<dim> &spline, const GridIndex<dim> &cell)
+  {
+    double product = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double k = std::max(0, std::abs(spline[d] - cell[d]) - 1);
+        product *= (2. * k * k + 4. * k + 1.); // 1, 7, 17, 31, ...
+      }
+    return product;
+  }
+
+  template <int dim>
+  void
+  check_polynomials()
+  {
+    std::mt19937 generator(1);
+    for (unsigned int trial = 0; trial < 100; ++trial)
+      {
+        const auto           a = random_tensor<1, dim>(generator);
+        const auto           A = random_tensor<2, dim>(generator);
+        const GridIndex<dim> block{};
+        GridIndex<dim>       spline;
+        for (int &i : spline)
+          i = std::uniform_int_distribution<int>(-4, 4)(generator);
+        const auto polynomial = [&](const GridIndex<dim> &index) {
+          Tensor<1, dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = index[d];
+          return 0.3 + a * x + x * (A * x);
+        };
+        const auto weights = extension_weights(spline, block);
+        double     sum     = 0.;
+        for (unsigned int k = 0; k < BSpline<dim>::n; ++k)
+          {
+            GridIndex<dim> inner;
+            for (unsigned int d = 0; d < dim; ++d)
+              inner[d] = BSpline<dim>::offset(k, d);
+            sum += weights[k] * polynomial(inner);
+          }
+        EXPECT_NEAR(sum, polynomial(spline), 1e-11);
+      }
+  }
+
+  /** A ball of active grid cells, the inner ones at random in its middle. */
+  template <int dim>
+  Classes
+  ball(const GridBox<dim> &box, std::mt19937 &generator)
+  {
+    Classes classes(box.size(), GridCellClass::inactive);
+    for (unsigned int number = 0; number < box.size(); ++number)
+      {
+        double r = 0.;
+        for (const int i : box.index(number))
+          r += (i - 2.6) * (i - 2.6);
+        if (std::sqrt(r) < 4.)
+          classes[number] =
+            std::sqrt(r) < 2.8 && generator() % 2 == 0 ? GridCellClass::inner :
+                                                         GridCellClass::cut;
+      }
+    return classes;
+  }
+
+  template <int dim>
+  void
+  check_smallest_sum()
+  {
+    const GridBox<dim> box = cube<dim>(12);
+    for (unsigned int seed = 1; seed <= 5; ++seed)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937         generator(seed);
+        const Classes        classes = ball(box, generator);
+        ExtensionSearch<dim> search(box, classes);
+        for (unsigned int spline = 0; spline < box.size(); ++spline)
+          {
+            bool in_support = false;
+            box.for_neighbors(box.index(spline),
+                              1,
+                              [&](const unsigned int n, const auto &) {
+                                in_support |=
+                                  classes[n] != GridCellClass::inactive;
+                              });
+            if (!in_support)
+              continue;
+            unsigned int best     = numbers::invalid_unsigned_int;
+            double       best_sum = std::numeric_limits<double>::max();
+            for (unsigned int cell = 0; cell < box.size(); ++cell)
+              if (classes[cell] == GridCellClass::inner)
+                {
+                  const double sum =
+                    sum_of_magnitudes<dim>(box.index(spline), box.index(cell));
+                  if (sum < best_sum)
+                    {
+                      best     = cell;
+                      best_sum = sum;
+                    }
+                }
+            const auto block = search.block(box.index(spline));
+            ASSERT_TRUE(block.has_value());
+            EXPECT_EQ(*block, best) << "spline " << spline;
+          }
+      }
+  }
+} // namespace
+
+
+TEST(Extension, WeightsByDistance)
+{
+  using Weights = std::array<double, 3>;
+  EXPECT_EQ(extension_weights(3), (Weights{{1., -3., 3.}}));
+  EXPECT_EQ(extension_weights(4), (Weights{{3., -8., 6.}}));
+  EXPECT_EQ(extension_weights(5), (Weights{{6., -15., 10.}}));
+  EXPECT_EQ(extension_weights(-1), (Weights{{3., -3., 1.}}));
+  EXPECT_EQ(extension_weights(-2), (Weights{{6., -8., 3.}}));
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_EQ(extension_weights(j)[i], i == j ? 1. : 0.);
+}
+
+
+TEST(Extension, ContinuesQuadraticCoefficients)
+{
+  MORULA_BOTH_DIMENSIONS(check_polynomials)
+}
+
+
+TEST(Extension, TakesTheBlockWithTheSmallestSum)
+{
+  MORULA_BOTH_DIMENSIONS(check_smallest_sum)
+}
+
+
+// Σ|e| = 17 straight on, at distance 2, against 7·7 on the diagonal.
+TEST(Extension, PrefersAFartherBlockToANearerOneOnTheDiagonal)
+{
+  const GridBox<2> box = cube<2>(12);
+  Classes          classes(box.size(), GridCellClass::cut);
+  const auto       diagonal = box.number({{{2, 2}}});
+  const auto       straight = box.number({{{4, 1}}});
+  classes[diagonal] = classes[straight] = GridCellClass::inner;
+  ExtensionSearch<2> search(box, classes);
+  EXPECT_EQ(search.block({{{4, 4}}}), straight);
+  EXPECT_EQ(search.block({{{3, 4}}}), diagonal); // 7 against 17
+}
+
+
+TEST(Extension, TiesGoToTheSmallestNumber)
+{
+  const GridBox<2> box = cube<2>(12);
+  Classes          classes(box.size(), GridCellClass::cut);
+  const auto       left = box.number({{{0, 2}}}), below = box.number({{{2, 0}}});
+  classes[left] = classes[below] = classes[box.number({{{4, 2}}})] =
+    classes[box.number({{{2, 4}}})] = GridCellClass::inner;
+  ExtensionSearch<2> search(box, classes);
+  EXPECT_EQ(search.block({{{2, 2}}}), std::min(left, below));
+}
+
+
+// Two slabs with an inactive layer of grid cells between them.
+TEST(Extension, DoesNotCoupleAcrossAGap)
+{
+  const GridBox<3> box = cube<3>(12);
+  const auto       slabs = [&](const bool right_has_inner) {
+    Classes classes(box.size(), GridCellClass::inactive);
+    for (unsigned int number = 0; number < box.size(); ++number)
+      {
+        const int i = box.index(number)[0];
+        if (i <= 1)
+          classes[number] = GridCellClass::inner;
+        else if (i == 3 || i == 4)
+          classes[number] = GridCellClass::cut;
+        else if (i > 4)
+          classes[number] =
+            right_has_inner && i >= 6 ? GridCellClass::inner : GridCellClass::cut;
+      }
+    return classes;
+  };
+  {
+    const Classes      classes = slabs(true);
+    ExtensionSearch<3> search(box, classes);
+    // Its support reaches 3 ... 5; the left slab would be one grid cell nearer.
+    const auto block = search.block({{{4, 2, 2}}});
+    ASSERT_TRUE(block.has_value());
+    EXPECT_EQ(box.index(*block)[0], 6);
+  }
+  {
+    const Classes      classes = slabs(false);
+    ExtensionSearch<3> search(box, classes);
+    EXPECT_FALSE(search.block({{{4, 2, 2}}}).has_value());
+    EXPECT_TRUE(search.block({{{2, 2, 2}}}).has_value());
+  }
+}

@@ -1,0 +1,401 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/spline_space.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "../body_on_grid.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr double h = 50.;
+
+  template <int dim>
+  double
+  cell_spacing()
+  {
+    return dim == 2 ? h / 6. : h / 3.5;
+  }
+
+  /** A ball cut by a half space: any cut, one piece with inner grid cells. */
+  template <int dim>
+  std::vector<Point<dim>>
+  random_body(const unsigned int seed)
+  {
+    std::mt19937                           generator(seed);
+    std::uniform_real_distribution<double> uniform(0., 1.);
+    const double         radius  = h * (2. + 0.8 * uniform(generator));
+    const double         spacing = cell_spacing<dim>() * (1. + 0.3 * uniform(generator));
+    const Point<dim>     center(2. * h * random_tensor<1, dim>(generator));
+    Tensor<1, dim>       normal = random_tensor<1, dim>(generator);
+    normal /= normal.norm();
+    const double cut = radius * 0.8 * uniform(generator);
+    return lattice_points<dim>(center, radius, spacing, [&](const auto &x) {
+      return x.distance(center) < radius && normal * (x - center) < cut;
+    });
+  }
+
+  template <int dim>
+  BodyOnGrid<dim>
+  body(const std::vector<Point<dim>> &points,
+       const MPI_Comm                 comm = MPI_COMM_WORLD)
+  {
+    return BodyOnGrid<dim>(points,
+                           std::pow(cell_spacing<dim>(), dim),
+                           GridParameters(),
+                           {},
+                           comm);
+  }
+
+  /** u_i(x) = a_i + A_ij x_j + x·C_i x */
+  template <int dim>
+  struct Quadratic
+  {
+    Tensor<1, dim>                           a;
+    Tensor<2, dim>                           A;
+    std::array<SymmetricTensor<2, dim>, dim> C;
+
+    explicit Quadratic(std::mt19937 &generator)
+      : a(100. * random_tensor<1, dim>(generator))
+      , A(random_tensor<2, dim>(generator))
+    {
+      for (auto &c : C)
+        c = symmetrize(random_tensor<2, dim>(generator)) / 100.;
+    }
+
+    Tensor<1, dim>
+    value(const Point<dim> &x) const
+    {
+      Tensor<1, dim> u = a + A * x;
+      for (unsigned int i = 0; i < dim; ++i)
+        u[i] += x * (C[i] * x);
+      return u;
+    }
+
+    Tensor<2, dim>
+    gradient(const Point<dim> &x) const
+    {
+      Tensor<2, dim> G = A;
+      for (unsigned int i = 0; i < dim; ++i)
+        G[i] += 2. * (C[i] * x);
+      return G;
+    }
+
+    /** Σ c_k² N_k(x) = x² + h²/4 for splines centred at c_k: the coefficients
+     *  are the values at the centres less h²/4 for each x². */
+    Tensor<1, dim>
+    coefficient(const Point<dim> &center) const
+    {
+      Tensor<1, dim> u = value(center);
+      for (unsigned int i = 0; i < dim; ++i)
+        u[i] -= 0.25 * h * h * trace(C[i]);
+      return u;
+    }
+  };
+
+  /** Checks the field with these coefficients at all particles. */
+  template <int dim, typename Value, typename Gradient>
+  void
+  expect_field(const BodyOnGrid<dim>     &body,
+               const Equilibrium::Vector &u,
+               const Value               &value,
+               const Gradient            &gradient)
+  {
+    double largest = 0., largest_gradient = 0.;
+    for (const Point<dim> &x : body.particles)
+      {
+        largest          = std::max(largest, value(x).norm());
+        largest_gradient = std::max(largest_gradient, gradient(x).norm());
+      }
+    unsigned int n_points = 0;
+    body.at_points(body.particles,
+                   u,
+                   [&](const unsigned int      i,
+                       const LocalField<dim>  &field,
+                       const SplineValues<dim> &splines) {
+                     const Point<dim> &x = body.particles[i];
+                     EXPECT_LE((field.value(splines) - value(x)).norm(),
+                               1e-10 * largest);
+                     EXPECT_LE((field.step_deformation(splines) -
+                                unit_tensor<dim>() - gradient(x))
+                                 .norm(),
+                               1e-10 * largest_gradient);
+                     ++n_points;
+                   });
+    EXPECT_EQ(Utilities::MPI::sum(n_points, MPI_COMM_WORLD),
+              body.particles.size());
+  }
+
+  template <int dim>
+  void
+  expect_affine(const BodyOnGrid<dim> &body, std::mt19937 &generator)
+  {
+    const auto a = 100. * random_tensor<1, dim>(generator);
+    const auto A = random_tensor<2, dim>(generator);
+    expect_field(
+      body,
+      body.vector_of(body.affine(a, A)),
+      [&](const Point<dim> &x) { return a + A * x; },
+      [&](const Point<dim> &) { return A; });
+  }
+
+  template <int dim>
+  void
+  check_quadratics()
+  {
+    for (unsigned int seed = 1; seed <= 6; ++seed)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const auto   cut = body<dim>(random_body<dim>(seed));
+        const auto  &space = *cut.space;
+        std::mt19937 generator(100 + seed);
+        ASSERT_EQ(space.n_pieces(), 1u);
+        ASSERT_EQ(space.n_unknowns(), dim * space.n_inner_splines());
+        ASSERT_GT(space.n_outer_splines(), 0u);
+        const Quadratic<dim> field(generator);
+        expect_field(
+          cut,
+          cut.interpolate(
+            [&](const Point<dim> &c) { return field.coefficient(c); }),
+          [&](const Point<dim> &x) { return field.value(x); },
+          [&](const Point<dim> &x) { return field.gradient(x); });
+        expect_affine(cut, generator);
+      }
+  }
+
+  /** The weights of each spline in all active grid cells sum up to one. */
+  template <int dim>
+  void
+  check_partition_of_unity()
+  {
+    for (unsigned int seed = 1; seed <= 6; ++seed)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const auto cut = body<dim>(random_body<dim>(seed));
+        for (const auto &cell : cut.space->cells())
+          {
+            const unsigned int m = cell.unknowns.size();
+            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+              {
+                double sum = cell.weights.empty() ? 1. : 0.;
+                if (!cell.weights.empty())
+                  for (unsigned int s = 0; s < m; ++s)
+                    sum += cell.weights[a * m + s];
+                EXPECT_NEAR(sum, 1., 1e-11);
+              }
+            EXPECT_TRUE(
+              std::is_sorted(cell.unknowns.begin(), cell.unknowns.end()));
+          }
+      }
+  }
+
+  /** A few particles each, far from each other: no inner grid cell. */
+  template <int dim>
+  void
+  check_fragments()
+  {
+    std::mt19937            generator(7);
+    std::vector<Point<dim>> points;
+    for (unsigned int piece = 0; piece < 3; ++piece)
+      for (unsigned int i = 0; i <= piece; ++i)
+        {
+          Point<dim> x(30. * random_tensor<1, dim>(generator));
+          x[0] += piece * 8. * h;
+          points.push_back(x);
+        }
+    const auto  fragments = body<dim>(points);
+    const auto &space     = *fragments.space;
+    EXPECT_EQ(space.n_pieces(), 3u);
+    EXPECT_EQ(space.n_inner_splines(), 0u);
+    EXPECT_EQ(space.n_unknowns() % (dim * (dim + 1)), 0u);
+    EXPECT_GE(space.n_unknowns(), 3u * dim * (dim + 1));
+    expect_affine(fragments, generator);
+  }
+
+  /** One body with inner grid cells, one fragment: each moves alone. */
+  template <int dim>
+  void
+  check_pieces()
+  {
+    std::vector<Point<dim>> points = random_body<dim>(1);
+    Point<dim>              far    = points.front();
+    for (const Point<dim> &x : points)
+      far[0] = std::max(far[0], x[0]);
+    far[0] += 4. * h;
+    points.push_back(far);
+    const auto  both  = body<dim>(points);
+    const auto &space = *both.space;
+    ASSERT_EQ(space.n_pieces(), 2u);
+    std::mt19937 generator(3);
+    expect_affine(both, generator);
+
+    std::set<unsigned int> found;
+    for (const auto &cell : space.cells())
+      found.insert(space.piece(cell.number));
+    for (const unsigned int piece : found)
+      EXPECT_LT(piece, 2u);
+    EXPECT_EQ(space.pieces_of_unknowns().size(), space.owned().n_elements());
+
+    const auto a = random_tensor<1, dim>(generator);
+    const auto A = random_tensor<2, dim>(generator);
+    const auto &box = space.box();
+    for (unsigned int piece = 0; piece < 2; ++piece)
+      both.at_points(points,
+                     both.vector_of(space.affine_coefficients(piece, a, A)),
+                     [&](const unsigned int      i,
+                         const LocalField<dim>  &field,
+                         const SplineValues<dim> &splines) {
+                       const Tensor<1, dim> expected =
+                         space.piece(box.number(box.locate(points[i]))) ==
+                             piece ?
+                           a + A * points[i] :
+                           Tensor<1, dim>();
+                       EXPECT_LE((field.value(splines) - expected).norm(),
+                                 1e-10 * (1. + points[i].norm()));
+                     });
+  }
+
+  /** Every number of ranks gives the same splines. */
+  template <int dim>
+  void
+  check_ranks()
+  {
+    for (unsigned int seed = 1; seed <= 3; ++seed)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const auto  points = random_body<dim>(seed);
+        const auto  shared = body<dim>(points);
+        const auto  alone  = body<dim>(points, MPI_COMM_SELF);
+        const auto &space  = *shared.space;
+        EXPECT_EQ(space.n_unknowns(), alone.space->n_unknowns());
+        EXPECT_EQ(space.n_active_cells(), alone.space->n_active_cells());
+        EXPECT_EQ(space.n_inner_splines(), alone.space->n_inner_splines());
+        EXPECT_EQ(space.n_outer_splines(), alone.space->n_outer_splines());
+        EXPECT_EQ(space.n_pieces(), alone.space->n_pieces());
+        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.cells().size(),
+                                                    MPI_COMM_WORLD),
+                  alone.space->n_active_cells());
+        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.owned().n_elements(),
+                                                    MPI_COMM_WORLD) *
+                    dim,
+                  space.n_unknowns());
+        EXPECT_EQ((space.owned() & space.relevant()), space.owned());
+
+        // Coefficients that tell the splines apart.
+        const auto wild = [](const Point<dim> &c) {
+          Tensor<1, dim> value;
+          for (unsigned int d = 0; d < dim; ++d)
+            value[d] = std::sin(0.7 * c[0] + (d + 1.3) * c[1] + c[dim - 1]);
+          return value;
+        };
+        const auto fields = shared.fields(shared.interpolate(wild));
+        const auto whole  = alone.fields(alone.interpolate(wild));
+        unsigned int k = 0;
+        for (unsigned int c = 0; c < fields.size(); ++c)
+          {
+            while (alone.space->cells()[k].number != space.cells()[c].number)
+              ++k;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
+                EXPECT_NEAR(fields[c].coefficient[i][b],
+                            whole[k].coefficient[i][b],
+                            1e-10);
+          }
+      }
+  }
+
+  template <int dim>
+  void
+  check_without_extension()
+  {
+    GridParameters parameters;
+    parameters.extension = false;
+    const BodyOnGrid<dim> raw(random_body<dim>(2),
+                              std::pow(cell_spacing<dim>(), dim),
+                              parameters);
+    const auto           &space = *raw.space;
+    EXPECT_EQ(space.n_unknowns(),
+              dim * (space.n_inner_splines() + space.n_outer_splines()));
+    for (const auto &cell : space.cells())
+      {
+        EXPECT_EQ(cell.unknowns.size(), BSpline<dim>::n);
+        for (const double weight : cell.weights)
+          EXPECT_TRUE(weight == 0. || weight == 1.);
+      }
+    std::mt19937         generator(5);
+    const Quadratic<dim> field(generator);
+    expect_field(
+      raw,
+      raw.interpolate([&](const Point<dim> &c) { return field.coefficient(c); }),
+      [&](const Point<dim> &x) { return field.value(x); },
+      [&](const Point<dim> &x) { return field.gradient(x); });
+  }
+
+  /** Two blocks of full grid cells with @p gap empty layers between them. */
+  unsigned int
+  pieces_with_gap(const int gap)
+  {
+    const auto points = lattice_points<2>(
+      Point<2>(), 10. * h, h / 4., [&](const Point<2> &x) {
+        return x[1] > 0. && x[1] < 2. * h &&
+               ((x[0] > -3. * h && x[0] < 0.) ||
+                (x[0] > gap * h && x[0] < (gap + 3) * h));
+      });
+    return BodyOnGrid<2>(points, h * h / 16.).space->n_pieces();
+  }
+} // namespace
+
+
+TEST(SplineSpace, ReproducesQuadraticsForAnyCut)
+{
+  MORULA_BOTH_DIMENSIONS(check_quadratics)
+}
+
+
+TEST(SplineSpace, PartitionOfUnity)
+{
+  MORULA_BOTH_DIMENSIONS(check_partition_of_unity)
+}
+
+
+TEST(SplineSpace, FragmentsReproduceAffineFields)
+{
+  MORULA_BOTH_DIMENSIONS(check_fragments)
+}
+
+
+TEST(SplineSpace, PiecesMoveIndependently)
+{
+  MORULA_BOTH_DIMENSIONS(check_pieces)
+}
+
+
+TEST(SplineSpace, IsTheSameForAnyNumberOfRanks)
+{
+  MORULA_BOTH_DIMENSIONS(check_ranks)
+}
+
+
+TEST(SplineSpace, WithoutExtensionEverySplineIsAnUnknown)
+{
+  MORULA_BOTH_DIMENSIONS(check_without_extension)
+}
+
+
+// Splines reach over one grid cell, and over two: the middles of both supports.
+TEST(SplineSpace, GridCellsThatShareASplineAreOnePiece)
+{
+  EXPECT_EQ(pieces_with_gap(0), 1u);
+  EXPECT_EQ(pieces_with_gap(1), 1u);
+  EXPECT_EQ(pieces_with_gap(2), 2u);
+  EXPECT_EQ(pieces_with_gap(4), 2u);
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/condensation.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "../finite_differences.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  struct Problem
+  {
+    static constexpr unsigned int n      = BSpline<dim>::n;
+    static constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
+
+    typename SplineSpace<dim>::Cell cell;
+    FullMatrix<double>              C; // n_dofs x dim m
+
+    /** A sparse C of random weights; none: the identity. */
+    Problem(const unsigned int m, const bool weights, std::mt19937 &generator)
+      : C(n_dofs, dim * m)
+    {
+      std::uniform_real_distribution<double> uniform(-5., 5.);
+      cell.number = 0;
+      for (unsigned int s = 0; s < m; ++s)
+        cell.unknowns.push_back(3 * s);
+      if (weights)
+        cell.weights.assign(n * m, 0.);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int s = 0; s < m; ++s)
+          {
+            double weight = a == s ? 1. : 0.;
+            if (weights)
+              cell.weights[a * m + s] = weight =
+                generator() % 3 == 0 ? uniform(generator) : 0.;
+            for (unsigned int i = 0; i < dim; ++i)
+              C(i * n + a, i * m + s) = weight;
+          }
+    }
+  };
+
+  std::vector<double>
+  random_values(const unsigned int n, std::mt19937 &generator)
+  {
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    std::vector<double>                    values(n);
+    for (double &value : values)
+      value = uniform(generator);
+    return values;
+  }
+
+  template <int dim>
+  void
+  check_products()
+  {
+    constexpr unsigned int n = BSpline<dim>::n;
+    constexpr unsigned int N = LocalSystem<dim>::n_dofs;
+    std::mt19937           generator(1);
+    for (const auto &[m, weights] : {std::pair<unsigned int, bool>(n, false),
+                                     {n, true},
+                                     {dim + 1, true},
+                                     {2 * n, true}})
+      {
+        SCOPED_TRACE(std::to_string(m) + " unknowns");
+        const Problem<dim>      problem(m, weights, generator);
+        const auto             &C = problem.C;
+        const Condensation<dim> condensation(problem.cell);
+        ASSERT_EQ(condensation.m(), m);
+
+        const auto coefficients = random_values(dim * m, generator);
+        const auto field        = condensation.expand(coefficients);
+        std::vector<double> found, expected(N, 0.);
+        for (unsigned int row = 0; row < N; ++row)
+          {
+            found.push_back(field.coefficient[row / n][row % n]);
+            for (unsigned int k = 0; k < dim * m; ++k)
+              expected[row] += C(row, k) * coefficients[k];
+          }
+        expect_near(found, expected, 1e-14);
+
+        std::array<double, N> forces;
+        const auto            values = random_values(N, generator);
+        std::copy(values.begin(), values.end(), forces.begin());
+        std::vector<double> sums(dim * m, 0.), magnitudes(dim * m, 0.);
+        for (unsigned int k = 0; k < dim * m; ++k)
+          for (unsigned int row = 0; row < N; ++row)
+            {
+              sums[k] += C(row, k) * forces[row];
+              magnitudes[k] += std::abs(C(row, k)) * forces[row];
+            }
+        expect_near(condensation.condense(forces), sums, 1e-14);
+        expect_near(condensation.condense(forces, true), magnitudes, 1e-14);
+
+        // Unsymmetric, so that a transposed product shows.
+        const auto         K_values = random_values(N * N, generator);
+        FullMatrix<double> K(N, N, K_values.data()), KC(N, dim * m),
+          dense(dim * m, dim * m);
+        K.mmult(KC, C);
+        C.Tmmult(dense, KC);
+        std::vector<double> rows;
+        for (unsigned int k = 0; k < dim * m; ++k)
+          for (unsigned int l = 0; l < dim * m; ++l)
+            rows.push_back(dense(k, l));
+        expect_near(condensation.condense(K_values), rows, 1e-13);
+      }
+  }
+} // namespace
+
+
+TEST(Condensation, AgreesWithTheDenseProducts)
+{
+  MORULA_BOTH_DIMENSIONS(check_products)
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_mechanics_linear_problem_h
+#define morula_tests_mechanics_linear_problem_h
+
+#include <morula/mechanics/equilibrium.h>
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace Morula
+{
+  /** A timer that prints nothing. */
+  class QuietTimer
+  {
+  public:
+    operator TimerOutput &()
+    {
+      return timer;
+    }
+
+  private:
+    ConditionalOStream stream{std::cout, false};
+    TimerOutput        timer{stream, TimerOutput::never, TimerOutput::wall_times};
+  };
+
+  /**
+   * @p n unknowns, distributed in equal parts. What depends on the problem are
+   * functions of numbers of unknowns; each unknown couples to its neighbours by
+   * number.
+   */
+  class ChainProblem : public Equilibrium
+  {
+  public:
+    /** K_ij for |i - j| <= 1, at u. */
+    std::function<double(unsigned int, unsigned int, const std::vector<double> &)>
+      stiffness;
+    /** R_i at u. */
+    std::function<double(unsigned int, const std::vector<double> &)> force;
+    /** Energy at u. */
+    std::function<double(const std::vector<double> &)> energy =
+      [](const std::vector<double> &) { return 0.; };
+    bool                conservative = true;
+    double              small        = 0.;
+    std::vector<Vector> nulls;
+
+    /** What Newton's method asked for. */
+    std::vector<GrowthAt>       tangents;
+    mutable std::vector<double> residual_norms;
+
+    explicit ChainProblem(const unsigned int n)
+      : n(n)
+    {
+      const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      const unsigned int rank =
+        Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      owned = IndexSet(n);
+      owned.add_range(n * rank / n_ranks, n * (rank + 1) / n_ranks);
+      TrilinosWrappers::SparsityPattern pattern(owned, MPI_COMM_WORLD);
+      for (const auto row : owned)
+        for (unsigned int column = row == 0 ? 0 : row - 1;
+             column < std::min<unsigned int>(row + 2, n);
+             ++column)
+          pattern.add(row, column);
+      pattern.compress();
+      K.reinit(pattern);
+    }
+
+    void
+    initialize(Vector &vector) const override
+    {
+      vector.reinit(owned, MPI_COMM_WORLD);
+    }
+
+    Evaluation
+    residual(const Vector &u, Vector &R) const override
+    {
+      const auto   values = gathered(u);
+      const double e      = energy(values);
+      if (!std::isfinite(e))
+        return {e, 0.};
+      initialize(R);
+      for (const auto i : owned)
+        R(i) = force(i, values);
+      R.compress(VectorOperation::insert);
+      residual_norms.push_back(R.l2_norm());
+      return {e, std::abs(e)};
+    }
+
+    double
+    rounding(const Vector &) const override
+    {
+      return 1e-13;
+    }
+
+    const Matrix &
+    tangent(const Vector &u, const GrowthAt growth) override
+    {
+      tangents.push_back(growth);
+      const auto values = gathered(u);
+      for (const auto i : owned)
+        for (unsigned int j = i == 0 ? 0 : i - 1;
+             j < std::min<unsigned int>(i + 2, n);
+             ++j)
+          K.set(i, j, stiffness(i, j, values));
+      K.compress(VectorOperation::insert);
+      return K;
+    }
+
+    bool
+    is_conservative() const override
+    {
+      return conservative;
+    }
+
+    const std::vector<Vector> &
+    null_space() const override
+    {
+      return nulls;
+    }
+
+    double
+    small_force() const override
+    {
+      return small;
+    }
+
+    double
+    stiffness_scale() const override
+    {
+      return 1.;
+    }
+
+    /** All entries of a vector, on all ranks. */
+    std::vector<double>
+    gathered(const Vector &u) const
+    {
+      std::vector<double> values(n, 0.);
+      for (const auto i : owned)
+        values[i] = u(i);
+      Utilities::MPI::sum(values, MPI_COMM_WORLD, values);
+      return values;
+    }
+
+    Vector
+    vector_of(const std::vector<double> &values) const
+    {
+      Vector vector;
+      initialize(vector);
+      for (const auto i : owned)
+        vector(i) = values[i];
+      vector.compress(VectorOperation::insert);
+      return vector;
+    }
+
+    const unsigned int n;
+    IndexSet           owned;
+
+  private:
+    Matrix K;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,447 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/following_pressure.h>
+#include <morula/effects/nitsche.h>
+#include <morula/mechanics/internal_force.h>
+#include <morula/mechanics/momentum_balance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "../body_on_grid.h"
+#include "linear_problem.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr double h = 50.;
+
+  /** A smooth vector field of waves of some grid cells' length. */
+  template <int dim>
+  Tensor<1, dim>
+  waves(const Point<dim> &x, const double phase)
+  {
+    Tensor<1, dim> value;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        value[i] += std::sin(x[j] / (90. + 20. * i) + phase + 1.7 * i + j);
+    return value;
+  }
+
+  template <int dim>
+  ElasticState<dim>
+  state_at(const Point<dim> &x, const double phase, const double W)
+  {
+    ElasticState<dim> state{unit_tensor<dim>(), W};
+    for (unsigned int i = 0; i < dim; ++i)
+      state.A[i] += 0.08 * waves<dim>(x, phase + i);
+    return state;
+  }
+
+  template <int dim>
+  std::vector<ElasticState<dim>>
+  states_at(const std::vector<Point<dim>> &points,
+            const PointGroups             &groups,
+            const double                   phase,
+            const double                   W)
+  {
+    std::vector<ElasticState<dim>> states;
+    for (const unsigned int i : groups.points)
+      states.push_back(state_at(points[i], phase, W));
+    return states;
+  }
+
+  /** Points on the sphere, and their outward normals. */
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  normals(const unsigned int n)
+  {
+    std::mt19937                generator(7);
+    std::vector<Tensor<1, dim>> list;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        list.push_back(random_tensor<1, dim>(generator));
+        list.back() /= list.back().norm();
+      }
+    return list;
+  }
+
+  /**
+   * A stressed ball with Nitsche's term (no gap at the displacement u) on a
+   * part of its surface, and a following pressure, if asked for.
+   */
+  template <int dim>
+  class Ball
+  {
+  public:
+    Ball(const MPI_Comm comm, const bool pressure)
+      : Ball(comm, pressure, normals<dim>(30))
+    {}
+
+    BodyOnGrid<dim>     body;
+    Equilibrium::Vector u;
+
+  private:
+    MaterialPoints<dim>                     points;
+    typename MomentumBalance<dim>::TermList terms;
+    QuietTimer                              timer;
+
+  public:
+    std::unique_ptr<MomentumBalance<dim>> balance;
+
+  private:
+    static Point<dim>
+    center()
+    {
+      Point<dim> c;
+      for (unsigned int d = 0; d < dim; ++d)
+        c[d] = 7. + 11. * d;
+      return c;
+    }
+
+    static std::vector<Point<dim>>
+    on_sphere(const std::vector<Tensor<1, dim>> &N)
+    {
+      std::vector<Point<dim>> list;
+      for (const auto &n : N)
+        list.push_back(center() + 92. * n);
+      return list;
+    }
+
+    Ball(const MPI_Comm                     comm,
+         const bool                         pressure,
+         const std::vector<Tensor<1, dim>> &N)
+      : body(ball_points(center(), 90., spacing()),
+             std::pow(spacing(), dim),
+             GridParameters(),
+             on_sphere(N),
+             comm)
+      , u(body.interpolate([](const Point<dim> &x) {
+        return 3. * waves<dim>(x, 0.4);
+      }))
+    {
+      const auto groups = body.group(body.particles);
+      static_cast<GroupedPoints<dim> &>(points) =
+        body.grouped(body.particles, groups);
+      points.lame = {lame(1., 0.4)};
+      points.current =
+        states_at(body.particles, groups, 0.3, std::pow(spacing(), dim));
+      points.previous =
+        states_at(body.particles, groups, 0.9, std::pow(spacing(), dim));
+      terms.push_back(std::make_unique<InternalForce<dim>>(points));
+
+      const auto on_boundary = body.group(body.boundary);
+      add_nitsche(N, on_boundary);
+      if (pressure)
+        {
+          std::vector<typename FollowingPressure<dim>::Load> loads;
+          for (const unsigned int i : on_boundary.points)
+            loads.push_back({0.7, 100. * N[i]});
+          terms.push_back(std::make_unique<FollowingPressure<dim>>(
+            body.grouped(body.boundary, on_boundary), loads));
+        }
+      balance = std::make_unique<MomentumBalance<dim>>(
+        *body.space,
+        terms,
+        1.,
+        RigidModes<dim>(*body.space, {}, {}, comm),
+        timer,
+        comm);
+    }
+
+    static double
+    spacing()
+    {
+      return dim == 2 ? 10. : 18.;
+    }
+
+    void
+    add_nitsche(const std::vector<Tensor<1, dim>> &N, const PointGroups &groups)
+    {
+      std::vector<Tensor<1, dim>> displacements(body.boundary.size());
+      body.at_points(body.boundary,
+                     u,
+                     [&](const unsigned int i, const auto &field, const auto &s) {
+                       displacements[i] = field.value(s);
+                     });
+      std::vector<typename Nitsche<dim>::Condition> conditions;
+      for (const unsigned int i : groups.points)
+        {
+          typename Nitsche<dim>::Condition condition;
+          condition.projection     = i % 2 == 0 ? unit_tensor<dim>() :
+                                                  outer_product(N[i], N[i]);
+          condition.gap            = -(condition.projection * displacements[i]);
+          condition.position_scale = 100.;
+          condition.normal         = N[i];
+          condition.area           = 80.;
+          condition.penalty        = 2.;
+          condition.lame           = lame(1., 0.4);
+          conditions.push_back(condition);
+        }
+      terms.push_back(std::make_unique<Nitsche<dim>>(
+        body.grouped(body.boundary, groups),
+        std::move(conditions),
+        states_at(body.boundary, groups, 0.3, 1.),
+        states_at(body.boundary, groups, 0.9, 1.)));
+    }
+  };
+
+  template <int dim>
+  Equilibrium::Vector
+  direction(const Ball<dim> &ball, const double phase)
+  {
+    return ball.body.interpolate(
+      [&](const Point<dim> &x) { return waves<dim>(x, phase); });
+  }
+
+  template <int dim>
+  void
+  check_derivatives()
+  {
+    const double eps = 1e-4;
+    for (const bool pressure : {false, true})
+      {
+        SCOPED_TRACE(pressure ? "with pressure" : "");
+        Ball<dim> ball(MPI_COMM_WORLD, pressure);
+        auto     &balance = *ball.balance;
+        EXPECT_EQ(balance.is_conservative(), !pressure);
+        Equilibrium::Vector R, after, before;
+        ASSERT_TRUE(std::isfinite(balance.residual(ball.u, R).energy));
+        const auto &K = balance.tangent(ball.u, GrowthAt::current);
+        // Smooth directions, and one that jumps from spline to spline.
+        for (const double phase : {0.1, 2.5, 1e4})
+          {
+            auto v = direction(ball, phase);
+            if (phase > 100.)
+              for (const auto i : ball.body.space->owned_dofs())
+                v(i) = std::sin(1e4 * (v(i) + 0.1));
+            v.compress(VectorOperation::insert);
+            Equilibrium::Vector upper(ball.u), lower(ball.u), Kv(R);
+            upper.add(eps, v);
+            lower.add(-eps, v);
+            const double rate = (balance.residual(upper, after).energy -
+                                 balance.residual(lower, before).energy) /
+                                (2. * eps);
+            if (!pressure)
+              {
+                EXPECT_NEAR(rate, R * v, 1e-6 * R.l2_norm() * v.l2_norm());
+              }
+            K.vmult(Kv, v);
+            after -= before;
+            after /= 2. * eps;
+            after -= Kv;
+            EXPECT_LE(after.l2_norm(), 1e-6 * Kv.l2_norm());
+          }
+        // K is symmetric unless a pressure follows.
+        const auto v = direction(ball, 0.1), w = direction(ball, 2.5);
+        Equilibrium::Vector Kv(v), Kw(v);
+        K.vmult(Kv, v);
+        K.vmult(Kw, w);
+        const double size = Kv.l2_norm() * w.l2_norm();
+        if (pressure)
+          {
+            EXPECT_GT(std::abs(Kv * w - Kw * v), 1e-8 * size);
+          }
+        else
+          {
+            EXPECT_NEAR(Kv * w, Kw * v, 1e-12 * size);
+          }
+      }
+  }
+
+  /** The tangent at the old growth is that of a residual that has it. */
+  template <int dim>
+  void
+  check_old_growth()
+  {
+    Ball<dim>           ball(MPI_COMM_WORLD, false);
+    auto               &balance = *ball.balance;
+    const auto          v       = direction(ball, 0.1);
+    Equilibrium::Vector old(v), current(v);
+    balance.tangent(ball.u, GrowthAt::previous).vmult(old, v);
+    balance.tangent(ball.u, GrowthAt::current).vmult(current, v);
+    Equilibrium::Vector difference(old);
+    difference -= current;
+    EXPECT_GT(difference.l2_norm(), 1e-3 * current.l2_norm());
+    // Made again, not added up.
+    balance.tangent(ball.u, GrowthAt::previous).vmult(current, v);
+    current -= old;
+    EXPECT_LE(current.l2_norm(), 1e-14 * old.l2_norm());
+  }
+
+  /** Numbers that do not depend on the numbering of the unknowns. */
+  template <int dim>
+  std::vector<double>
+  invariants(Ball<dim> &ball)
+  {
+    auto               &balance = *ball.balance;
+    Equilibrium::Vector R;
+    const auto          evaluation = balance.residual(ball.u, R);
+    std::vector<double> values     = {evaluation.energy,
+                                      evaluation.energy_magnitude,
+                                      R.l2_norm(),
+                                      balance.rounding(ball.u) * 1e12};
+    for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
+      {
+        const auto &K = balance.tangent(ball.u, growth);
+        values.push_back(K.frobenius_norm());
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const auto v = direction(ball, 0.1 + k), w = direction(ball, 2. * k);
+            values.push_back(R * v);
+            Equilibrium::Vector Kv(v);
+            K.vmult(Kv, v);
+            values.push_back(Kv * w);
+          }
+      }
+    return values;
+  }
+
+  template <int dim>
+  void
+  check_ranks()
+  {
+    Ball<dim>  shared(MPI_COMM_WORLD, true), alone(MPI_COMM_SELF, true);
+    const auto found = invariants(shared), expected = invariants(alone);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found[i],
+                  expected[i],
+                  1e-10 * (std::abs(expected[i]) + std::abs(expected[0])))
+        << "number " << i;
+  }
+
+  template <int dim>
+  void
+  check_inversion()
+  {
+    Ball<dim>           ball(MPI_COMM_WORLD, false);
+    Equilibrium::Vector R;
+    // Inside out along x on one side only.
+    const auto u = ball.body.interpolate([](const Point<dim> &x) {
+      Tensor<1, dim> value;
+      value[0] = x[0] > 60. ? -3. * (x[0] - 60.) : 0.;
+      return value;
+    });
+    EXPECT_EQ(ball.balance->residual(u, R).energy,
+              std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isfinite(ball.balance->residual(ball.u, R).energy));
+    EXPECT_GT(ball.balance->rounding(ball.u), 0.);
+    EXPECT_LT(ball.balance->rounding(ball.u), 1e-10 * R.l2_norm());
+  }
+
+  template <int dim>
+  void
+  check_local()
+  {
+    Ball<dim>  ball(MPI_COMM_WORLD, false);
+    const auto fields = ball.body.fields(ball.u);
+    const typename MomentumBalance<dim>::Local local(*ball.body.space,
+                                                     ball.u,
+                                                     MPI_COMM_WORLD);
+    for (unsigned int c = 0; c < fields.size(); ++c)
+      {
+        const auto field = local.field(c);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            EXPECT_NEAR(field.coefficient[i][a],
+                        fields[c].coefficient[i][a],
+                        1e-11);
+      }
+  }
+
+  /** A free body at rest: rigid motions cost nothing. */
+  template <int dim>
+  void
+  check_rigid_motion()
+  {
+    const BodyOnGrid<dim> body(ball_points(Point<dim>(), 90., 18.),
+                               std::pow(18., dim));
+    const auto            groups = body.group(body.particles);
+    MaterialPoints<dim>   points;
+    static_cast<GroupedPoints<dim> &>(points) =
+      body.grouped(body.particles, groups);
+    points.lame    = {lame(1., 0.4)};
+    points.current = std::vector<ElasticState<dim>>(
+      groups.points.size(), {unit_tensor<dim>(), std::pow(18., dim)});
+    typename MomentumBalance<dim>::TermList terms;
+    terms.push_back(std::make_unique<InternalForce<dim>>(points));
+    std::vector<typename RigidModes<dim>::Mass> masses;
+    for (const unsigned int i : groups.points)
+      masses.push_back({0, body.particles[i], 1.});
+    QuietTimer           timer;
+    MomentumBalance<dim> balance(
+      *body.space,
+      terms,
+      1.,
+      RigidModes<dim>(*body.space, masses, {}, MPI_COMM_WORLD),
+      timer,
+      MPI_COMM_WORLD);
+    Equilibrium::Vector u, R;
+    balance.initialize(u);
+    const auto &K = balance.tangent(u, GrowthAt::current);
+    ASSERT_EQ(balance.null_space().size(), dim == 2 ? 3u : 6u);
+    for (const auto &mode : balance.null_space())
+      {
+        Equilibrium::Vector Km(mode);
+        K.vmult(Km, mode);
+        EXPECT_LE(Km.l2_norm(), 1e-12 * K.frobenius_norm());
+      }
+
+    // Large rotations.
+    Tensor<2, dim> Q = unit_tensor<dim>();
+    Q[0][0] = Q[1][1] = std::cos(2.);
+    Q[0][1] = -(Q[1][0] = std::sin(2.));
+    Tensor<1, dim> a;
+    a[0]          = 500.;
+    const auto turned =
+      body.vector_of(body.affine(a, Q - unit_tensor<dim>()));
+    EXPECT_LE(balance.residual(turned, R).energy,
+              1e-13 * body.particles.size() * points.current[0].W);
+    EXPECT_LE(R.l2_norm(), balance.rounding(turned) + 1e-9 * K.frobenius_norm());
+    EXPECT_NEAR(balance.small_force(), 1e-6 * std::pow(h, dim - 1), 1e-15);
+    EXPECT_NEAR(balance.stiffness_scale(), std::pow(h, dim - 2), 1e-15);
+  }
+} // namespace
+
+
+TEST(MomentumBalance, ResidualAndTangentAreDerivatives)
+{
+  MORULA_BOTH_DIMENSIONS(check_derivatives)
+}
+
+
+TEST(MomentumBalance, TangentAtTheOldGrowth)
+{
+  MORULA_BOTH_DIMENSIONS(check_old_growth)
+}
+
+
+TEST(MomentumBalance, IsTheSameForAnyNumberOfRanks)
+{
+  MORULA_BOTH_DIMENSIONS(check_ranks)
+}
+
+
+TEST(MomentumBalance, InversionIsInfiniteEnergyOnAllRanks)
+{
+  MORULA_BOTH_DIMENSIONS(check_inversion)
+}
+
+
+TEST(MomentumBalance, LocalFieldsFollowTheWeights)
+{
+  MORULA_BOTH_DIMENSIONS(check_local)
+}
+
+
+TEST(MomentumBalance, RigidMotionsCostNothing)
+{
+  MORULA_BOTH_DIMENSIONS(check_rigid_motion)
+}

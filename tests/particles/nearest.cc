@@ -1,0 +1,128 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/nearest.h>
+
+#include <gtest/gtest.h>
+
+#include "random_points.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** Ids of the nearest points, found by looking at all of them. */
+  template <int dim>
+  types::particle_index
+  nearest_id(const Point<dim> &query, const PointList<dim> &all)
+  {
+    double shortest = std::numeric_limits<double>::max();
+    for (const Point<dim> &x : all.positions)
+      shortest = std::min(shortest, query.distance(x));
+    types::particle_index lowest = numbers::invalid_unsigned_int;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (query.distance(all.positions[i]) <= shortest * (1. + 1e-9))
+        lowest = std::min(lowest, all.ids[i]);
+    return lowest;
+  }
+
+  /** Compares with the oracle for those of the queries that are this rank's. */
+  template <int dim>
+  void
+  expect_nearest(const std::vector<Point<dim>> &all_queries,
+                 const PointList<dim>          &all)
+  {
+    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+    PointList<dim>      everything = all;
+    for (const Point<dim> &query : all_queries)
+      append(everything, 0, query);
+    enclose(grid, everything);
+    std::vector<Point<dim>> queries;
+    for (const Point<dim> &query : all_queries)
+      if (grid.owner(grid.box().number(grid.box().locate(query))) ==
+          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
+        queries.push_back(query);
+    const auto found = nearest_properties(queries, owned(all, grid), grid);
+    ASSERT_EQ(found.size(), queries.size() * all.n_slots);
+    for (std::size_t q = 0; q < queries.size(); ++q)
+      for (unsigned int slot = 0; slot < all.n_slots; ++slot)
+        EXPECT_EQ(found[q * all.n_slots + slot],
+                  mark(nearest_id(queries[q], all), slot))
+          << queries[q];
+  }
+
+  template <int dim>
+  void
+  check_random()
+  {
+    for (const unsigned int n : {2u, 20u, 600u})
+      expect_nearest<dim>(random_points<dim>(200, 200., 0, n + 1).positions,
+                          random_points<dim>(n, 180., 2, n));
+  }
+
+  /** Queries at the grid's and the lattice's own symmetry points. */
+  template <int dim>
+  void
+  check_ties()
+  {
+    const double spacing = 25.;
+    const auto   sites =
+      lattice_points<dim>(Point<dim>(), 100., spacing, [](const auto &) {
+        return true;
+      });
+    PointList<dim> all;
+    all.n_slots = 1;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      append<dim>(all, (i * 31) % sites.size(), sites[i]);
+    std::vector<Point<dim>> queries;
+    for (const Point<dim> &x : sites)
+      {
+        Point<dim> corner = x;
+        for (unsigned int d = 0; d < dim; ++d)
+          corner[d] += 0.5 * spacing;
+        queries.push_back(corner); // 2^dim at the same distance
+        corner[0] = x[0];
+        queries.push_back(corner);
+      }
+    expect_nearest(queries, all);
+  }
+
+  /** The only point stands in the opposite corner of a large box. */
+  template <int dim>
+  void
+  check_far()
+  {
+    for (const double distance : {200., 900., 1050., 1300.})
+      {
+        PointList<dim> all;
+        all.n_slots = 1;
+        Point<dim> x, query;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            x[d]     = 10.;
+            query[d] = distance;
+          }
+        append(all, 4, x);
+        expect_nearest<dim>({query}, all);
+      }
+  }
+} // namespace
+
+
+TEST(Nearest, AgreesWithLookingAtAllPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_random)
+}
+
+
+TEST(Nearest, TiesGoToTheLowestId)
+{
+  MORULA_BOTH_DIMENSIONS(check_ties)
+}
+
+
+TEST(Nearest, MayBeFarAway)
+{
+  MORULA_BOTH_DIMENSIONS(check_far)
+}

@@ -1,0 +1,141 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/point_store.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "random_points.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** Order, grid cells and properties of a store that holds these points. */
+  template <int dim>
+  void
+  expect_store(const PointStore<dim>     &store,
+               const BackgroundGrid<dim> &grid,
+               const PointList<dim>      &all)
+  {
+    expect_same_points(store.copy(), owned(all, grid));
+    unsigned int end = 0, last_number = 0;
+    for (const auto &cell : store.cells())
+      {
+        EXPECT_TRUE(end == 0 || cell.number > last_number);
+        EXPECT_EQ(cell.begin, end);
+        EXPECT_GT(cell.end, cell.begin);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          {
+            const auto &point = store.order()[p];
+            EXPECT_EQ(grid.box().number(
+                        grid.box().locate(point->get_location())),
+                      cell.number);
+            if (p > cell.begin)
+              {
+                EXPECT_LT(store.order()[p - 1]->get_id(), point->get_id());
+              }
+          }
+        last_number = cell.number;
+        end         = cell.end;
+      }
+    EXPECT_EQ(end, store.order().size());
+  }
+
+  template <int dim>
+  void
+  check_insertion()
+  {
+    const auto          all = random_points<dim>(500, 170., 5, 1);
+    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+    enclose(grid, all);
+    PointStore<dim> store(5);
+    EXPECT_EQ(store.n_slots(), 5u);
+    store.attach(grid);
+    store.insert(dealt(all), grid);
+    expect_store(store, grid, all);
+
+    // Again, from one rank only, and in two portions.
+    expect_same_points(store.take(), owned(all, grid));
+    EXPECT_TRUE(store.order().empty());
+    EXPECT_TRUE(store.cells().empty());
+    const auto portion = [&](const std::size_t begin, const std::size_t end) {
+      return selected(all, [&](const std::size_t i) {
+        return i >= begin && i < end &&
+               Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      });
+    };
+    store.insert(portion(300, 500), grid);
+    store.insert(portion(0, 300), grid);
+    expect_store(store, grid, all);
+  }
+
+  template <int dim>
+  void
+  check_removal()
+  {
+    const auto          all = random_points<dim>(300, 120., 2, 2);
+    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+    enclose(grid, all);
+    PointStore<dim> store(2);
+    store.attach(grid);
+    store.insert(dealt(all), grid);
+    std::vector<typename PointStore<dim>::Iterator> removed;
+    for (const auto &point : store.order())
+      if (point->get_id() % 3 == 0)
+        removed.push_back(point);
+    store.remove(removed, grid);
+    expect_store(store, grid, selected(all, [&](const std::size_t i) {
+                   return all.ids[i] % 3 != 0;
+                 }));
+  }
+
+  template <int dim>
+  void
+  check_tables()
+  {
+    const auto          all = random_points<dim>(400, 110., 0, 3);
+    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+    const auto          mine = dealt(all);
+    const auto [first, last] = extent<dim>({&mine.positions}, grid);
+    enclose(grid, all);
+    std::vector<unsigned int> counts(grid.box().size(), 0);
+    GridIndex<dim>            lowest, highest;
+    lowest.fill(1000);
+    highest.fill(-1000);
+    for (const Point<dim> &x : all.positions)
+      {
+        const auto index = grid.locate(x);
+        ++counts[grid.box().number(index)];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lowest[d]  = std::min(lowest[d], index[d]);
+            highest[d] = std::max(highest[d], index[d]);
+          }
+      }
+    EXPECT_EQ(first, lowest);
+    EXPECT_EQ(last, highest);
+    EXPECT_EQ(count_points(mine.positions, grid), counts);
+  }
+} // namespace
+
+
+TEST(PointStore, HoldsEachPointWhereItsGridCellIsOwned)
+{
+  MORULA_BOTH_DIMENSIONS(check_insertion)
+}
+
+
+TEST(PointStore, RemovesPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_removal)
+}
+
+
+TEST(PointStore, CountsPointsOverAllRanks)
+{
+  MORULA_BOTH_DIMENSIONS(check_tables)
+}

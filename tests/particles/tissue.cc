@@ -1,0 +1,241 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/tissue.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "random_points.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  unsigned int
+  n_boundary_slots()
+  {
+    return BoundarySlots<dim>::n_slots;
+  }
+
+  /** Makes cells of marked points: V⁰ and F that a cell can have. */
+  template <int dim>
+  void
+  make_cells(PointList<dim> &points)
+  {
+    const CellSlots<dim> slots(false, false);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const CellView<dim, double> cell(
+          ArrayView<double>(&points.properties[i * points.n_slots],
+                            points.n_slots),
+          slots);
+        cell.set_scalar(slots.initial_volume, 500. + points.ids[i]);
+        cell.set_tensor(slots.deformation, unit_tensor<dim>());
+      }
+  }
+
+  template <int dim>
+  struct Points
+  {
+    PointList<dim> cells, boundary;
+
+    explicit Points(const unsigned int seed)
+      : cells(random_points<dim>(400,
+                                 150.,
+                                 CellSlots<dim>(false, false).n_slots,
+                                 seed))
+      , boundary(random_points<dim>(150, 160., n_boundary_slots<dim>(), seed + 1))
+    {
+      make_cells(cells);
+    }
+
+    /** Moves all points by @p by, and each a bit by itself. */
+    void
+    move(const Tensor<1, dim> &by, const double shake, const unsigned int seed)
+    {
+      std::mt19937 generator(seed);
+      for (auto *list : {&cells, &boundary})
+        for (Point<dim> &x : list->positions)
+          x += by + shake * random_tensor<1, dim>(generator);
+    }
+  };
+
+  template <int dim>
+  void
+  expect_tissue(const Tissue<dim> &tissue, const Points<dim> &points)
+  {
+    expect_same_points(tissue.cells().copy(),
+                       owned(points.cells, tissue.grid()));
+    expect_same_points(tissue.boundary_points().copy(),
+                       owned(points.boundary, tissue.grid()));
+  }
+
+  template <int dim>
+  Tissue<dim>
+  make_tissue()
+  {
+    return {GridParameters(), CellSlots<dim>(false, false), MPI_COMM_WORLD};
+  }
+
+  template <int dim>
+  void
+  check_moves()
+  {
+    Points<dim> points(1);
+    auto        tissue = make_tissue<dim>();
+    tissue.place(dealt(points.cells), dealt(points.boundary));
+    expect_tissue(tissue, points);
+    const auto box = tissue.grid().box();
+
+    // Several grid cells, far outside of the box, back, blown up.
+    Tensor<1, dim> by;
+    unsigned int   seed = 10;
+    for (const double distance : {0., 20., 260., -5000., 4800.})
+      {
+        SCOPED_TRACE("moved by " + std::to_string(distance));
+        by[0]       = distance;
+        by[dim - 1] = -0.5 * distance;
+        // From where they are, as in a step: each rank moves its own.
+        PointList<dim> cells    = tissue.cells().copy();
+        PointList<dim> boundary = tissue.boundary_points().copy();
+        points.move(by, 40., ++seed);
+        const auto follow = [](PointList<dim> &mine, const PointList<dim> &all) {
+          for (std::size_t i = 0; i < mine.size(); ++i)
+            for (std::size_t k = 0; k < all.size(); ++k)
+              if (all.ids[k] == mine.ids[i])
+                mine.positions[i] = all.positions[k];
+        };
+        follow(cells, points.cells);
+        follow(boundary, points.boundary);
+        tissue.place(cells, boundary);
+        expect_tissue(tissue, points);
+      }
+    for (auto *list : {&points.cells, &points.boundary})
+      for (Point<dim> &x : list->positions)
+        x *= 3.;
+    tissue.place(dealt(points.cells), dealt(points.boundary));
+    expect_tissue(tissue, points);
+    EXPECT_GT(tissue.grid().box().size(), box.size());
+  }
+
+  /** A tissue that stays inside its padding keeps its grid. */
+  template <int dim>
+  void
+  check_same_grid()
+  {
+    Points<dim> points(2);
+    auto        tissue = make_tissue<dim>();
+    tissue.place(dealt(points.cells), dealt(points.boundary));
+    const auto first = tissue.grid().box().first();
+    const auto n     = tissue.grid().box().n();
+    Tensor<1, dim> by;
+    by[0] = 50.;
+    points.move(by, 0., 1);
+    tissue.place(dealt(points.cells), dealt(points.boundary));
+    EXPECT_EQ(tissue.grid().box().first(), first);
+    EXPECT_EQ(tissue.grid().box().n(), n);
+    expect_tissue(tissue, points);
+
+    // As a snapshot has it: the same box and partition again.
+    auto again = make_tissue<dim>();
+    again.restore(dealt(points.cells),
+                  dealt(points.boundary),
+                  first,
+                  n,
+                  tissue.grid().weights());
+    expect_tissue(again, points);
+    for (unsigned int number = 0; number < tissue.grid().box().size(); ++number)
+      EXPECT_EQ(again.grid().owner(number), tissue.grid().owner(number));
+    ASSERT_EQ(again.cells().order().size(), tissue.cells().order().size());
+    for (std::size_t i = 0; i < again.cells().order().size(); ++i)
+      EXPECT_EQ(again.cells().order()[i]->get_id(),
+                tissue.cells().order()[i]->get_id());
+  }
+
+  /** Replaces every fifth cell by two at @p distance on both sides. */
+  template <int dim>
+  void
+  check_replacement(const double distance)
+  {
+    Points<dim> points(3);
+    auto        tissue = make_tissue<dim>();
+    tissue.place(dealt(points.cells), dealt(points.boundary));
+
+    std::vector<typename PointStore<dim>::Iterator> mothers;
+    PointList<dim>                                  daughters;
+    daughters.n_slots       = points.cells.n_slots;
+    const auto  is_mother   = [](const types::particle_index id) {
+      return id % 5 == 0;
+    };
+    const auto divide = [&](const types::particle_index id,
+                            const Point<dim>           &x,
+                            PointList<dim>             &list) {
+      Tensor<1, dim> by;
+      by[id % dim] = distance;
+      append(list, 1000 + 2 * id, x - by);
+      append(list, 1001 + 2 * id, x + by);
+      make_cells(list);
+    };
+    for (const auto &cell : tissue.cells().order())
+      if (is_mother(cell->get_id()))
+        {
+          mothers.push_back(cell);
+          divide(cell->get_id(), cell->get_location(), daughters);
+        }
+    tissue.replace(mothers, daughters);
+
+    Points<dim> after = points;
+    after.cells       = selected(points.cells, [&](const std::size_t i) {
+      return !is_mother(points.cells.ids[i]);
+    });
+    for (std::size_t i = 0; i < points.cells.size(); ++i)
+      if (is_mother(points.cells.ids[i]))
+        divide(points.cells.ids[i], points.cells.positions[i], after.cells);
+    expect_tissue(tissue, after);
+    EXPECT_EQ(Utilities::MPI::sum<unsigned int>(tissue.cells().order().size(),
+                                                MPI_COMM_WORLD),
+              after.cells.size());
+  }
+
+  template <int dim>
+  void
+  check_replacement_inside()
+  {
+    check_replacement<dim>(5.);
+  }
+
+  template <int dim>
+  void
+  check_replacement_outside()
+  {
+    check_replacement<dim>(700.);
+  }
+} // namespace
+
+
+TEST(Tissue, LosesNoPointHoweverFarItMoves)
+{
+  MORULA_BOTH_DIMENSIONS(check_moves)
+}
+
+
+TEST(Tissue, KeepsItsGridInsideThePadding)
+{
+  MORULA_BOTH_DIMENSIONS(check_same_grid)
+}
+
+
+TEST(Tissue, ReplacesMothersByDaughters)
+{
+  MORULA_BOTH_DIMENSIONS(check_replacement_inside)
+}
+
+
+TEST(Tissue, MakesItsGridAnewForDaughtersBeyondIt)
+{
+  MORULA_BOTH_DIMENSIONS(check_replacement_outside)
+}

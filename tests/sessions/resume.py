@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Interrupted and resumed runs against the run that nothing interrupted.
+
+On the same number of ranks they agree bit for bit, on others in the lineage.
+"""
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from program import Session, main, overrides, read_csv
+
+SCENE = Path(__file__).resolve().parent / "small-cube.prm"
+SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
+                   "Boundary conditions/Fixed where": "Z <= 0",
+                   "Solver/Newton tolerance": "1e-12"})
+
+
+class Resume(Session):
+    def assert_same_run(self, whole, resumed):
+        """Equal bit for bit, but for the wall time."""
+        names = sorted(path.name for path in whole.glob("*.csv"))
+        self.assertEqual(
+            names, sorted(path.name for path in resumed.glob("*.csv")))
+        self.assertIn("cells-0002.csv", names)
+        for name in names:
+            if name not in ("statistics.csv", "timings.csv"):
+                self.assert_same_file(whole / name, resumed / name)
+        rows = [[line.rpartition(",")[0] for line in
+                 (run / "statistics.csv").read_text().splitlines()]
+                for run in (whole, resumed)]
+        self.assertEqual(*rows)
+
+    def interrupt_and_resume(self, interruption, *arguments, ranks=1):
+        whole, resumed = self.work / "whole", self.work / "resumed"
+        self.execute(SCENE, *arguments, ranks=ranks, output=whole)
+        self.execute(SCENE, *arguments, *interruption, ranks=ranks,
+                     output=resumed)
+        rows = len(read_csv(resumed / "statistics.csv"))
+        self.assertLess(rows, len(read_csv(whole / "statistics.csv")))
+        self.execute(SCENE, *arguments, "--resume", ranks=ranks,
+                     output=resumed)
+        return whole, resumed
+
+    def test_longer_end_time(self):
+        self.assert_same_run(*self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"})))
+
+    def test_longer_end_time_on_two_ranks(self):
+        self.assert_same_run(*self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}), *SHEET, ranks=2))
+
+    def test_stop_at_cells(self):
+        whole, resumed = self.work / "whole", self.work / "resumed"
+        no_output = overrides({"Output/Interval": "0"})
+        self.execute(SCENE, *no_output, output=whole)
+        self.execute(SCENE, *no_output, *overrides({"Time/Stop at cells":
+                                                    "130"}), output=resumed)
+        last = read_csv(resumed / "statistics.csv")[-1]
+        self.assertGreaterEqual(last["cells"], 130)
+        self.assertLess(last["time"], 1.0)
+        before = read_csv(resumed / "statistics.csv")[-2]
+        self.assertLess(before["cells"], 130)
+        # stopping wrote an output of its own, at a step end of the whole run
+        self.execute(SCENE, *no_output, "--resume", output=resumed)
+        self.assert_same_file(whole / "cells-0001.csv",
+                              resumed / "cells-0002.csv")
+        self.assert_same_file(whole / "lineage.csv", resumed / "lineage.csv")
+
+    def test_end_time_between_steps(self):
+        """A cut last step: the resumed run goes on to the old step ends."""
+        output = self.work / "output"
+        self.execute(SCENE, *overrides({"Time/End time": "0.3"}))
+        self.execute(SCENE, "--resume")
+        times = list(read_csv(output / "statistics.csv")["time"])
+        self.assertEqual(times, [0, 0.125, 0.25, 0.3, 0.375, 0.5, 0.625, 0.75,
+                                 0.875, 1])
+
+    def test_other_number_of_ranks(self):
+        tight = overrides({"Solver/Newton tolerance": "1e-10"})
+        half = overrides({"Time/End time": "0.5"})
+        whole = self.work / "whole"
+        self.execute(SCENE, *tight, output=whole)
+        for before, after in ((1, 2), (3, 1)):
+            resumed = self.work / f"{before}-{after}"
+            self.execute(SCENE, *tight, *half, ranks=before, output=resumed)
+            self.execute(SCENE, *tight, "--resume", ranks=after,
+                         output=resumed)
+            self.assert_same_columns(whole / "lineage.csv",
+                                     resumed / "lineage.csv",
+                                     {"x": 1e-6, "y": 1e-6, "z": 1e-6})
+
+    def test_other_step(self):
+        self.execute(SCENE, *overrides({"Time/End time": "0.5"}))
+        self.execute(SCENE, "--resume", *overrides({"Time/Step": "0.25"}))
+        times = list(read_csv(self.work / "output/statistics.csv")["time"])
+        self.assertEqual(times, [0, 0.125, 0.25, 0.375, 0.5, 0.75, 1])
+
+    def test_finished_run(self):
+        short = overrides({"Time/End time": "0.25"})
+        self.execute(SCENE, *short)
+        files = {path.name: path.read_bytes()
+                 for path in (self.work / "output").iterdir()}
+        self.execute(SCENE, *short, "--resume")
+        for name in ("statistics.csv", "lineage.csv", "snapshot.h5"):
+            self.assertEqual(files[name],
+                             (self.work / "output" / name).read_bytes(), name)
+
+    def test_no_snapshot(self):
+        result = self.execute(SCENE, "--resume", code=1)
+        self.assertIn("snapshot.h5", result.stderr)
+        self.assertFalse((self.work / "output").exists())
+
+    def test_changed_key(self):
+        short = overrides({"Time/End time": "0.25"})
+        self.execute(SCENE, *short)
+        before = (self.work / "output/statistics.csv").read_bytes()
+        for key, value in (("Grid/Spacing", "34"), ("Random seed", "5"),
+                           ("Proliferation/Cell cycle/Duration", "1.5"),
+                           ("Material/Young's modulus", "2")):
+            with self.subTest(key):
+                result = self.execute(SCENE, "--resume",
+                                      *overrides({key: value}), code=1)
+                self.assertIn(key, result.stderr)
+                self.assertIn(value, result.stderr)
+        self.assertEqual(
+            before, (self.work / "output/statistics.csv").read_bytes())
+
+    def test_killed(self):
+        """kill -9 in mid-run: the last snapshot is whole and goes on to the
+        uninterrupted result."""
+        whole, killed = self.work / "whole", self.work / "killed"
+        fine = overrides({"Time/Step": "0.03125",
+                          "Output/Snapshot interval": "0.1"})
+        self.execute(SCENE, *fine, output=whole)
+        process = subprocess.Popen(
+            self.command(SCENE, "-s", f"Output directory={killed}", *fine),
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        statistics = killed / "statistics.csv"
+        deadline = time.monotonic() + 100
+        while (not statistics.exists() or
+               statistics.read_bytes().count(b"\n") < 12):
+            self.assertIsNone(process.poll(), "ended before it was killed")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.assertLess(len(read_csv(statistics)), 33)
+        self.assertTrue((killed / "snapshot.h5").exists())
+        self.execute(SCENE, *fine, "--resume", output=killed)
+        self.assert_same_run(whole, killed)
+
+
+if __name__ == "__main__":
+    main()

@@ -230,11 +230,10 @@ namespace Morula
                                             cell.weights[a * m + s];
                     if (weight != 0.)
                       field.coefficient[i][a] +=
-                        weight *
-                        ghosted(
-                          space->relevant().nth_index_in_set(cell.unknowns[s]) *
-                            dim +
-                          i);
+                        weight * ghosted(space->relevant().nth_index_in_set(
+                                           cell.unknowns[s]) *
+                                           dim +
+                                         i);
                   }
               }
           result.push_back(field);

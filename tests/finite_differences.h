@@ -74,9 +74,9 @@ namespace Morula
     {
       Vector derivative;
       for (unsigned int dof = 0; dof < n_dofs; ++dof)
-        derivative.push_back(
-          (energy(shifted(field, dof, eps)) - energy(shifted(field, dof, -eps))) /
-          (2. * eps));
+        derivative.push_back((energy(shifted(field, dof, eps)) -
+                              energy(shifted(field, dof, -eps))) /
+                             (2. * eps));
       return derivative;
     }
 
@@ -196,9 +196,9 @@ namespace Morula
   {
     std::vector<ElasticState<dim>> states;
     for (unsigned int p = 0; p < n; ++p)
-      states.push_back({unit_tensor<dim>() +
-                          0.2 * random_tensor<2, dim>(generator),
-                        100. + generator() % 900});
+      states.push_back(
+        {unit_tensor<dim>() + 0.2 * random_tensor<2, dim>(generator),
+         100. + generator() % 900});
     return states;
   }
 } // namespace Morula

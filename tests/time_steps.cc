@@ -84,7 +84,7 @@ TEST(TimeSteps, EndTimeCutsTheLast)
 }
 
 
-TEST(TimeSteps, ARejectedStepIsHalvedAndTheHalvesAreCoarsened)
+TEST(TimeSteps, ARejectedStepIsHalvedAndCoarsenedOneLevelAtATime)
 {
   TimeSteps steps(times(3., 1.));
   steps.accept();
@@ -97,8 +97,8 @@ TEST(TimeSteps, ARejectedStepIsHalvedAndTheHalvesAreCoarsened)
   EXPECT_EQ(steps.next(), 1.5); // the second quarter
   EXPECT_TRUE(steps.reject());
   EXPECT_EQ(steps.next(), 1.375);
-  // An eighth, an eighth, then the second half at once, then whole steps.
-  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.375, 1.5, 2., 3.}));
+  // Eighths, then quarters: no step is more than twice as long as the last.
+  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.375, 1.5, 1.75, 2., 3.}));
 }
 
 

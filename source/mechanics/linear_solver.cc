@@ -241,8 +241,10 @@ namespace Morula
                                   unsigned int &iterations)
   {
     SolverControl control(max_iterations, tolerance * b.l2_norm());
+    // Preconditioned from the right: else the tolerance would be one for the
+    // preconditioned residual, which can be far from the residual.
     SolverGMRES<Vector> gmres(
-      control, SolverGMRES<Vector>::AdditionalData(100));
+      control, SolverGMRES<Vector>::AdditionalData(100, true));
     x = 0.;
     try
       {

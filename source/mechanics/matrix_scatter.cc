@@ -72,13 +72,19 @@ namespace Morula
   {
     const IndexSet          &relevant = space.relevant();
     const Epetra_CrsMatrix  &epetra   = matrix.trilinos_matrix();
-    std::vector<int>         column_id(relevant.n_elements());
+    std::vector<int>         column_id(relevant.n_elements() * dim);
     owned_number.assign(relevant.n_elements(), -1);
     for (unsigned int s = 0; s < relevant.n_elements(); ++s)
       {
         const auto unknown = relevant.nth_index_in_set(s);
-        column_id[s]       = epetra.ColMap().LID(
-          static_cast<TrilinosWrappers::types::int_type>(unknown * dim));
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            column_id[s * dim + i] = epetra.ColMap().LID(
+              static_cast<TrilinosWrappers::types::int_type>(unknown * dim +
+                                                             i));
+            if (column_id[s * dim + i] != column_id[s * dim] + int(i))
+              width = dim;
+          }
         if (space.owned().is_element(unknown))
           owned_number[s] = space.owned().index_within_set(unknown);
       }
@@ -89,7 +95,7 @@ namespace Morula
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
         const auto &unknowns = space.cells()[c].unknowns;
-        positions[c].resize(unknowns.size() * unknowns.size());
+        positions[c].resize(unknowns.size() * unknowns.size() * width);
         for (unsigned int s = 0; s < unknowns.size(); ++s)
           if (owned_number[unknowns[s]] >= 0)
             places[unknowns[s]].emplace_back(c, s);
@@ -110,15 +116,16 @@ namespace Morula
               owned_number[unknown] * dim + i, length, values, columns);
             rows[owned_number[unknown] * dim + i] = values;
           }
-        // All components have the same columns, dim for each unknown in a row.
+        // All components' rows have the same columns.
         for (int k = 0; k < length; ++k)
           position_of[columns[k]] = k;
         for (const auto &[c, s] : places[unknown])
           {
             const auto &unknowns = space.cells()[c].unknowns;
             for (unsigned int t = 0; t < unknowns.size(); ++t)
-              positions[c][s * unknowns.size() + t] =
-                position_of[column_id[unknowns[t]]];
+              for (unsigned int j = 0; j < width; ++j)
+                positions[c][(s * unknowns.size() + t) * width + j] =
+                  position_of[column_id[unknowns[t] * dim + j]];
           }
       }
   }
@@ -140,10 +147,13 @@ namespace Morula
             {
               double *const target =
                 rows[owned_number[unknowns[s]] * dim + i];
-              const unsigned int *const position = &positions[cell][s * m];
+              const unsigned int *const position =
+                &positions[cell][s * m * width];
               for (unsigned int j = 0; j < dim; ++j)
                 for (unsigned int t = 0; t < m; ++t)
-                  target[position[t] + j] += source[j * m + t];
+                  target[width == 1 ? position[t] + j :
+                                      position[t * width + j]] +=
+                    source[j * m + t];
               continue;
             }
           if (dofs.empty())

@@ -17,6 +17,11 @@ namespace Morula
     /** Support weaker than this, relative to the strongest, is none. */
     constexpr double support_tolerance = 1e-9;
 
+    /** Rotations that move the particles less than this, relative to
+     *  translations, are left alone: those of a single particle, or about the
+     *  line through all. */
+    constexpr double inertia_tolerance = 1e-9;
+
     template <int dim>
     Tensor<2, dim>
     identity()
@@ -254,8 +259,8 @@ namespace Morula
           {
             const Tensor<2, dim> after = (S + M) * transpose(Q); // Σ V⁰ z⊗y
             const Tensor<1, dim> mean  = Q * U + piece.volume * shift;
-            FullMatrix<double>   jacobian(n, n);
-            Vector<double>       defect(n), twist(n);
+            LAPACKFullMatrix<double> jacobian(n);
+            Vector<double>           defect(n), twist(n);
             for (unsigned int k = 0; k < n; ++k)
               {
                 const Mode &test = piece.free[k];
@@ -268,7 +273,7 @@ namespace Morula
                       moment(test.B, after * transpose(motion.B));
                   }
               }
-            jacobian.gauss_jordan();
+            jacobian.compute_inverse_svd(inertia_tolerance);
             jacobian.vmult(twist, defect);
             Mode update;
             for (unsigned int k = 0; k < n; ++k)

@@ -60,7 +60,7 @@ namespace
             Tensor<1, dim> N;
             N[d] = sign;
             const Point<dim> X(90. * N);
-            auto slots =
+            auto             slots =
               initial_boundary_slots(X, N, area, conditions.condition(X, N));
             deform_boundary_point<dim>(make_array_view(slots), F);
             boundary.ids.push_back(boundary.ids.size());
@@ -69,14 +69,15 @@ namespace
                                        slots.begin(),
                                        slots.end());
           }
-      tissue.place(
-        only_first_rank(founders(ball_points(Point<dim>(), 88., 20.),
-                                 std::pow(20., dim),
-                                 tissue.slots(),
-                                 growth,
-                                 [](const auto &) { return unit_tensor<dim>(); }),
-                        MPI_COMM_WORLD),
-        only_first_rank(boundary, MPI_COMM_WORLD));
+      tissue.place(only_first_rank(founders(ball_points(Point<dim>(), 88., 20.),
+                                            std::pow(20., dim),
+                                            tissue.slots(),
+                                            growth,
+                                            [](const auto &) {
+                                              return unit_tensor<dim>();
+                                            }),
+                                   MPI_COMM_WORLD),
+                   only_first_rank(boundary, MPI_COMM_WORLD));
       space = std::make_unique<SplineSpace<dim>>(tissue.splines());
     }
 
@@ -109,12 +110,8 @@ namespace
     std::unique_ptr<Term<dim>>
     nitsche(const TissueMaterial &material, const double t) const
     {
-      return nitsche_term(conditions,
-                          material,
-                          tissue,
-                          *space,
-                          growth.of_step(tissue, 0., t),
-                          t);
+      return nitsche_term(
+        conditions, material, tissue, *space, growth.of_step(tissue, 0., t), t);
     }
   };
 
@@ -163,8 +160,8 @@ namespace
     moved[1] = -0.4;
     const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}), moved);
     Tensor<1, dim>     gap; // fixed: moved - displacement; slip: along y
-    gap[0] = -0.3;
-    gap[1] = -2.4 + moved[1];
+    gap[0]          = -0.3;
+    gap[1]          = -2.4 + moved[1];
     const auto sums = problem.sums(*problem.nitsche(material("1", 0.4), 1.));
     EXPECT_LE((sums.force - 1e3 / 50. * area * gap).norm(),
               1e-10 * sums.force.norm());
@@ -181,7 +178,7 @@ namespace
     BoundaryConditionParameters parameters;
     parameters.fixed_where = at_top;
     // At X = 70, the nearest cells, and elsewhere.
-    const std::string     stretch = "1 + t*(X > 65 && Y*Y + Z*Z < 500 ? 0.2 : 7)";
+    const std::string stretch = "1 + t*(X > 65 && Y*Y + Z*Z < 500 ? 0.2 : 7)";
     const CellGrowth<dim> growth(isotropic_growth(stretch), {});
     Tensor<2, dim>        F = unit_tensor<dim>();
     F[0][0]                 = 1.1;
@@ -216,13 +213,12 @@ namespace
     Tensor<2, dim> F          = unit_tensor<dim>();
     F[1][1]                   = 1.5;
     F[0][1]                   = 0.3;
-    const Problem<dim> problem(
-      parameters, CellGrowth<dim>({}, {}), Tensor<1, dim>(), F);
-    const auto traction =
-      problem.sums(*traction_term(problem.conditions,
-                                  problem.tissue,
-                                  *problem.space,
-                                  2.));
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               Tensor<1, dim>(),
+                               F);
+    const auto         traction = problem.sums(
+      *traction_term(problem.conditions, problem.tissue, *problem.space, 2.));
     Tensor<1, dim> expected;
     expected[0] = -2. * 0.2 * area; // per initial area, two points
     expected[1] = -1. * area;
@@ -265,28 +261,19 @@ namespace
 } // namespace
 
 
-TEST(BoundaryTerms, PenaltyFollowsStiffnessAndSpacing)
-{
-  MORULA_BOTH_DIMENSIONS(check_penalty)
-}
+TEST(BoundaryTerms,
+     PenaltyFollowsStiffnessAndSpacing){MORULA_BOTH_DIMENSIONS(check_penalty)}
 
 
-TEST(BoundaryTerms, TheTotalPositionIsHeld)
-{
-  MORULA_BOTH_DIMENSIONS(check_total_gap)
-}
+TEST(BoundaryTerms,
+     TheTotalPositionIsHeld){MORULA_BOTH_DIMENSIONS(check_total_gap)}
 
 
-TEST(BoundaryTerms, TractionOfTheNearestCellsGrowth)
-{
-  MORULA_BOTH_DIMENSIONS(check_growth)
-}
+TEST(BoundaryTerms,
+     TractionOfTheNearestCellsGrowth){MORULA_BOTH_DIMENSIONS(check_growth)}
 
 
-TEST(BoundaryTerms, DeadAndFollowingLoads)
-{
-  MORULA_BOTH_DIMENSIONS(check_loads)
-}
+TEST(BoundaryTerms, DeadAndFollowingLoads){MORULA_BOTH_DIMENSIONS(check_loads)}
 
 
 TEST(BoundaryTerms, SupportsAreFixedAndSlipPoints)

@@ -89,8 +89,8 @@ namespace
             for (unsigned int e = 0, k = 0; e < dim; ++e)
               if (e != d)
                 xi[e] = lower + side * quadrature.point(q)[k++];
-            area[d] =
-              sign * quadrature.weight(q) * Utilities::fixed_power<dim - 1>(side * h);
+            area[d] = sign * quadrature.weight(q) *
+                      Utilities::fixed_power<dim - 1>(side * h);
             points.xi.push_back(xi);
             loads.push_back({pressure, area});
           }
@@ -111,8 +111,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           xi[d] = 0.1 + 0.7 * quadrature.point(q)[d];
         sum += quadrature.weight(q) *
-               determinant(
-                 field.step_deformation(SplineValues<dim>(xi, h)));
+               determinant(field.step_deformation(SplineValues<dim>(xi, h)));
       }
     return sum * Utilities::fixed_power<dim>(0.7 * h);
   }
@@ -146,7 +145,7 @@ namespace
       }
 
     // R·v = p dV/dt: the residual has the loads with a minus.
-    const double eps = 1e-3;
+    const double eps   = 1e-3;
     const auto   moved = [&](const double by) {
       LocalField<dim> result = field;
       for (unsigned int i = 0; i < dim; ++i)
@@ -167,31 +166,25 @@ namespace
     const auto     term = random_pressure<dim>(generator);
     Tensor<2, dim> mirror;
     mirror[0][0] = -2.5;
-    for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
-                              LocalSystem<dim>::tangent})
-      EXPECT_TRUE(TermOnOneCell<dim>(term, GrowthAt::current)
-                    .inverted(affine_field(Tensor<1, dim>(), mirror, 50.),
-                              wanted));
+    for (const auto wanted :
+         {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
+      EXPECT_TRUE(
+        TermOnOneCell<dim>(term, GrowthAt::current)
+          .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));
   }
 } // namespace
 
 
-TEST(DeadLoad, ResidualIsTheEnergysDerivative)
-{
-  MORULA_BOTH_DIMENSIONS(check_dead_load)
-}
+TEST(DeadLoad,
+     ResidualIsTheEnergysDerivative){MORULA_BOTH_DIMENSIONS(check_dead_load)}
 
 
-TEST(FollowingPressure, TangentIsTheResidualsDerivative)
-{
-  MORULA_BOTH_DIMENSIONS(check_pressure)
-}
+TEST(FollowingPressure,
+     TangentIsTheResidualsDerivative){MORULA_BOTH_DIMENSIONS(check_pressure)}
 
 
-TEST(FollowingPressure, OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume)
-{
-  MORULA_BOTH_DIMENSIONS(check_closed_surface)
-}
+TEST(FollowingPressure, OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume){
+  MORULA_BOTH_DIMENSIONS(check_closed_surface)}
 
 
 TEST(FollowingPressure, NoticesInversion)

@@ -97,8 +97,8 @@ namespace
   void
   check_tangent_with_gap()
   {
-    using Vector                     = typename TermOnOneCell<dim>::Vector;
-    constexpr unsigned int N         = LocalSystem<dim>::n_dofs;
+    using Vector             = typename TermOnOneCell<dim>::Vector;
+    constexpr unsigned int N = LocalSystem<dim>::n_dofs;
     std::mt19937           generator(3);
     Problem<dim>           problem(generator);
     const auto             field  = random_field<dim>(generator, 0.1);
@@ -106,7 +106,7 @@ namespace
       const auto               term = problem.term(field, gap);
       const TermOnOneCell<dim> at(term, GrowthAt::current);
       Vector                   difference = at.residual_differences(field);
-      const Vector             tangent    = at.tangent(field);
+      const Vector             tangent = at.tangent(field);
       for (std::size_t i = 0; i < difference.size(); ++i)
         difference[i] -= tangent[i];
       return difference;
@@ -138,15 +138,15 @@ namespace
                                     problem.points.h);
     for (auto &condition : problem.conditions)
       condition.projection = unit_tensor<dim>();
-    const auto     term     = problem.term(field, 0.);
-    const auto     residual = TermOnOneCell<dim>(term, GrowthAt::current)
-                            .residual(field);
-    const auto     f = field.step_deformation(
+    const auto term = problem.term(field, 0.);
+    const auto residual =
+      TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
+    const auto f = field.step_deformation(
       SplineValues<dim>(problem.points.xi[0], problem.points.h));
     Tensor<1, dim> expected, total;
     for (unsigned int p = 0; p < 4; ++p)
       {
-        const auto          &condition = problem.conditions[p];
+        const auto           &condition = problem.conditions[p];
         const NeoHookean<dim> material(f * problem.current[p].A,
                                        condition.lame);
         expected -= condition.area * problem.current[p].W *
@@ -171,8 +171,8 @@ namespace
                           .added(field, LocalSystem<dim>::rounding);
     double least = 0., sum = 0.;
     for (const auto &condition : problem.conditions)
-      least += dim * condition.area * condition.penalty *
-               condition.position_scale;
+      least +=
+        dim * condition.area * condition.penalty * condition.position_scale;
     for (const double magnitude : system.magnitude)
       sum += magnitude;
     EXPECT_GE(sum, least);
@@ -185,46 +185,35 @@ namespace
     std::mt19937   generator(6);
     Problem<dim>   problem(generator);
     Tensor<2, dim> mirror;
-    mirror[1][1] = -2.5;
-    const auto field =
-      affine_field(Tensor<1, dim>(), mirror, problem.points.h);
-    const auto term = problem.term(field, 0.);
-    for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
-                              LocalSystem<dim>::tangent})
-      EXPECT_TRUE(TermOnOneCell<dim>(term, GrowthAt::current)
-                    .inverted(field, wanted));
+    mirror[1][1]     = -2.5;
+    const auto field = affine_field(Tensor<1, dim>(), mirror, problem.points.h);
+    const auto term  = problem.term(field, 0.);
+    for (const auto wanted :
+         {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
+      EXPECT_TRUE(
+        TermOnOneCell<dim>(term, GrowthAt::current).inverted(field, wanted));
   }
 } // namespace
 
 
-TEST(Nitsche, ResidualIsTheEnergysDerivative)
-{
-  MORULA_BOTH_DIMENSIONS(check_residual)
-}
+TEST(Nitsche,
+     ResidualIsTheEnergysDerivative){MORULA_BOTH_DIMENSIONS(check_residual)}
 
 
-TEST(Nitsche, TangentIsExactWithoutGap)
-{
-  MORULA_BOTH_DIMENSIONS(check_tangent_without_gap)
-}
+TEST(Nitsche, TangentIsExactWithoutGap){
+  MORULA_BOTH_DIMENSIONS(check_tangent_without_gap)}
 
 
-TEST(Nitsche, TangentLeavesOutOneTermLinearInTheGap)
-{
-  MORULA_BOTH_DIMENSIONS(check_tangent_with_gap)
-}
+TEST(Nitsche, TangentLeavesOutOneTermLinearInTheGap){
+  MORULA_BOTH_DIMENSIONS(check_tangent_with_gap)}
 
 
-TEST(Nitsche, IsConsistentWithTheTraction)
-{
-  MORULA_BOTH_DIMENSIONS(check_consistency)
-}
+TEST(Nitsche,
+     IsConsistentWithTheTraction){MORULA_BOTH_DIMENSIONS(check_consistency)}
 
 
-TEST(Nitsche, RoundingCountsThePositions)
-{
-  MORULA_BOTH_DIMENSIONS(check_rounding)
-}
+TEST(Nitsche,
+     RoundingCountsThePositions){MORULA_BOTH_DIMENSIONS(check_rounding)}
 
 
 TEST(Nitsche, NoticesInversion)

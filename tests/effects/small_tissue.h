@@ -28,8 +28,7 @@ namespace Morula
 
   template <int dim>
   CellCycle<dim>
-  cell_cycle(const std::string &start,
-             const std::string &size_checkpoint = "0")
+  cell_cycle(const std::string &start, const std::string &size_checkpoint = "0")
   {
     CellCycleParameters parameters;
     parameters.start           = start;
@@ -115,13 +114,13 @@ namespace Morula
   std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>
   all_cells(const Tissue<dim> &tissue)
   {
-    using Cells =
-      std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>;
+    using Cells              = std::map<types::particle_index,
+                           std::pair<Point<dim>, std::vector<double>>>;
     const PointList<dim> own = tissue.cells().copy();
     Cells                mine, all;
     for (std::size_t i = 0; i < own.size(); ++i)
       {
-        const auto first  = own.properties.begin() + i * own.n_slots;
+        const auto first = own.properties.begin() + i * own.n_slots;
         mine[own.ids[i]] = {own.positions[i], {first, first + own.n_slots}};
       }
     for (const Cells &part :

@@ -19,9 +19,7 @@ namespace
   spline(const double r)
   {
     const double s = std::abs(r);
-    return s < 0.5 ? 0.75 - s * s :
-           s < 1.5 ? 0.5 * (1.5 - s) * (1.5 - s) :
-                     0.;
+    return s < 0.5 ? 0.75 - s * s : s < 1.5 ? 0.5 * (1.5 - s) * (1.5 - s) : 0.;
   }
 
   double
@@ -120,22 +118,15 @@ namespace
 } // namespace
 
 
-TEST(BSpline, ValuesAndGradientsFollowTheFormula)
-{
-  MORULA_BOTH_DIMENSIONS(check_formula)
-}
+TEST(BSpline,
+     ValuesAndGradientsFollowTheFormula){MORULA_BOTH_DIMENSIONS(check_formula)}
 
 
-TEST(BSpline, PartitionOfUnity)
-{
-  MORULA_BOTH_DIMENSIONS(check_partition_of_unity)
-}
+TEST(BSpline,
+     PartitionOfUnity){MORULA_BOTH_DIMENSIONS(check_partition_of_unity)}
 
 
-TEST(BSpline, GradientsAreDerivatives)
-{
-  MORULA_BOTH_DIMENSIONS(check_gradient)
-}
+TEST(BSpline, GradientsAreDerivatives){MORULA_BOTH_DIMENSIONS(check_gradient)}
 
 
 TEST(BSpline, NumbersRunXFastest)

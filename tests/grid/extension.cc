@@ -86,9 +86,9 @@ namespace
         for (const int i : box.index(number))
           r += (i - 2.6) * (i - 2.6);
         if (std::sqrt(r) < 4.)
-          classes[number] =
-            std::sqrt(r) < 2.8 && generator() % 2 == 0 ? GridCellClass::inner :
-                                                         GridCellClass::cut;
+          classes[number] = std::sqrt(r) < 2.8 && generator() % 2 == 0 ?
+                              GridCellClass::inner :
+                              GridCellClass::cut;
       }
     return classes;
   }
@@ -151,16 +151,12 @@ TEST(Extension, WeightsByDistance)
 }
 
 
-TEST(Extension, ContinuesQuadraticCoefficients)
-{
-  MORULA_BOTH_DIMENSIONS(check_polynomials)
-}
+TEST(Extension,
+     ContinuesQuadraticCoefficients){MORULA_BOTH_DIMENSIONS(check_polynomials)}
 
 
-TEST(Extension, TakesTheBlockWithTheSmallestSum)
-{
-  MORULA_BOTH_DIMENSIONS(check_smallest_sum)
-}
+TEST(Extension, TakesTheBlockWithTheSmallestSum){
+  MORULA_BOTH_DIMENSIONS(check_smallest_sum)}
 
 
 // Σ|e| = 17 straight on, at distance 2, against 7·7 on the diagonal.
@@ -181,8 +177,8 @@ TEST(Extension, TiesGoToTheSmallestNumber)
 {
   const GridBox<2> box = cube<2>(12);
   Classes          classes(box.size(), GridCellClass::cut);
-  const auto       left = box.number({{{0, 2}}}), below = box.number({{{2, 0}}});
-  classes[left] = classes[below] = classes[box.number({{{4, 2}}})] =
+  const auto left = box.number({{{0, 2}}}), below = box.number({{{2, 0}}});
+  classes[left] = classes[below]    = classes[box.number({{{4, 2}}})] =
     classes[box.number({{{2, 4}}})] = GridCellClass::inner;
   ExtensionSearch<2> search(box, classes);
   EXPECT_EQ(search.block({{{2, 2}}}), std::min(left, below));
@@ -192,7 +188,7 @@ TEST(Extension, TiesGoToTheSmallestNumber)
 // Two slabs with an inactive layer of grid cells between them.
 TEST(Extension, DoesNotCoupleAcrossAGap)
 {
-  const GridBox<3> box = cube<3>(12);
+  const GridBox<3> box   = cube<3>(12);
   const auto       slabs = [&](const bool right_has_inner) {
     Classes classes(box.size(), GridCellClass::inactive);
     for (unsigned int number = 0; number < box.size(); ++number)
@@ -203,8 +199,8 @@ TEST(Extension, DoesNotCoupleAcrossAGap)
         else if (i == 3 || i == 4)
           classes[number] = GridCellClass::cut;
         else if (i > 4)
-          classes[number] =
-            right_has_inner && i >= 6 ? GridCellClass::inner : GridCellClass::cut;
+          classes[number] = right_has_inner && i >= 6 ? GridCellClass::inner :
+                                                              GridCellClass::cut;
       }
     return classes;
   };

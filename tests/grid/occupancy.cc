@@ -49,9 +49,10 @@ namespace
         const double spacing = theta * h / 5.;
         // Straddles no edge of the box, whatever theta.
         const auto points =
-          lattice_points<dim>(Point<dim>(), 3.4 * h - spacing, spacing, [](const auto &) {
-            return true;
-          });
+          lattice_points<dim>(Point<dim>(),
+                              3.4 * h - spacing,
+                              spacing,
+                              [](const auto &) { return true; });
         Occupancy<dim> occupancy(box);
         double         volume = 0.;
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
@@ -79,7 +80,8 @@ namespace
   void
   check_order()
   {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
     const GridBox<dim> box  = cube<dim>(8, 50.);
     std::mt19937       generator(4);
@@ -106,7 +108,9 @@ namespace
   /** Classes of a slab 0 < x < thickness of ten particles per spacing. */
   template <int dim>
   std::vector<GridCellClass>
-  slab_classes(const GridBox<dim> &box, const double thickness, const double C_C)
+  slab_classes(const GridBox<dim> &box,
+               const double        thickness,
+               const double        C_C)
   {
     const double   spacing = 5.;
     Occupancy<dim> occupancy(box);
@@ -203,28 +207,20 @@ namespace
 } // namespace
 
 
-TEST(Occupancy, FillsTheInteriorOfAGrownLattice)
-{
-  MORULA_BOTH_DIMENSIONS(check_grown_lattice)
-}
+TEST(Occupancy, FillsTheInteriorOfAGrownLattice){
+  MORULA_BOTH_DIMENSIONS(check_grown_lattice)}
 
 
-TEST(Occupancy, CoarseLatticesHaveInnerGridCells)
-{
-  MORULA_BOTH_DIMENSIONS(check_coarse_lattice)
-}
+TEST(Occupancy, CoarseLatticesHaveInnerGridCells){
+  MORULA_BOTH_DIMENSIONS(check_coarse_lattice)}
 
 
-TEST(Occupancy, DoesNotDependOnOrderAndRanks)
-{
-  MORULA_BOTH_DIMENSIONS(check_order)
-}
+TEST(Occupancy,
+     DoesNotDependOnOrderAndRanks){MORULA_BOTH_DIMENSIONS(check_order)}
 
 
-TEST(Occupancy, InnerGridCellsAreFullEnough)
-{
-  MORULA_BOTH_DIMENSIONS(check_threshold)
-}
+TEST(Occupancy,
+     InnerGridCellsAreFullEnough){MORULA_BOTH_DIMENSIONS(check_threshold)}
 
 
 TEST(Occupancy, InnerGridCellsHoldEnoughPoints)

@@ -33,10 +33,11 @@ namespace
   {
     std::mt19937                           generator(seed);
     std::uniform_real_distribution<double> uniform(0., 1.);
-    const double         radius  = h * (2. + 0.8 * uniform(generator));
-    const double         spacing = cell_spacing<dim>() * (1. + 0.3 * uniform(generator));
-    const Point<dim>     center(2. * h * random_tensor<1, dim>(generator));
-    Tensor<1, dim>       normal = random_tensor<1, dim>(generator);
+    const double radius = h * (2. + 0.8 * uniform(generator));
+    const double spacing =
+      cell_spacing<dim>() * (1. + 0.3 * uniform(generator));
+    const Point<dim> center(2. * h * random_tensor<1, dim>(generator));
+    Tensor<1, dim>   normal = random_tensor<1, dim>(generator);
     normal /= normal.norm();
     const double cut = radius * 0.8 * uniform(generator);
     return lattice_points<dim>(center, radius, spacing, [&](const auto &x) {
@@ -49,11 +50,8 @@ namespace
   body(const std::vector<Point<dim>> &points,
        const MPI_Comm                 comm = MPI_COMM_WORLD)
   {
-    return BodyOnGrid<dim>(points,
-                           std::pow(cell_spacing<dim>(), dim),
-                           GridParameters(),
-                           {},
-                           comm);
+    return BodyOnGrid<dim>(
+      points, std::pow(cell_spacing<dim>(), dim), GridParameters(), {}, comm);
   }
 
   /** u_i(x) = a_i + A_ij x_j + x·C_i x */
@@ -119,8 +117,8 @@ namespace
     unsigned int n_points = 0;
     body.at_points(body.particles,
                    u,
-                   [&](const unsigned int      i,
-                       const LocalField<dim>  &field,
+                   [&](const unsigned int       i,
+                       const LocalField<dim>   &field,
                        const SplineValues<dim> &splines) {
                      const Point<dim> &x = body.particles[i];
                      EXPECT_LE((field.value(splines) - value(x)).norm(),
@@ -155,7 +153,7 @@ namespace
     for (unsigned int seed = 1; seed <= 6; ++seed)
       {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const auto   cut = body<dim>(random_body<dim>(seed));
+        const auto   cut   = body<dim>(random_body<dim>(seed));
         const auto  &space = *cut.space;
         std::mt19937 generator(100 + seed);
         ASSERT_EQ(space.n_pieces(), 1u);
@@ -245,14 +243,14 @@ namespace
       EXPECT_LT(piece, 2u);
     EXPECT_EQ(space.pieces_of_unknowns().size(), space.owned().n_elements());
 
-    const auto a = random_tensor<1, dim>(generator);
-    const auto A = random_tensor<2, dim>(generator);
+    const auto  a   = random_tensor<1, dim>(generator);
+    const auto  A   = random_tensor<2, dim>(generator);
     const auto &box = space.box();
     for (unsigned int piece = 0; piece < 2; ++piece)
       both.at_points(points,
                      both.vector_of(space.affine_coefficients(piece, a, A)),
-                     [&](const unsigned int      i,
-                         const LocalField<dim>  &field,
+                     [&](const unsigned int       i,
+                         const LocalField<dim>   &field,
                          const SplineValues<dim> &splines) {
                        const Tensor<1, dim> expected =
                          space.piece(box.number(box.locate(points[i]))) ==
@@ -297,9 +295,9 @@ namespace
             value[d] = std::sin(0.7 * c[0] + (d + 1.3) * c[1] + c[dim - 1]);
           return value;
         };
-        const auto fields = shared.fields(shared.interpolate(wild));
-        const auto whole  = alone.fields(alone.interpolate(wild));
-        unsigned int k = 0;
+        const auto   fields = shared.fields(shared.interpolate(wild));
+        const auto   whole  = alone.fields(alone.interpolate(wild));
+        unsigned int k      = 0;
         for (unsigned int c = 0; c < fields.size(); ++c)
           {
             while (alone.space->cells()[k].number != space.cells()[c].number)
@@ -335,7 +333,8 @@ namespace
     const Quadratic<dim> field(generator);
     expect_field(
       raw,
-      raw.interpolate([&](const Point<dim> &c) { return field.coefficient(c); }),
+      raw.interpolate(
+        [&](const Point<dim> &c) { return field.coefficient(c); }),
       [&](const Point<dim> &x) { return field.value(x); },
       [&](const Point<dim> &x) { return field.gradient(x); });
   }
@@ -344,8 +343,8 @@ namespace
   unsigned int
   pieces_with_gap(const int gap)
   {
-    const auto points = lattice_points<2>(
-      Point<2>(), 10. * h, h / 4., [&](const Point<2> &x) {
+    const auto points =
+      lattice_points<2>(Point<2>(), 10. * h, h / 4., [&](const Point<2> &x) {
         return x[1] > 0. && x[1] < 2. * h &&
                ((x[0] > -3. * h && x[0] < 0.) ||
                 (x[0] > gap * h && x[0] < (gap + 3) * h));
@@ -355,40 +354,27 @@ namespace
 } // namespace
 
 
-TEST(SplineSpace, ReproducesQuadraticsForAnyCut)
-{
-  MORULA_BOTH_DIMENSIONS(check_quadratics)
-}
+TEST(SplineSpace,
+     ReproducesQuadraticsForAnyCut){MORULA_BOTH_DIMENSIONS(check_quadratics)}
 
 
-TEST(SplineSpace, PartitionOfUnity)
-{
-  MORULA_BOTH_DIMENSIONS(check_partition_of_unity)
-}
+TEST(SplineSpace,
+     PartitionOfUnity){MORULA_BOTH_DIMENSIONS(check_partition_of_unity)}
 
 
-TEST(SplineSpace, FragmentsReproduceAffineFields)
-{
-  MORULA_BOTH_DIMENSIONS(check_fragments)
-}
+TEST(SplineSpace,
+     FragmentsReproduceAffineFields){MORULA_BOTH_DIMENSIONS(check_fragments)}
 
 
-TEST(SplineSpace, PiecesMoveIndependently)
-{
-  MORULA_BOTH_DIMENSIONS(check_pieces)
-}
+TEST(SplineSpace, PiecesMoveIndependently){MORULA_BOTH_DIMENSIONS(check_pieces)}
 
 
-TEST(SplineSpace, IsTheSameForAnyNumberOfRanks)
-{
-  MORULA_BOTH_DIMENSIONS(check_ranks)
-}
+TEST(SplineSpace,
+     IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
 
 
-TEST(SplineSpace, WithoutExtensionEverySplineIsAnUnknown)
-{
-  MORULA_BOTH_DIMENSIONS(check_without_extension)
-}
+TEST(SplineSpace, WithoutExtensionEverySplineIsAnUnknown){
+  MORULA_BOTH_DIMENSIONS(check_without_extension)}
 
 
 // Splines reach over one grid cell, and over two: the middles of both supports.

@@ -76,8 +76,8 @@ namespace
         const Condensation<dim> condensation(problem.cell);
         ASSERT_EQ(condensation.m(), m);
 
-        const auto coefficients = random_values(dim * m, generator);
-        const auto field        = condensation.expand(coefficients);
+        const auto          coefficients = random_values(dim * m, generator);
+        const auto          field        = condensation.expand(coefficients);
         std::vector<double> found, expected(N, 0.);
         for (unsigned int row = 0; row < N; ++row)
           {

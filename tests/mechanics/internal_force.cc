@@ -55,7 +55,7 @@ namespace
   check_energy()
   {
     std::mt19937 generator(2);
-    auto points = random_material_points<dim>(generator, 3, true, true);
+    auto         points = random_material_points<dim>(generator, 3, true, true);
     const InternalForce<dim> term(points);
     const Tensor<2, dim>     A = 0.2 * random_tensor<2, dim>(generator);
     const auto               field =
@@ -64,10 +64,10 @@ namespace
       {
         double expected = 0.;
         for (const auto &state : points.states(growth))
-          expected += state.W *
-                      NeoHookean<dim>((unit_tensor<dim>() + A) * state.A,
-                                      points.lame[0])
-                        .energy();
+          expected +=
+            state.W *
+            NeoHookean<dim>((unit_tensor<dim>() + A) * state.A, points.lame[0])
+              .energy();
         EXPECT_NEAR(TermOnOneCell<dim>(term, growth).energy(field),
                     expected,
                     1e-12 * expected);
@@ -80,10 +80,10 @@ namespace
   check_magnitudes()
   {
     std::mt19937 generator(3);
-    const auto   points = random_material_points<dim>(generator, 5, false, true);
+    const auto points = random_material_points<dim>(generator, 5, false, true);
     const InternalForce<dim> term(points);
     const auto               field = random_field<dim>(generator, 0.1);
-    const auto system = TermOnOneCell<dim>(term, GrowthAt::current)
+    const auto system              = TermOnOneCell<dim>(term, GrowthAt::current)
                           .added(field, LocalSystem<dim>::rounding);
     expect_near({system.residual.begin(), system.residual.end()},
                 TermOnOneCell<dim>(term, GrowthAt::current).residual(field),
@@ -103,8 +103,8 @@ namespace
     const InternalForce<dim> term(points);
     const TermOnOneCell<dim> at(term, GrowthAt::current);
     Tensor<2, dim>           mirror;
-    const auto field = affine_field(Tensor<1, dim>(), mirror, points.h);
-    mirror[0][0]     = -2.5; // f_xx = -1.5
+    const auto field    = affine_field(Tensor<1, dim>(), mirror, points.h);
+    mirror[0][0]        = -2.5; // f_xx = -1.5
     const auto inverted = affine_field(Tensor<1, dim>(), mirror, points.h);
     for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
                               LocalSystem<dim>::rounding,
@@ -122,22 +122,16 @@ namespace
 } // namespace
 
 
-TEST(InternalForce, ResidualAndTangentAreDerivatives)
-{
-  MORULA_BOTH_DIMENSIONS(check_derivatives)
-}
+TEST(InternalForce, ResidualAndTangentAreDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
-TEST(InternalForce, EnergyOfAHomogeneousDeformation)
-{
-  MORULA_BOTH_DIMENSIONS(check_energy)
-}
+TEST(InternalForce,
+     EnergyOfAHomogeneousDeformation){MORULA_BOTH_DIMENSIONS(check_energy)}
 
 
-TEST(InternalForce, MagnitudesBoundTheSums)
-{
-  MORULA_BOTH_DIMENSIONS(check_magnitudes)
-}
+TEST(InternalForce,
+     MagnitudesBoundTheSums){MORULA_BOTH_DIMENSIONS(check_magnitudes)}
 
 
 TEST(InternalForce, NoticesInversion)

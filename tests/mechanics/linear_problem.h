@@ -28,7 +28,7 @@ namespace Morula
 
   private:
     ConditionalOStream stream{std::cout, false};
-    TimerOutput        timer{stream, TimerOutput::never, TimerOutput::wall_times};
+    TimerOutput timer{stream, TimerOutput::never, TimerOutput::wall_times};
   };
 
   /**
@@ -40,7 +40,8 @@ namespace Morula
   {
   public:
     /** K_ij for |i - j| <= 1, at u. */
-    std::function<double(unsigned int, unsigned int, const std::vector<double> &)>
+    std::function<
+      double(unsigned int, unsigned int, const std::vector<double> &)>
       stiffness;
     /** R_i at u. */
     std::function<double(unsigned int, const std::vector<double> &)> force;

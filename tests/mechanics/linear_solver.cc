@@ -38,14 +38,13 @@ namespace
       return std::pow(10., 2. * std::sin(1. * i)); // between i and i + 1
     };
     ChainProblem problem(n);
-    problem.stiffness = [=](const unsigned int i,
-                            const unsigned int j,
-                            const auto &) {
-      if (i != j)
-        return -spring(std::min(i, j)) + (i < j ? skew : -skew);
-      return foundation + (i > 0 ? spring(i - 1) : 0.) +
-             (i + 1 < n ? spring(i) : 0.);
-    };
+    problem.stiffness =
+      [=](const unsigned int i, const unsigned int j, const auto &) {
+        if (i != j)
+          return -spring(std::min(i, j)) + (i < j ? skew : -skew);
+        return foundation + (i > 0 ? spring(i - 1) : 0.) +
+               (i + 1 < n ? spring(i) : 0.);
+      };
     problem.conservative = skew == 0.;
     return problem;
   }
@@ -72,16 +71,16 @@ namespace
   check_solution(const std::string &solver, const double skew)
   {
     SCOPED_TRACE(solver);
-    QuietTimer   timer;
-    ChainProblem problem = chain(0.5, skew);
-    LinearSolver linear_solver(parameters(solver), problem, timer);
+    QuietTimer          timer;
+    ChainProblem        problem = chain(0.5, skew);
+    LinearSolver        linear_solver(parameters(solver), problem, timer);
     Equilibrium::Vector zero, b, x;
     problem.initialize(zero);
     const auto &K        = problem.tangent(zero, GrowthAt::current);
     const auto  solution = problem.vector_of(random_values(1));
     b                    = solution;
     K.vmult(b, solution);
-    x = zero;
+    x                               = zero;
     const unsigned int n_iterations = linear_solver.solve(K, x, b, 1e-10);
     EXPECT_GE(n_iterations, 1u);
     EXPECT_LE(defect(K, x, b), 1e-9);
@@ -94,11 +93,10 @@ namespace
     EXPECT_LE(linear_solver.solve(K, x, b, 1e-2), n_iterations);
     EXPECT_LE(defect(K, x, b), 2e-2);
     const auto spring = problem.stiffness;
-    problem.stiffness = [&](const unsigned int i,
-                            const unsigned int j,
-                            const auto        &u) {
-      return spring(i, j, u) + (i == j ? 0.3 * (i % 4) : 0.);
-    };
+    problem.stiffness =
+      [&](const unsigned int i, const unsigned int j, const auto &u) {
+        return spring(i, j, u) + (i == j ? 0.3 * (i % 4) : 0.);
+      };
     const auto &other = problem.tangent(zero, GrowthAt::current);
     linear_solver.solve(other, x, b, 1e-8);
     EXPECT_LE(defect(other, x, b), 1e-7);
@@ -114,9 +112,9 @@ namespace
     const auto   entry = [](const unsigned int i) {
       return i % 3 == 0 ? -1. - 0.01 * i : 2. + 0.1 * i;
     };
-    problem.stiffness = [&](const unsigned int i, const unsigned int j, auto &) {
-      return i == j ? entry(i) : 0.;
-    };
+    problem.stiffness = [&](const unsigned int i,
+                            const unsigned int j,
+                            auto &) { return i == j ? entry(i) : 0.; };
     LinearSolver        linear_solver(parameters(solver), problem, timer);
     Equilibrium::Vector x;
     problem.initialize(x);
@@ -153,7 +151,8 @@ namespace
     balanced.add(-(b * problem.nulls[0]), problem.nulls[0]);
     linear_solver.solve(K, x, b, 1e-9);
     EXPECT_NEAR(x * problem.nulls[0], 0., 1e-9 * x.l2_norm());
-    EXPECT_LE(defect(K, x, balanced), 1e-5);
+    // The direct solver shifts the diagonal a little.
+    EXPECT_LE(defect(K, x, balanced), solver == "direct" ? 1e-3 : 1e-8);
   }
 } // namespace
 
@@ -161,6 +160,7 @@ namespace
 TEST(LinearSolver, SolvesSymmetricSystems)
 {
   check_solution("automatic", 0.);
+  check_solution("iterative", 0.);
   check_solution("direct", 0.);
 }
 
@@ -168,6 +168,7 @@ TEST(LinearSolver, SolvesSymmetricSystems)
 TEST(LinearSolver, SolvesUnsymmetricSystems)
 {
   check_solution("automatic", 3.);
+  check_solution("iterative", 3.);
   check_solution("direct", 3.);
 }
 
@@ -191,7 +192,7 @@ TEST(LinearSolver, FailsTogetherWhereNothingHelps)
   QuietTimer   timer;
   ChainProblem problem(n);
   problem.stiffness = [](auto, auto, auto &) { return 0.; };
-  LinearSolver        linear_solver(parameters("automatic"), problem, timer);
+  LinearSolver        linear_solver(parameters("iterative"), problem, timer);
   Equilibrium::Vector x;
   problem.initialize(x);
   EXPECT_THROW(linear_solver.solve(problem.tangent(x, GrowthAt::current),

@@ -123,9 +123,8 @@ namespace
              GridParameters(),
              on_sphere(N),
              comm)
-      , u(body.interpolate([](const Point<dim> &x) {
-        return 3. * waves<dim>(x, 0.4);
-      }))
+      , u(body.interpolate(
+          [](const Point<dim> &x) { return 3. * waves<dim>(x, 0.4); }))
     {
       const auto groups = body.group(body.particles);
       static_cast<GroupedPoints<dim> &>(points) =
@@ -168,15 +167,15 @@ namespace
       std::vector<Tensor<1, dim>> displacements(body.boundary.size());
       body.at_points(body.boundary,
                      u,
-                     [&](const unsigned int i, const auto &field, const auto &s) {
-                       displacements[i] = field.value(s);
-                     });
+                     [&](const unsigned int i,
+                         const auto        &field,
+                         const auto &s) { displacements[i] = field.value(s); });
       std::vector<typename Nitsche<dim>::Condition> conditions;
       for (const unsigned int i : groups.points)
         {
           typename Nitsche<dim>::Condition condition;
-          condition.projection     = i % 2 == 0 ? unit_tensor<dim>() :
-                                                  outer_product(N[i], N[i]);
+          condition.projection =
+            i % 2 == 0 ? unit_tensor<dim>() : outer_product(N[i], N[i]);
           condition.gap            = -(condition.projection * displacements[i]);
           condition.position_scale = 100.;
           condition.normal         = N[i];
@@ -240,7 +239,7 @@ namespace
             EXPECT_LE(after.l2_norm(), 1e-6 * Kv.l2_norm());
           }
         // K is symmetric unless a pressure follows.
-        const auto v = direction(ball, 0.1), w = direction(ball, 2.5);
+        const auto          v = direction(ball, 0.1), w = direction(ball, 2.5);
         Equilibrium::Vector Kv(v), Kw(v);
         K.vmult(Kv, v);
         K.vmult(Kw, w);
@@ -294,7 +293,8 @@ namespace
         values.push_back(K.frobenius_norm());
         for (unsigned int k = 0; k < 3; ++k)
           {
-            const auto v = direction(ball, 0.1 + k), w = direction(ball, 2. * k);
+            const auto v = direction(ball, 0.1 + k),
+                       w = direction(ball, 2. * k);
             values.push_back(R * v);
             Equilibrium::Vector Kv(v);
             K.vmult(Kv, v);
@@ -367,9 +367,10 @@ namespace
     MaterialPoints<dim>   points;
     static_cast<GroupedPoints<dim> &>(points) =
       body.grouped(body.particles, groups);
-    points.lame    = {lame(1., 0.4)};
-    points.current = std::vector<ElasticState<dim>>(
-      groups.points.size(), {unit_tensor<dim>(), std::pow(18., dim)});
+    points.lame = {lame(1., 0.4)};
+    points.current =
+      std::vector<ElasticState<dim>>(groups.points.size(),
+                                     {unit_tensor<dim>(), std::pow(18., dim)});
     typename MomentumBalance<dim>::TermList terms;
     terms.push_back(std::make_unique<InternalForce<dim>>(points));
     std::vector<typename RigidModes<dim>::Mass> masses;
@@ -397,48 +398,38 @@ namespace
     // Large rotations.
     Tensor<2, dim> Q = unit_tensor<dim>();
     Q[0][0] = Q[1][1] = std::cos(2.);
-    Q[0][1] = -(Q[1][0] = std::sin(2.));
+    Q[0][1]           = -(Q[1][0] = std::sin(2.));
     Tensor<1, dim> a;
-    a[0]          = 500.;
-    const auto turned =
-      body.vector_of(body.affine(a, Q - unit_tensor<dim>()));
+    a[0]              = 500.;
+    const auto turned = body.vector_of(body.affine(a, Q - unit_tensor<dim>()));
     EXPECT_LE(balance.residual(turned, R).energy,
               1e-13 * body.particles.size() * points.current[0].W);
-    EXPECT_LE(R.l2_norm(), balance.rounding(turned) + 1e-9 * K.frobenius_norm());
+    EXPECT_LE(R.l2_norm(),
+              balance.rounding(turned) + 1e-9 * K.frobenius_norm());
     EXPECT_NEAR(balance.small_force(), 1e-6 * std::pow(h, dim - 1), 1e-15);
     EXPECT_NEAR(balance.stiffness_scale(), std::pow(h, dim - 2), 1e-15);
   }
 } // namespace
 
 
-TEST(MomentumBalance, ResidualAndTangentAreDerivatives)
-{
-  MORULA_BOTH_DIMENSIONS(check_derivatives)
-}
+TEST(MomentumBalance, ResidualAndTangentAreDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
-TEST(MomentumBalance, TangentAtTheOldGrowth)
-{
-  MORULA_BOTH_DIMENSIONS(check_old_growth)
-}
+TEST(MomentumBalance,
+     TangentAtTheOldGrowth){MORULA_BOTH_DIMENSIONS(check_old_growth)}
 
 
-TEST(MomentumBalance, IsTheSameForAnyNumberOfRanks)
-{
-  MORULA_BOTH_DIMENSIONS(check_ranks)
-}
+TEST(MomentumBalance,
+     IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
 
 
-TEST(MomentumBalance, InversionIsInfiniteEnergyOnAllRanks)
-{
-  MORULA_BOTH_DIMENSIONS(check_inversion)
-}
+TEST(MomentumBalance, InversionIsInfiniteEnergyOnAllRanks){
+  MORULA_BOTH_DIMENSIONS(check_inversion)}
 
 
-TEST(MomentumBalance, LocalFieldsFollowTheWeights)
-{
-  MORULA_BOTH_DIMENSIONS(check_local)
-}
+TEST(MomentumBalance,
+     LocalFieldsFollowTheWeights){MORULA_BOTH_DIMENSIONS(check_local)}
 
 
 TEST(MomentumBalance, RigidMotionsCostNothing)

@@ -58,7 +58,7 @@ namespace
       {
         Tensor<2, dim> Q = unit_tensor<dim>();
         Q[0][0] = Q[1][1] = std::cos(angle);
-        Q[0][1] = -(Q[1][0] = std::sin(angle));
+        Q[0][1]           = -(Q[1][0] = std::sin(angle));
         const NeoHookean<dim> turned(Q, material);
         EXPECT_NEAR(turned.energy(), 0., 1e-15);
         EXPECT_NEAR(turned.kirchhoff_stress().norm(), 0., 1e-14);
@@ -68,16 +68,11 @@ namespace
 } // namespace
 
 
-TEST(NeoHookean, StressIsTheEnergysDerivative)
-{
-  MORULA_BOTH_DIMENSIONS(check_stress)
-}
+TEST(NeoHookean,
+     StressIsTheEnergysDerivative){MORULA_BOTH_DIMENSIONS(check_stress)}
 
 
-TEST(NeoHookean, RotationsCostNothing)
-{
-  MORULA_BOTH_DIMENSIONS(check_rest)
-}
+TEST(NeoHookean, RotationsCostNothing){MORULA_BOTH_DIMENSIONS(check_rest)}
 
 
 TEST(NeoHookean, PlaneStrainIsThreeDimensionalWithoutStretchInZ)
@@ -119,7 +114,7 @@ TEST(NeoHookean, LameConstants)
   EXPECT_EQ(lame(2., 0.).lambda, 0.);
   EXPECT_EQ(lame(2., 0.).mu, 1.);
   // The bulk modulus diverges for incompressible material.
-  EXPECT_NEAR(lame(3., 0.4999).lambda, 4998.0, 0.1);
+  EXPECT_NEAR(lame(3., 0.4999).lambda, 3. * 0.4999 / (1.4999 * 0.0002), 1e-6);
 }
 
 

@@ -60,7 +60,8 @@ namespace
         double sum = 0.;
         for (unsigned int i = 0; i < n; ++i)
           {
-            sum += 0.5 * u[i] * u[i] + 0.25 * std::pow(u[i], 4) - loads[i] * u[i];
+            sum +=
+              0.5 * u[i] * u[i] + 0.25 * std::pow(u[i], 4) - loads[i] * u[i];
             if (i + 1 < n)
               sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
           }
@@ -141,7 +142,7 @@ TEST(Newton, ConvergesQuadratically)
 {
   ChainProblem problem = hardening(0.);
   solved(problem, 1e-12, "direct");
-  const auto  &norms = problem.residual_norms;
+  const auto &norms = problem.residual_norms;
   ASSERT_GE(norms.size(), 5u);
   unsigned int n_quadratic = 0;
   for (std::size_t k = 0; k + 1 < norms.size(); ++k)
@@ -168,11 +169,10 @@ TEST(Newton, TakesOnlyTheFirstTangentAtTheOldGrowth)
 TEST(Newton, DoesNothingAtEquilibrium)
 {
   {
-    ChainProblem problem =
-      alike([](double u) { return 0.5 * u * u; },
-            [](double u) { return u; },
-            [](double) { return 1.; });
-    const Result result = solved(problem, 1e-6);
+    ChainProblem problem = alike([](double u) { return 0.5 * u * u; },
+                                 [](double u) { return u; },
+                                 [](double) { return 1.; });
+    const Result result  = solved(problem, 1e-6);
     EXPECT_EQ(result.report.newton_iterations, 0u);
     EXPECT_EQ(result.report.residual, 0.);
   }
@@ -230,14 +230,14 @@ TEST(Newton, FailsWithoutASolution)
                                [](double) { return -1.; });
   EXPECT_THROW(solved(endless, 1e-6), StepFailed);
 
-  ChainProblem inverted = alike(
-    [](double) { return std::numeric_limits<double>::infinity(); },
-    [](double) { return 1.; },
-    [](double) { return 1.; });
+  ChainProblem inverted =
+    alike([](double) { return std::numeric_limits<double>::infinity(); },
+          [](double) { return 1.; },
+          [](double) { return 1.; });
   EXPECT_THROW(solved(inverted, 1e-6), StepFailed);
 
   // Without energy: |R| has a minimum where R is not zero.
-  ChainProblem stuck     = alike([](double) { return 0.; },
+  ChainProblem stuck = alike([](double) { return 0.; },
                              [](double u) { return u * u - u + 1.; },
                              [](double u) { return 2. * u - 1.; });
   stuck.conservative = false;

@@ -44,7 +44,8 @@ namespace
     unsigned int
     piece(const Point<dim> &x) const
     {
-      return body.space->piece(body.grid.box().number(body.grid.box().locate(x)));
+      return body.space->piece(
+        body.grid.box().number(body.grid.box().locate(x)));
     }
 
     /** Supports at those boundary points that stand on this rank. */
@@ -82,7 +83,8 @@ namespace
     /** Σ V⁰ u and Σ V⁰ (x_i u_j - x_j u_i) of a piece about its centre, over
      *  the sum of their magnitudes. */
     std::vector<double>
-    moments(const std::vector<Tensor<1, dim>> &u, const unsigned int piece) const
+    moments(const std::vector<Tensor<1, dim>> &u,
+            const unsigned int                 piece) const
     {
       std::vector<double> center(dim + 1, 0.);
       for (const auto &mass : masses)
@@ -190,8 +192,8 @@ namespace
   void
   check_hinge()
   {
-    const auto       particles = ball_points(Point<dim>(), 90., 15.);
-    Point<dim>       top;
+    const auto particles = ball_points(Point<dim>(), 90., 15.);
+    Point<dim> top;
     top[0] = 90.;
     const Problem<dim> ball(particles, {top});
     EXPECT_EQ(ball.modes([](const auto &) { return unit_tensor<dim>(); })
@@ -206,7 +208,7 @@ namespace
   {
     Tensor<2, dim> Q = unit_tensor<dim>();
     Q[0][0] = Q[1][1] = std::cos(angle);
-    Q[0][1] = -(Q[1][0] = std::sin(angle));
+    Q[0][1]           = -(Q[1][0] = std::sin(angle));
     if (dim == 3)
       {
         Tensor<2, dim> tilt = unit_tensor<dim>();
@@ -268,8 +270,8 @@ namespace
     const auto modes   = problem.modes(slip<dim>);
     auto       u       = problem.body.interpolate([](const Point<dim> &x) {
       Tensor<1, dim> value;
-      value[0]       = 0.1 * x[0];
-      value[1]       = 5. + 0.2 * x[1];
+      value[0] = 0.1 * x[0];
+      value[1] = 5. + 0.2 * x[1];
       value[dim - 1] += dim == 3 ? 0.3 * x[1] : 0.;
       return value;
     });
@@ -325,12 +327,12 @@ namespace
         const Problem<dim> problem(particles);
         const auto         modes = problem.free_modes();
         Tensor<1, dim>     a;
-        a[0] = 3.;
-        auto u = problem.body.vector_of(problem.body.affine(
-          a, 1.2 * turn<dim>(0.3) - unit_tensor<dim>()));
+        a[0]   = 3.;
+        auto u = problem.body.vector_of(
+          problem.body.affine(a, 1.2 * turn<dim>(0.3) - unit_tensor<dim>()));
         modes.remove(problem.masses, problem.displacements(u), u);
         EXPECT_TRUE(std::isfinite(u.l2_norm()));
-        const auto after = problem.displacements(u);
+        const auto     after = problem.displacements(u);
         Tensor<1, dim> sum;
         for (std::size_t k = 0; k < after.size(); ++k)
           sum += problem.masses[k].V0 * after[k];
@@ -350,34 +352,20 @@ namespace
 } // namespace
 
 
-TEST(RigidModes, AreCountedByWhatIsHeld)
-{
-  MORULA_BOTH_DIMENSIONS(check_counts)
-}
+TEST(RigidModes, AreCountedByWhatIsHeld){MORULA_BOTH_DIMENSIONS(check_counts)}
 
 
-TEST(RigidModes, AHingeLeavesTheRotations)
-{
-  MORULA_BOTH_DIMENSIONS(check_hinge)
-}
+TEST(RigidModes, AHingeLeavesTheRotations){MORULA_BOTH_DIMENSIONS(check_hinge)}
 
 
-TEST(RigidModes, RemovalLeavesNoMoments)
-{
-  MORULA_BOTH_DIMENSIONS(check_removal)
-}
+TEST(RigidModes, RemovalLeavesNoMoments){MORULA_BOTH_DIMENSIONS(check_removal)}
 
 
-TEST(RigidModes, RemovalMovesAlongThePlaneOnly)
-{
-  MORULA_BOTH_DIMENSIONS(check_removal_on_a_plane)
-}
+TEST(RigidModes, RemovalMovesAlongThePlaneOnly){
+  MORULA_BOTH_DIMENSIONS(check_removal_on_a_plane)}
 
 
-TEST(RigidModes, EveryPieceHasItsOwn)
-{
-  MORULA_BOTH_DIMENSIONS(check_two_pieces)
-}
+TEST(RigidModes, EveryPieceHasItsOwn){MORULA_BOTH_DIMENSIONS(check_two_pieces)}
 
 
 TEST(RigidModes, RemovalFromSingleCells)

@@ -110,16 +110,11 @@ namespace
 } // namespace
 
 
-TEST(Nearest, AgreesWithLookingAtAllPoints)
-{
-  MORULA_BOTH_DIMENSIONS(check_random)
-}
+TEST(Nearest,
+     AgreesWithLookingAtAllPoints){MORULA_BOTH_DIMENSIONS(check_random)}
 
 
-TEST(Nearest, TiesGoToTheLowestId)
-{
-  MORULA_BOTH_DIMENSIONS(check_ties)
-}
+TEST(Nearest, TiesGoToTheLowestId){MORULA_BOTH_DIMENSIONS(check_ties)}
 
 
 TEST(Nearest, MayBeFarAway)

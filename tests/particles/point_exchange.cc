@@ -55,12 +55,12 @@ namespace
     const auto          all = random_points<dim>(600, 180., 2, 2);
     BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
     enclose(grid, all);
-    const GridBox<dim> &box  = grid.box();
-    const auto          mine = owned(all, grid);
+    const GridBox<dim>                   &box  = grid.box();
+    const auto                            mine = owned(all, grid);
     const std::set<types::particle_index> own(mine.ids.begin(), mine.ids.end());
     for (const double reach : {5., 50., 60., 130.})
       {
-        const auto others = halo(mine, grid, reach);
+        const auto                            others = halo(mine, grid, reach);
         const std::set<types::particle_index> found(others.ids.begin(),
                                                     others.ids.end());
         EXPECT_EQ(found.size(), others.size()); // each once
@@ -91,10 +91,8 @@ namespace
 } // namespace
 
 
-TEST(PointExchange, SendsEveryPointToItsOwner)
-{
-  MORULA_BOTH_DIMENSIONS(check_owners)
-}
+TEST(PointExchange,
+     SendsEveryPointToItsOwner){MORULA_BOTH_DIMENSIONS(check_owners)}
 
 
 TEST(PointExchange, HaloHoldsAllPointsWithinReach)

@@ -123,16 +123,11 @@ namespace
 } // namespace
 
 
-TEST(PointStore, HoldsEachPointWhereItsGridCellIsOwned)
-{
-  MORULA_BOTH_DIMENSIONS(check_insertion)
-}
+TEST(PointStore, HoldsEachPointWhereItsGridCellIsOwned){
+  MORULA_BOTH_DIMENSIONS(check_insertion)}
 
 
-TEST(PointStore, RemovesPoints)
-{
-  MORULA_BOTH_DIMENSIONS(check_removal)
-}
+TEST(PointStore, RemovesPoints){MORULA_BOTH_DIMENSIONS(check_removal)}
 
 
 TEST(PointStore, CountsPointsOverAllRanks)

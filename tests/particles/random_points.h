@@ -104,14 +104,16 @@ namespace Morula
   /** The same points, with their properties, whatever the order. */
   template <int dim>
   void
-  expect_same_points(const PointList<dim> &found, const PointList<dim> &expected)
+  expect_same_points(const PointList<dim> &found,
+                     const PointList<dim> &expected)
   {
     const auto rows = [](const PointList<dim> &list) {
-      std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>
+      std::map<types::particle_index,
+               std::pair<Point<dim>, std::vector<double>>>
         result;
       for (std::size_t i = 0; i < list.size(); ++i)
         {
-          const auto first = list.properties.begin() + i * list.n_slots;
+          const auto first    = list.properties.begin() + i * list.n_slots;
           result[list.ids[i]] = {list.positions[i],
                                  {first, first + list.n_slots}};
         }

@@ -44,11 +44,10 @@ namespace
     PointList<dim> cells, boundary;
 
     explicit Points(const unsigned int seed)
-      : cells(random_points<dim>(400,
-                                 150.,
-                                 CellSlots<dim>(false, false).n_slots,
-                                 seed))
-      , boundary(random_points<dim>(150, 160., n_boundary_slots<dim>(), seed + 1))
+      : cells(random_points<dim>(
+          400, 150., CellSlots<dim>(false, false).n_slots, seed))
+      , boundary(
+          random_points<dim>(150, 160., n_boundary_slots<dim>(), seed + 1))
     {
       make_cells(cells);
     }
@@ -103,7 +102,8 @@ namespace
         PointList<dim> cells    = tissue.cells().copy();
         PointList<dim> boundary = tissue.boundary_points().copy();
         points.move(by, 40., ++seed);
-        const auto follow = [](PointList<dim> &mine, const PointList<dim> &all) {
+        const auto follow = [](PointList<dim>       &mine,
+                               const PointList<dim> &all) {
           for (std::size_t i = 0; i < mine.size(); ++i)
             for (std::size_t k = 0; k < all.size(); ++k)
               if (all.ids[k] == mine.ids[i])
@@ -130,8 +130,8 @@ namespace
     Points<dim> points(2);
     auto        tissue = make_tissue<dim>();
     tissue.place(dealt(points.cells), dealt(points.boundary));
-    const auto first = tissue.grid().box().first();
-    const auto n     = tissue.grid().box().n();
+    const auto     first = tissue.grid().box().first();
+    const auto     n     = tissue.grid().box().n();
     Tensor<1, dim> by;
     by[0] = 50.;
     points.move(by, 0., 1);
@@ -167,8 +167,8 @@ namespace
 
     std::vector<typename PointStore<dim>::Iterator> mothers;
     PointList<dim>                                  daughters;
-    daughters.n_slots       = points.cells.n_slots;
-    const auto  is_mother   = [](const types::particle_index id) {
+    daughters.n_slots    = points.cells.n_slots;
+    const auto is_mother = [](const types::particle_index id) {
       return id % 5 == 0;
     };
     const auto divide = [&](const types::particle_index id,
@@ -217,22 +217,15 @@ namespace
 } // namespace
 
 
-TEST(Tissue, LosesNoPointHoweverFarItMoves)
-{
-  MORULA_BOTH_DIMENSIONS(check_moves)
-}
+TEST(Tissue, LosesNoPointHoweverFarItMoves){MORULA_BOTH_DIMENSIONS(check_moves)}
 
 
-TEST(Tissue, KeepsItsGridInsideThePadding)
-{
-  MORULA_BOTH_DIMENSIONS(check_same_grid)
-}
+TEST(Tissue,
+     KeepsItsGridInsideThePadding){MORULA_BOTH_DIMENSIONS(check_same_grid)}
 
 
-TEST(Tissue, ReplacesMothersByDaughters)
-{
-  MORULA_BOTH_DIMENSIONS(check_replacement_inside)
-}
+TEST(Tissue, ReplacesMothersByDaughters){
+  MORULA_BOTH_DIMENSIONS(check_replacement_inside)}
 
 
 TEST(Tissue, MakesItsGridAnewForDaughtersBeyondIt)

@@ -51,7 +51,11 @@ namespace Morula
     Matrix                                &matrix;
     std::vector<double *>                  rows; // by owned dof
     std::vector<int>                       owned_number; // by relevant unknown
-    std::vector<std::vector<unsigned int>> positions; // by cell: m x m
+    /** 1 where the columns of an unknown's components follow each other. On
+     *  three or more ranks Epetra may order a rank's ghost columns otherwise;
+     *  then dim: each component has a position of its own. */
+    unsigned int                           width = 1;
+    std::vector<std::vector<unsigned int>> positions; // by cell: m x m x width
   };
 } // namespace Morula
 

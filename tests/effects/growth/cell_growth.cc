@@ -13,25 +13,28 @@ using namespace Morula;
 
 namespace
 {
+  /** A small ball of cells at t = 0. */
   template <int dim>
-  Tissue<dim>
-  tissue_of(const CellGrowth<dim> &growth, const bool strained)
+  struct Ball : public Tissue<dim>
   {
-    const CellSlots<dim> slots(growth.present(), growth.cycle() != nullptr);
-    Tissue<dim>          tissue(GridParameters(), slots, MPI_COMM_SELF);
-    PointList<dim>       none;
-    none.n_slots = BoundarySlots<dim>::n_slots;
-    tissue.place(founders(ball_points(Point<dim>(), 60., 20.),
-                          std::pow(20., dim),
-                          slots,
-                          growth,
-                          [=](const Point<dim> &x) {
-                            return strained ? some_deformation<dim>(x) :
-                                              unit_tensor<dim>();
-                          }),
-                 none);
-    return tissue;
-  }
+    Ball(const CellGrowth<dim> &growth, const bool strained)
+      : Tissue<dim>(GridParameters(),
+                    CellSlots<dim>(growth.present(), growth.cycle() != nullptr),
+                    MPI_COMM_SELF)
+    {
+      PointList<dim> none;
+      none.n_slots = BoundarySlots<dim>::n_slots;
+      this->place(founders(ball_points(Point<dim>(), 60., 20.),
+                           std::pow(20., dim),
+                           this->slots(),
+                           growth,
+                           [=](const Point<dim> &x) {
+                             return strained ? some_deformation<dim>(x) :
+                                               unit_tensor<dim>();
+                           }),
+                  none);
+    }
+  };
 
   template <int dim>
   void
@@ -40,18 +43,18 @@ namespace
     const CellGrowth<dim> growth(isotropic_growth("1 + t*(1 + X/100)"), {});
     EXPECT_TRUE(growth.present());
     EXPECT_EQ(growth.cycle(), nullptr);
-    auto        tissue = tissue_of(growth, true);
-    const auto  before = all_cells(tissue);
-    const auto  step   = growth.of_step(tissue, 0., 0.2);
+    Ball<dim>  tissue(growth, true);
+    const auto before = all_cells(tissue);
+    const auto step   = growth.of_step(tissue, 0., 0.2);
     EXPECT_TRUE(step.present);
     ASSERT_EQ(step.current.size(), tissue.cells().order().size());
     for (std::size_t i = 0; i < step.current.size(); ++i)
       {
-        const auto   cell  = tissue.cell(tissue.cells().order()[i]);
-        const double theta = 1. + 0.2 * (1. + cell.founder_position()[0] / 100.);
+        const auto   cell = tissue.cell(tissue.cells().order()[i]);
+        const double theta =
+          1. + 0.2 * (1. + cell.founder_position()[0] / 100.);
         EXPECT_EQ(step.previous[i], unit_tensor<dim>());
-        EXPECT_LE((step.current[i] - theta * unit_tensor<dim>()).norm(),
-                  1e-15);
+        EXPECT_LE((step.current[i] - theta * unit_tensor<dim>()).norm(), 1e-15);
       }
     // A trial changes nothing.
     EXPECT_TRUE(all_cells(tissue) == before);
@@ -75,7 +78,7 @@ namespace
   check_cycle()
   {
     const CellGrowth<dim> growth({}, cell_cycle<dim>("together"));
-    auto                  tissue = tissue_of(growth, false);
+    Ball<dim>             tissue(growth, false);
     for (const auto &particle : tissue.cells().order())
       {
         const auto cell = tissue.cell(particle);
@@ -104,8 +107,8 @@ namespace
     const CellGrowth<dim> both(isotropic_growth("1 + t"),
                                cell_cycle<dim>("waiting"));
     const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
-    auto                  tissue = tissue_of(both, false);
-    auto                  other  = tissue_of(cycle, false);
+    Ball<dim>             tissue(both, false);
+    Ball<dim>             other(cycle, false);
     unsigned int          n_growing = 0;
     for (const double t : {0., 0.2, 0.4, 0.6})
       {
@@ -113,8 +116,9 @@ namespace
         grow(other, cycle, t, t + 0.2);
         for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
           {
-            const auto F_g   = tissue.cell(tissue.cells().order()[i]).growth();
-            const auto cycle_F_g = other.cell(other.cells().order()[i]).growth();
+            const auto F_g = tissue.cell(tissue.cells().order()[i]).growth();
+            const auto cycle_F_g =
+              other.cell(other.cells().order()[i]).growth();
             EXPECT_LE((F_g - (1.2 + t) * cycle_F_g).norm(), 1e-13);
             n_growing += determinant(cycle_F_g) > 1.01;
           }
@@ -128,7 +132,7 @@ namespace
   check_checkpoint()
   {
     const CellGrowth<dim> growth({}, cell_cycle<dim>("together", "1.05"));
-    auto                  tissue = tissue_of(growth, true);
+    Ball<dim>             tissue(growth, true);
     std::vector<double>   J;
     for (const auto &particle : tissue.cells().order())
       J.push_back(determinant(tissue.cell(particle).deformation()));
@@ -139,10 +143,9 @@ namespace
     ASSERT_LT(n_large, static_cast<int>(J.size()));
     grow(tissue, growth, 0.1, 0.3);
     for (std::size_t i = 0; i < J.size(); ++i)
-      EXPECT_NEAR(
-        determinant(tissue.cell(tissue.cells().order()[i]).growth()),
-        J[i] > 1.05 ? 1.2 : 1.,
-        1e-12);
+      EXPECT_NEAR(determinant(tissue.cell(tissue.cells().order()[i]).growth()),
+                  J[i] > 1.05 ? 1.2 : 1.,
+                  1e-12);
   }
 
   template <int dim>
@@ -151,7 +154,7 @@ namespace
   {
     const CellGrowth<dim> growth({}, {});
     EXPECT_FALSE(growth.present());
-    auto       tissue = tissue_of(growth, true);
+    Ball<dim>  tissue(growth, true);
     const auto before = all_cells(tissue);
     const auto step   = growth.of_step(tissue, 0., 1.);
     EXPECT_FALSE(step.present);
@@ -163,28 +166,17 @@ namespace
 } // namespace
 
 
-TEST(CellGrowth, FollowsTheGrowthLaw)
-{
-  MORULA_BOTH_DIMENSIONS(check_isotropic)
-}
+TEST(CellGrowth, FollowsTheGrowthLaw){MORULA_BOTH_DIMENSIONS(check_isotropic)}
 
 
-TEST(CellGrowth, FollowsTheCellCycle)
-{
-  MORULA_BOTH_DIMENSIONS(check_cycle)
-}
+TEST(CellGrowth, FollowsTheCellCycle){MORULA_BOTH_DIMENSIONS(check_cycle)}
 
 
-TEST(CellGrowth, MultipliesLawAndCycle)
-{
-  MORULA_BOTH_DIMENSIONS(check_both)
-}
+TEST(CellGrowth, MultipliesLawAndCycle){MORULA_BOTH_DIMENSIONS(check_both)}
 
 
-TEST(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep)
-{
-  MORULA_BOTH_DIMENSIONS(check_checkpoint)
-}
+TEST(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep){
+  MORULA_BOTH_DIMENSIONS(check_checkpoint)}
 
 
 TEST(CellGrowth, NothingGrowsWithoutLawAndCycle)

@@ -1,0 +1,262 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What other programs rely on: files, columns, number format, keys, options,
+and that effects which a scene does not call for are absent.
+"""
+import re
+from pathlib import Path
+
+from program import SCENES, Session, main, overrides, read_csv
+from results import read_keys
+
+HERE = Path(__file__).resolve().parent
+CUBE = HERE / "small-cube.prm"
+SHORT = overrides({"Time/End time": "0.25"})
+
+COLUMNS = {
+    "statistics.csv":
+        "step,time,dt,cells,total_volume,grown_volume,mean_energy_density,"
+        "cell_mean_energy_density,max_energy_density,"
+        "min_elastic_volume_ratio,max_elastic_volume_ratio,dividing,"
+        "held_at_checkpoint,xmin,xmax,ymin,ymax,zmin,zmax,active_grid_cells,"
+        "inner_splines,outer_splines,unknowns,newton_iterations,"
+        "linear_iterations,rejected_steps,residual,wall_seconds",
+    "cells-0000.csv":
+        "time,id,parent,generation,phase,x,y,z,X,Y,Z,initial_volume,volume,"
+        "growth_volume_ratio,elastic_volume_ratio,energy_density,sigma_xx,"
+        "sigma_yy,sigma_zz,sigma_xy,sigma_yz,sigma_zx",
+    "surface-0000.csv": "time,id,x,y,z,X,Y,Z,nx,ny,nz,area,condition",
+    "lineage.csv": "id,parent,generation,birth_time,x,y,z",
+    "timings.csv": "section,calls,wall_seconds,share",
+}
+ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv",
+          "lineage.csv", "snapshot.h5"}
+
+# The keys of the contract with their defaults.
+DEFAULTS = {
+    "Dimension": "3", "Output directory": "output", "Random seed": "1",
+    "Time/End time": "1", "Time/Step": "0.05", "Time/Smallest step": "1e-4",
+    "Time/Stop at cells": "0", "Tissue/Shape": "sphere",
+    "Tissue/Center": "0, 0, 0", "Tissue/Radius": "250",
+    "Tissue/Size": "200, 200, 200", "Tissue/Surface mesh": "",
+    "Tissue/Points file": "", "Tissue/Cell spacing": "10",
+    "Tissue/Lattice offset": "0, 0, 0", "Tissue/Boundary points": "0",
+    "Grid/Spacing": "50", "Grid/Offset": "0, 0, 0",
+    "Grid/Occupation parameter": "0.85", "Grid/Extension": "true",
+    "Material/Young's modulus": "1.0", "Material/Poisson's ratio": "0.4",
+    "Material/Energy per": "initial volume", "Growth/Law": "none",
+    "Growth/Isotropic/Stretch": "1", "Proliferation/Law": "none",
+    "Proliferation/Cell cycle/Start": "waiting",
+    "Proliferation/Cell cycle/Duration": "1",
+    "Proliferation/Cell cycle/G0 exit rate": "1",
+    "Proliferation/Cell cycle/Size checkpoint": "0",
+    "Proliferation/Cell cycle/Where": "1",
+    "Proliferation/Cell cycle/Division axis": "random",
+    "Proliferation/Cell cycle/Fixed axis": "0, 0, 1",
+    "Proliferation/Cell cycle/Axis follows rotation": "false",
+    "Boundary conditions/Fixed where": "",
+    "Boundary conditions/Displacement": "0; 0; 0",
+    "Boundary conditions/Slip where": "",
+    "Boundary conditions/Slip normal": "",
+    "Boundary conditions/Traction where": "",
+    "Boundary conditions/Traction": "0; 0; 0",
+    "Boundary conditions/Pressure where": "",
+    "Boundary conditions/Pressure": "0",
+    "Boundary conditions/Nitsche penalty": "1e3",
+    "Body force/Force density": "0; 0; 0",
+    "Solver/Newton tolerance": "1e-6", "Solver/Linear solver": "automatic",
+    "Output/Interval": "0.25", "Output/Formats": "vtu",
+    "Output/Snapshot interval": "0",
+}
+
+
+def as_number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+class Contract(Session):
+    def files(self, directory="output"):
+        return {path.name for path in (self.work / directory).iterdir()}
+
+    def test_csv(self):
+        """Columns, no empty fields, %.10g, rows in id order."""
+        self.execute(CUBE, ranks=2)
+        output = self.work / "output"
+        names = ALWAYS | {f"{kind}-{i:04}.csv" for kind in ("cells", "surface")
+                          for i in range(3)}
+        self.assertEqual(self.files(), names)
+        for name in sorted(names):
+            if not name.endswith(".csv"):
+                continue
+            with self.subTest(name):
+                header, *rows = (output / name).read_text().splitlines()
+                first = re.sub(r"[0-9]{4}", "0000", name)
+                self.assertEqual(header, COLUMNS[first])
+                self.assertTrue(rows)
+                for row in rows:
+                    fields = row.split(",")
+                    self.assertEqual(len(fields), header.count(",") + 1)
+                    start = 1 if name == "timings.csv" else 0
+                    for field in fields[start:]:
+                        self.assertEqual(field, f"{float(field):.10g}")
+                if "id" in header.split(","):
+                    ids = list(read_csv(output / name)["id"])
+                    self.assertEqual(ids, sorted(set(ids)))
+
+    def test_statistics(self):
+        """The rows agree with lineage and cells."""
+        self.execute(CUBE)
+        output = self.work / "output"
+        rows = read_csv(output / "statistics.csv")
+        lineage = read_csv(output / "lineage.csv")
+        self.assertEqual(list(rows["step"]), list(range(9)))
+        self.assertEqual(list(rows["time"]), [k * 0.125 for k in range(9)])
+        self.assertEqual(rows["dt"][0], 0)
+        self.assertTrue((rows["cells"][1:] - rows["cells"][:-1] ==
+                         rows["dividing"][1:]).all())
+        self.assertEqual(len(lineage), rows["cells"][0]
+                         + 2 * rows["dividing"].sum())
+        cells = read_csv(output / "cells-0002.csv")
+        parents = set(lineage["parent"])
+        alive = [row["id"] for row in lineage if row["id"] not in parents]
+        self.assertEqual(list(cells["id"]), alive)
+        last = rows[-1]
+        near = lambda a, b: self.assertAlmostEqual(a / b, 1.0, 8)
+        near(last["total_volume"], cells["volume"].sum())
+        near(last["grown_volume"], (cells["initial_volume"] *
+                                    cells["growth_volume_ratio"]).sum())
+        near(last["cell_mean_energy_density"], cells["energy_density"].mean())
+        near(last["mean_energy_density"],
+             (cells["initial_volume"] * cells["energy_density"]).sum()
+             / cells["initial_volume"].sum())
+        near(last["min_elastic_volume_ratio"],
+             cells["elastic_volume_ratio"].min())
+        surface = read_csv(output / "surface-0002.csv")
+        for axis in "xyz":
+            self.assertEqual(last[f"{axis}min"], surface[axis].min())
+            self.assertEqual(last[f"{axis}max"], surface[axis].max())
+        # V0 is the founder's / 2^generation, V = V0 det F_g J_e
+        self.assertTrue((cells["initial_volume"] * 2**cells["generation"]
+                         == 12**3).all())
+        self.assertLess(abs(cells["initial_volume"]
+                            * cells["growth_volume_ratio"]
+                            * cells["elastic_volume_ratio"]
+                            / cells["volume"] - 1).max(), 1e-8)
+        # daughters side by side, the mother's birth before theirs
+        births = {row["id"]: row for row in lineage}
+        for row in lineage[lineage["parent"] >= 0]:
+            mother = births[row["parent"]]
+            self.assertEqual(row["generation"], mother["generation"] + 1)
+            self.assertGreaterEqual(row["birth_time"],
+                                    mother["birth_time"] + 0.5 - 1e-9)
+        order = lineage[lineage["parent"] >= 0]
+        self.assertTrue((order["parent"][::2] == order["parent"][1::2]).all())
+        self.assertTrue((order["birth_time"][1:]
+                         >= order["birth_time"][:-1]).all())
+
+    def test_two_dimensions(self):
+        """All columns stay; z columns are 0, sigma_zz is true."""
+        self.execute(SCENES / "rigid-box-2d.prm")
+        output = self.work / "output"
+        cells = read_csv(self.work / "output/cells-0001.csv")
+        header = (output / "cells-0001.csv").read_text().splitlines()[0]
+        self.assertEqual(header, COLUMNS["cells-0000.csv"])
+        for name in ("z", "Z", "sigma_yz", "sigma_zx"):
+            self.assertFalse(cells[name].any(), name)
+        self.assertTrue((cells["sigma_zz"] < -0.1).all())
+        self.assertTrue((cells["phase"] == 9).all())
+        surface = read_csv(output / "surface-0001.csv")
+        for name in ("z", "Z", "nz"):
+            self.assertFalse(surface[name].any(), name)
+
+    def test_formats(self):
+        self.execute(CUBE, *SHORT, *overrides({"Output/Formats": "none"}))
+        self.assertEqual(self.files(), ALWAYS)
+        self.execute(CUBE, *SHORT, *overrides({"Output/Formats": "vtu, csv",
+                                               "Output/Interval": "0"}))
+        self.assertEqual(self.files(), ALWAYS | {
+            "cells.pvd", "surface.pvd",
+            *(f"{kind}-000{i}.{end}" for kind in ("cells", "surface")
+              for i in (0, 1) for end in ("vtu", "csv"))})
+        # a new run replaces the old one, files that are not its own stay
+        self.write("output/notes.txt", "kept\n")
+        self.execute(CUBE, *SHORT, *overrides({"Output/Formats": "none"}))
+        self.assertEqual(self.files(), ALWAYS | {"notes.txt"})
+
+    def test_parameters_as_used(self):
+        """parameters.prm has every key, and gives the same run."""
+        self.execute(CUBE, *SHORT, *overrides({"Random seed": "9"}))
+        keys = read_keys(self.work / "output/parameters.prm")
+        self.assertLessEqual(set(DEFAULTS), set(keys))
+        self.assertEqual(keys["Random seed"], "9")
+        self.assertEqual(float(keys["Time/End time"]), 0.25)
+        self.execute(self.work / "output/parameters.prm",
+                     output=self.work / "again")
+        self.assert_same_file(self.work / "output/cells-0001.csv",
+                              self.work / "again/cells-0001.csv")
+
+    def test_parameters_option(self):
+        """--parameters: every key of the contract with its default."""
+        printed = self.run_words([self.options.morula, "--parameters"]).stdout
+        keys = read_keys(self.write("all.prm", printed))
+        for key, default in DEFAULTS.items():
+            with self.subTest(key):
+                self.assertIn(key, keys)
+                self.assertEqual(
+                    [as_number(part) for part in
+                     keys[key].replace(";", ",").split(",")],
+                    [as_number(part) for part in
+                     default.replace(";", ",").split(",")])
+
+    def test_information(self):
+        help_text = self.run_words([self.options.morula, "--help"]).stdout
+        for option in ("-s", "--resume", "--explain", "--parameters",
+                       "--version"):
+            self.assertIn(option, help_text)
+        version = self.run_words([self.options.morula, "--version"]).stdout
+        self.assertRegex(version, r"^Morula \d+\.\d+\.\d+")
+
+    def rows_of_timings(self):
+        rows = (self.work / "output/timings.csv").read_text().splitlines()[1:]
+        return {row.split(",")[0] for row in rows}
+
+    def explained(self, scene):
+        text = self.execute(scene, "--explain").stdout
+        self.assertFalse((self.work / "output").exists())
+        found = re.findall(r"^  (\S.*?)  +(on|off)\b", text, re.MULTILINE)
+        return dict(found)
+
+    def test_absent_effects(self):
+        """An effect that a scene does not call for has no row in timings.csv,
+        and --explain says that it is off."""
+        effects = {"division", "growth", "boundary conditions", "body force",
+                   "rigid motion"}
+        for scene, present in ((SCENES / "free-growth-offset.prm",
+                                {"growth", "rigid motion"}),
+                               (SCENES / "rigid-motion-2d.prm",
+                                {"boundary conditions"}),
+                               (SCENES / "self-weight-h40.prm",
+                                {"boundary conditions", "body force"}),
+                               (CUBE, effects - {"body force"})):
+            with self.subTest(scene.name):
+                on = {name for name, state in self.explained(scene).items()
+                      if state == "on"}
+                self.assertEqual("growth" in present,
+                                 "growth" in on or "proliferation" in on)
+                self.assertEqual("division" in present,
+                                 "division (Voronoi)" in on)
+                self.assertEqual("boundary conditions" in present,
+                                 bool({"fixed points (Nitsche)",
+                                       "slip (Nitsche)"} & on))
+                self.assertEqual("body force" in present, "body force" in on)
+                self.execute(scene)
+                self.assertEqual(self.rows_of_timings() & effects, present)
+                (self.work / "output").rename(self.work / scene.stem)
+
+
+if __name__ == "__main__":
+    main()

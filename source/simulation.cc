@@ -3,6 +3,7 @@
 
 #include <morula/effects/dead_load.h>
 #include <morula/effects/division/divide.h>
+#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/simulation.h>
@@ -204,14 +205,14 @@ namespace Morula
     if (!modes.any())
       return;
     const TimerOutput::Scope section(timer, "rigid motion");
-    const typename MomentumBalance<dim>::Local local(space, u, comm);
+    const DisplacementField<dim> displacement(space, u, comm);
     std::vector<Tensor<1, dim>>                displacements;
     unsigned int                               c = 0;
     for (const auto &cell : tissue.cells().cells())
       {
         while (space.cells()[c].number != cell.number)
           ++c;
-        const LocalField<dim> field = local.field(c);
+        const LocalField<dim> field = displacement.on_cell(c);
         const GridIndex<dim>  index = space.box().index(cell.number);
         for (unsigned int p = cell.begin; p < cell.end; ++p)
           displacements.push_back(field.value(SplineValues<dim>(
@@ -228,7 +229,7 @@ namespace Morula
                           const Equilibrium::Vector &u)
   {
     const TimerOutput::Scope                   section(timer, "commit");
-    const typename MomentumBalance<dim>::Local local(space, u, comm);
+    const DisplacementField<dim> displacement(space, u, comm);
     PointList<dim> cells = tissue.cells().copy();
     PointList<dim> boundary_points = tissue.boundary_points().copy();
     // Moves the points of one store, calling update(i, f) for each before.
@@ -240,7 +241,7 @@ namespace Morula
         {
           while (space.cells()[c].number != cell.number)
             ++c;
-          const LocalField<dim> field = local.field(c);
+          const LocalField<dim> field = displacement.on_cell(c);
           const GridIndex<dim>  index = space.box().index(cell.number);
           for (unsigned int p = cell.begin; p < cell.end; ++p)
             {

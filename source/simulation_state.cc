@@ -53,7 +53,7 @@ namespace Morula
                               const bool     resume)
     : scene(scene)
     , comm(comm)
-    , timer(comm, std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , material(scene.material)
     , boundary_conditions(scene.boundary_conditions)
     , growth(growth_of<dim>(scene))

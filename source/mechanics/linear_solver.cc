@@ -97,6 +97,21 @@ namespace Morula
       return Outcome::stalled;
     }
 
+    /** An operator followed by a projection. */
+    template <typename Operator, typename Projection>
+    struct Projected
+    {
+      const Operator   &apply;
+      const Projection &project;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        apply.vmult(y, x);
+        project(y);
+      }
+    };
+
     /** |diag K|. */
     Vector
     diagonal_magnitude(const Matrix &K, const Vector &layout)
@@ -145,27 +160,21 @@ namespace Morula
   void
   LinearSolver::make_preconditioner(const Matrix &K)
   {
-    if (!symmetric)
-      {
-        auto ilu = std::make_unique<TrilinosWrappers::PreconditionILU>();
-        ilu->initialize(K, {0, 0., 1., overlap});
-        preconditioner = std::move(ilu);
-      }
-    else
-      {
-        // A slightly raised diagonal keeps the factorisation positive, and
-        // usable for the later tangents of the step.
-        auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
-        ic->initialize(K, {0, 2e-5 * problem.stiffness_scale(), 1.02, overlap});
-        preconditioner = std::move(ic);
-      }
+    // A slightly raised diagonal keeps the factorisation positive, and usable
+    // for the later tangents of the step. A following pressure makes the
+    // tangent but slightly unsymmetric: this serves it better than an
+    // incomplete LU factorisation of the very matrix.
+    auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
+    ic->initialize(K, {0, 2e-5 * problem.stiffness_scale(), 1.02, overlap});
+    preconditioner = std::move(ic);
   }
 
-  unsigned int
+  void
   LinearSolver::solve(const Matrix &K,
                       Vector       &x,
                       const Vector &b,
-                      const double  tolerance)
+                      const double  tolerance,
+                      unsigned int &iterations)
   {
     if (!direct && !prepared)
       {
@@ -174,12 +183,11 @@ namespace Morula
         prepared = true;
       }
     const TimerOutput::Scope section(timer, "linear solver");
-    if (direct)
-      return solve_direct(K, x, b);
-    unsigned int iterations = 0;
     try
       {
-        if (symmetric)
+        if (direct)
+          solve_direct(K, x, b, iterations);
+        else if (symmetric)
           solve_symmetric(K, x, b, tolerance, iterations);
         else
           solve_unsymmetric(K, x, b, tolerance, iterations);
@@ -188,9 +196,8 @@ namespace Morula
       {
         if (!automatic)
           throw;
-        iterations += solve_direct(K, x, b);
+        solve_direct(K, x, b, iterations);
       }
-    return iterations;
   }
 
   void
@@ -240,7 +247,9 @@ namespace Morula
                                   const double  tolerance,
                                   unsigned int &iterations)
   {
-    SolverControl control(max_iterations, tolerance * b.l2_norm());
+    Vector balanced(b);
+    project(balanced);
+    SolverControl control(max_iterations, tolerance * balanced.l2_norm());
     // Preconditioned from the right: else the tolerance would be one for the
     // preconditioned residual, which can be far from the residual.
     SolverGMRES<Vector> gmres(
@@ -248,9 +257,13 @@ namespace Morula
     x = 0.;
     try
       {
-        Vector balanced(b);
-        project(balanced);
-        gmres.solve(K, x, balanced, *preconditioner);
+        const auto                             remove = [this](Vector &y) {
+          project(y);
+        };
+        const Projected<Matrix, decltype(remove)> A{K, remove};
+        const Projected<TrilinosWrappers::PreconditionBase, decltype(remove)> P{
+          *preconditioner, remove};
+        gmres.solve(A, x, balanced, P);
         project(x);
       }
     catch (const SolverControl::NoConvergence &)
@@ -261,8 +274,11 @@ namespace Morula
     iterations += control.last_step();
   }
 
-  unsigned int
-  LinearSolver::solve_direct(const Matrix &K, Vector &x, const Vector &b)
+  void
+  LinearSolver::solve_direct(const Matrix &K,
+                             Vector       &x,
+                             const Vector &b,
+                             unsigned int &iterations)
   {
     const std::string method =
       Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
@@ -285,6 +301,7 @@ namespace Morula
         SolverControl                  control(1, 0.);
         TrilinosWrappers::SolverDirect solver(
           control, TrilinosWrappers::SolverDirect::AdditionalData(false, method));
+        ++iterations;
         try
           {
             solver.initialize(shift > 0. ? shifted : K);
@@ -292,12 +309,12 @@ namespace Morula
           }
         catch (const ExceptionBase &)
           {
-            throw StepFailed("the direct solver could not factorise");
+            continue; // singular
           }
         project(x);
         // Not a direction of descent: the tangent is indefinite there.
         if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
-          return 1;
+          return;
       }
     throw StepFailed("the direct solver found no direction of descent");
   }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/condensation.h>
+#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,32 +11,6 @@
 
 namespace Morula
 {
-  template <int dim>
-  MomentumBalance<dim>::Local::Local(const SplineSpace<dim> &space,
-                                     const Vector           &u,
-                                     const MPI_Comm          comm)
-    : space(space)
-    , relevant(space.owned_dofs(), space.relevant_dofs(), comm)
-  {
-    relevant = u;
-  }
-
-  template <int dim>
-  LocalField<dim>
-  MomentumBalance<dim>::Local::field(const unsigned int cell) const
-  {
-    // A ghosted Trilinos vector stores its entries in the order of the set of
-    // relevant degrees of freedom.
-    const double *const       values = relevant.trilinos_vector()[0];
-    const auto               &unknowns = space.cells()[cell].unknowns;
-    const Condensation<dim>   condensation(space.cells()[cell]);
-    std::vector<double>       coefficients(dim * unknowns.size());
-    for (unsigned int s = 0; s < unknowns.size(); ++s)
-      for (unsigned int i = 0; i < dim; ++i)
-        coefficients[i * unknowns.size() + s] = values[unknowns[s] * dim + i];
-    return condensation.expand(coefficients);
-  }
-
   template <int dim>
   MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim>  &space,
                                         const TermList          &terms,
@@ -67,13 +42,13 @@ namespace Morula
   {
     const TimerOutput::Scope section(timer, "residual");
     const bool          magnitudes = wanted == LocalSystem<dim>::rounding;
-    const Local         local(space, u, comm);
+    const DisplacementField<dim> displacement(space, u, comm);
     LocalSystem<dim>    system(wanted);
     std::vector<double> sums(space.relevant_dofs().n_elements(), 0.);
     double              energies[3] = {0., 0., 0.};
     for (unsigned int c = 0; c < space.cells().size() && !system.inverted; ++c)
       {
-        const LocalField<dim> field = local.field(c);
+        const LocalField<dim> field = displacement.on_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, GrowthAt::current, system);
@@ -137,11 +112,11 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "tangent");
     matrix = 0.;
-    const Local      local(space, u, comm);
+    const DisplacementField<dim> displacement(space, u, comm);
     LocalSystem<dim> system(LocalSystem<dim>::tangent);
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
-        const LocalField<dim> field = local.field(c);
+        const LocalField<dim> field = displacement.on_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, growth, system);

@@ -111,11 +111,11 @@ namespace Morula
     Equilibrium::Vector b(R.values);
     b *= -1.;
     ++report.newton_iterations;
-    report.linear_iterations +=
-      linear_solver.solve(*K,
-                          direction.values,
-                          b,
-                          parameters.get("Tolerance", 1e-6));
+    linear_solver.solve(*K,
+                        direction.values,
+                        b,
+                        parameters.get("Tolerance", 1e-6),
+                        report.linear_iterations);
     has_direction = true;
     return Ok;
   }

@@ -105,7 +105,8 @@ namespace Morula
         const double sure = radius * box.spacing();
         if (Utilities::MPI::max(farthest, grid.communicator()) <= sure)
           return properties;
-        AssertThrow(radius <= largest, ExcMessage("There are no cells."));
+        // Nothing in the box is farther than its diagonal.
+        AssertThrow(radius <= 2 * largest, ExcMessage("There are no cells."));
       }
   }
 

@@ -36,12 +36,13 @@ namespace
 
         // Their cells tile the box: the mean is its centre, the second moment
         // that of n midpoints.
+        const double   n_points = points.size();
         Tensor<1, dim> mean;
         Tensor<2, dim> second;
         for (const Point<dim> &point : points)
           {
-            mean += (point - x) / points.size();
-            second += outer_product(point - x, point - x) / points.size();
+            mean += (point - x) / n_points;
+            second += outer_product(point - x, point - x) / n_points;
             for (unsigned int d = 0; d < dim; ++d)
               {
                 EXPECT_GT(point[d], domain.lower()[d]);
@@ -73,10 +74,7 @@ namespace
 } // namespace
 
 
-TEST(ParticleDomain, PointsTileTheBox)
-{
-  MORULA_BOTH_DIMENSIONS(check_points)
-}
+TEST(ParticleDomain, PointsTileTheBox){MORULA_BOTH_DIMENSIONS(check_points)}
 
 
 TEST(ParticleDomain, HasTwoPointsPerGridSpacing)

@@ -258,3 +258,46 @@ TEST(Newton, ReportsAddUp)
   EXPECT_EQ(report.newton_iterations, 2 * once);
   EXPECT_LE(report.residual, parameters.newton_tolerance);
 }
+
+
+// A chain that may move as a whole, under loads that do not balance.
+TEST(Newton, LeavesAnUnbalancedLoadOut)
+{
+  for (const std::string linear_solver : {"automatic", "direct"})
+    {
+      SCOPED_TRACE(linear_solver);
+      ChainProblem problem(n);
+      const auto   load = [](const unsigned int i) {
+        return 1. + std::sin(2. * i);
+      };
+      problem.force = [&](const unsigned int i, const std::vector<double> &u) {
+        return (i > 0 ? u[i] - u[i - 1] : 0.) +
+               (i + 1 < n ? u[i] - u[i + 1] : 0.) - load(i);
+      };
+      problem.stiffness =
+        [](const unsigned int i, const unsigned int j, auto &) {
+          return i != j ? -1. : (i > 0) + (i + 1 < n);
+        };
+      problem.energy = [&](const std::vector<double> &u) {
+        double sum = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          sum +=
+            (i > 0 ? 0.5 * std::pow(u[i] - u[i - 1], 2) : 0.) - load(i) * u[i];
+        return sum;
+      };
+      problem.nulls.push_back(
+        problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n))));
+      const Result result = solved(problem, 1e-9, linear_solver);
+
+      double mean = 0., sum = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          mean += load(i) / n;
+          sum += result.u[i];
+        }
+      EXPECT_NEAR(sum, 0., 1e-9);
+      // The load less its mean is in equilibrium.
+      for (unsigned int i = 0; i < n; ++i)
+        EXPECT_NEAR(problem.force(i, result.u), -mean, 1e-7);
+    }
+}

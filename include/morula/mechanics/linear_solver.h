@@ -44,14 +44,16 @@ namespace Morula
     /**
      * Solves K x = b to a residual of @p tolerance |b|. On negative curvature
      * solves (K + σ |diag K|) x = b with the smallest tried σ that has none.
-     * @return number of iterations (direct: 1)
+     * @param iterations in/out: this solve's are added (direct: its
+     *                   factorisations), also when it fails
      * @throws StepFailed on all ranks together
      */
-    unsigned int
+    void
     solve(const Matrix &K,
           Vector       &x,
           const Vector &b,
-          const double  tolerance);
+          const double  tolerance,
+          unsigned int &iterations);
 
   private:
     void
@@ -68,8 +70,11 @@ namespace Morula
                       const double  tolerance,
                       unsigned int &iterations);
 
-    unsigned int
-    solve_direct(const Matrix &K, Vector &x, const Vector &b);
+    void
+    solve_direct(const Matrix &K,
+                 Vector       &x,
+                 const Vector &b,
+                 unsigned int &iterations);
 
     void
     make_preconditioner(const Matrix &K);

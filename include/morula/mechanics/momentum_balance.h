@@ -65,20 +65,6 @@ namespace Morula
     double
     stiffness_scale() const override;
 
-    /** Coefficients of @p u on this rank's active grid cell @p cell. */
-    class Local
-    {
-    public:
-      Local(const SplineSpace<dim> &space, const Vector &u, MPI_Comm comm);
-
-      LocalField<dim>
-      field(const unsigned int cell) const;
-
-    private:
-      const SplineSpace<dim> &space;
-      Vector                  relevant;
-    };
-
   private:
     Evaluation
     assemble_residual(const Vector                         &u,

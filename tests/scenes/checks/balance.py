@@ -46,19 +46,3 @@ if support in "xyz":
 print("sum V |sigma|:", scale)
 assert scale > 0.0
 agree("sum V sigma against the forces' moments", difference, 0.0, tolerance)
-
-drift = numpy.average(positions(cells) - initial_positions(cells), axis=0,
-                      weights=cells["initial_volume"])
-if support in "xyz":
-    drift["xyz".index(support)] = 0.0
-agree("drift of the center, um", drift, 0.0, 1e-8)
-if len(results.statistics()) == 2:
-    # one step: no rotation of the whole, sum V0 (X - X_c) x u = 0
-    weights = cells["initial_volume"]
-    X = initial_positions(cells)
-    arm = X - numpy.average(X, axis=0, weights=weights)
-    turn = (weights[:, None] * numpy.cross(arm, positions(cells) - X)).sum(0)
-    if support in "xyz":
-        turn[[a for a in range(3) if "xyz"[a] != support]] = 0.0
-    agree("rotation of the whole", turn / (weights * (arm**2).sum(1)).sum(),
-          0.0, 1e-10)

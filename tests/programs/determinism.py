@@ -62,7 +62,7 @@ class Determinism(Session):
 
     def test_seed(self):
         """Another seed gives another tissue, the same one the same bytes."""
-        small = SCENES.parent / "sessions/small-cube.prm"
+        small = SCENES.parent / "programs/small-cube.prm"
         for name, seed in (("a", 4), ("b", 4), ("c", 5)):
             self.execute(small, *overrides({"Random seed": seed}),
                          output=self.work / name)

@@ -45,7 +45,7 @@ namespace Morula
             {
               const std::string section = name.substr(section_prefix.size());
               sections_before[section]  = {
-                resumed_from->numbers.at(calls_prefix + section), seconds};
+                 resumed_from->numbers.at(calls_prefix + section), seconds};
             }
         statistics.emplace(path("statistics.csv"),
                            resumed_from->numbers.at("statistics_rows"),
@@ -99,8 +99,7 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::step(StatisticsRow                  row,
-                      const std::vector<Birth<dim>> &births)
+  RunFiles<dim>::step(StatisticsRow row, const std::vector<Birth<dim>> &births)
   {
     row.wall_seconds = wall_seconds();
     statistics->append(row);
@@ -135,8 +134,8 @@ namespace Morula
   RunFiles<dim>::snapshot_due(const double time, const bool last) const
   {
     const double interval = scene.output.snapshot_interval;
-    return last || (interval > 0. && time >= next_snapshot * interval -
-                                               1e-9 * scene.time.step);
+    return last || (interval > 0. &&
+                    time >= next_snapshot * interval - 1e-9 * scene.time.step);
   }
 
   template <int dim>
@@ -150,11 +149,8 @@ namespace Morula
       write_csv(path(numbered_file(stem, number, "csv")), fields, comm);
     if (!has_format("vtu"))
       return;
-    write_vtu(path(numbered_file(stem, number, "vtu")),
-              fields,
-              time,
-              number,
-              comm);
+    write_vtu(
+      path(numbered_file(stem, number, "vtu")), fields, time, number, comm);
     std::vector<std::pair<double, std::string>> names;
     for (unsigned int n = 0; n < output_times.size(); ++n)
       names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
@@ -170,8 +166,7 @@ namespace Morula
     output_times.push_back(time);
     const double interval = scene.output.interval;
     if (interval > 0.)
-      next_output =
-        std::floor((time + 1e-9 * scene.time.step) / interval) + 1;
+      next_output = std::floor((time + 1e-9 * scene.time.step) / interval) + 1;
     write_series("cells", cells, time);
     write_series("surface", surface, time);
   }

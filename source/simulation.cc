@@ -3,6 +3,7 @@
 
 #include <morula/effects/dead_load.h>
 #include <morula/effects/division/divide.h>
+#include <morula/input_error.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/particles/boundary_state.h>
@@ -11,6 +12,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <iostream>
+
 namespace Morula
 {
   template <int dim>
@@ -18,7 +21,12 @@ namespace Morula
   Simulation<dim>::run()
   {
     if (resumed_from && must_stop())
-      return;
+      {
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          std::cout << "Already finished at t = " << time_steps.time()
+                    << " day: nothing to resume.\n";
+        return;
+      }
     files.emplace(scene, resumed_from, comm);
     if (!resumed_from)
       {
@@ -28,11 +36,20 @@ namespace Morula
       }
     resumed_from.reset();
 
-    while (!must_stop())
+    try
       {
-        step();
-        files->step(row, births);
-        output(must_stop());
+        while (!must_stop())
+          {
+            step();
+            files->step(row, births);
+            output(must_stop());
+          }
+      }
+    catch (const InputError &error)
+      {
+        // An expression without a value at some later time: the scene had been
+        // accepted, so this is no longer bad input but a run that failed.
+        throw std::runtime_error(error.what());
       }
 
     files->write_timings(timer);
@@ -51,8 +68,7 @@ namespace Morula
       return true;
     return scene.time.stop_at_cells > 0 &&
            Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(),
-                                              comm) >=
-             scene.time.stop_at_cells;
+                                              comm) >= scene.time.stop_at_cells;
   }
 
   template <int dim>
@@ -204,10 +220,10 @@ namespace Morula
   {
     if (!modes.any())
       return;
-    const TimerOutput::Scope section(timer, "rigid motion");
+    const TimerOutput::Scope     section(timer, "rigid motion");
     const DisplacementField<dim> displacement(space, u, comm);
-    std::vector<Tensor<1, dim>>                displacements;
-    unsigned int                               c = 0;
+    std::vector<Tensor<1, dim>>  displacements;
+    unsigned int                 c = 0;
     for (const auto &cell : tissue.cells().cells())
       {
         while (space.cells()[c].number != cell.number)
@@ -216,8 +232,8 @@ namespace Morula
         const GridIndex<dim>  index = space.box().index(cell.number);
         for (unsigned int p = cell.begin; p < cell.end; ++p)
           displacements.push_back(field.value(SplineValues<dim>(
-            space.box().unit_position(
-              tissue.cells().order()[p]->get_location(), index),
+            space.box().unit_position(tissue.cells().order()[p]->get_location(),
+                                      index),
             space.box().spacing())));
       }
     modes.remove(masses(space), displacements, u);
@@ -228,10 +244,10 @@ namespace Morula
   Simulation<dim>::commit(const SplineSpace<dim>    &space,
                           const Equilibrium::Vector &u)
   {
-    const TimerOutput::Scope                   section(timer, "commit");
+    const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, u, comm);
-    PointList<dim> cells = tissue.cells().copy();
-    PointList<dim> boundary_points = tissue.boundary_points().copy();
+    PointList<dim>               cells = tissue.cells().copy();
+    PointList<dim> boundary_points     = tissue.boundary_points().copy();
     // Moves the points of one store, calling update(i, f) for each before.
     const auto move = [&](const PointStore<dim> &store,
                           PointList<dim>        &points,
@@ -265,16 +281,15 @@ namespace Morula
                            time_steps.time(),
                            time_steps.next(),
                            growth_of_step.current[p]);
-           cell.set_tensor(tissue.slots().deformation,
-                           f * cell.deformation());
+           cell.set_tensor(tissue.slots().deformation, f * cell.deformation());
          });
     move(tissue.boundary_points(),
          boundary_points,
          [&](const unsigned int p, const Tensor<2, dim> &f) {
            deform_boundary_point<dim>(
-             ArrayView<double>(&boundary_points.properties
-                                  [p * boundary_points.n_slots],
-                               boundary_points.n_slots),
+             ArrayView<double>(
+               &boundary_points.properties[p * boundary_points.n_slots],
+               boundary_points.n_slots),
              f);
          });
     tissue.place(cells, boundary_points);

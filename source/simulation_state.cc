@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/boundary_state.h>
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
+#include <morula/particles/boundary_state.h>
 #include <morula/scene_checks.h>
 #include <morula/simulation.h>
 #include <morula/snapshot_check.h>
@@ -70,8 +70,9 @@ namespace Morula
       seed();
     double largest = 0.;
     for (const auto &particle : tissue.cells().order())
-      largest = std::max(
-        largest, material.youngs_modulus(tissue.cell(particle).founder_position()));
+      largest = std::max(largest,
+                         material.youngs_modulus(
+                           tissue.cell(particle).founder_position()));
     typical_stiffness = Utilities::MPI::max(largest, comm);
   }
 
@@ -92,8 +93,7 @@ namespace Morula
         std::vector<double>         slots(cells.n_slots);
         const CellView<dim, double> cell(make_array_view(slots),
                                          tissue.slots());
-        cell.set_vector(tissue.slots().founder_position,
-                        founders.positions[i]);
+        cell.set_vector(tissue.slots().founder_position, founders.positions[i]);
         cell.set_scalar(tissue.slots().initial_volume, founders.volumes[i]);
         cell.set_tensor(tissue.slots().deformation, identity);
         growth.initialize(founders.first_id + i, cell);
@@ -102,8 +102,7 @@ namespace Morula
         cells.properties.insert(cells.properties.end(),
                                 slots.begin(),
                                 slots.end());
-        births.push_back(
-          {cells.ids.back(), -1, 0, 0., founders.positions[i]});
+        births.push_back({cells.ids.back(), -1, 0, 0., founders.positions[i]});
       }
 
     PointList<dim> points;
@@ -151,13 +150,12 @@ namespace Morula
     next_id    = numbers.at("next_id");
     n_steps    = numbers.at("steps");
     n_rejected = numbers.at("rejected_steps");
-    time_steps.restore(
-      {resumed_from->time,
-       numbers.at("step_length"),
-       static_cast<unsigned int>(numbers.at("step_interval")),
-       numbers.at("step_begin"),
-       static_cast<unsigned int>(numbers.at("step_part")),
-       static_cast<unsigned int>(numbers.at("step_level"))});
+    time_steps.restore({resumed_from->time,
+                        numbers.at("step_length"),
+                        static_cast<unsigned int>(numbers.at("step_interval")),
+                        numbers.at("step_begin"),
+                        static_cast<unsigned int>(numbers.at("step_part")),
+                        static_cast<unsigned int>(numbers.at("step_level"))});
     row = statistics();
   }
 
@@ -223,10 +221,10 @@ namespace Morula
       }
     for (const auto &point : tissue.boundary_points().order())
       sums.add_boundary_point(point->get_location());
-    state.step               = n_steps;
-    state.time               = time_steps.time();
-    state.cells              = Utilities::MPI::sum<std::uint64_t>(
-      tissue.cells().order().size(), comm);
+    state.step = n_steps;
+    state.time = time_steps.time();
+    state.cells =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(), comm);
     state.tissue             = sums.totals(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
     return state;

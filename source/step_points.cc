@@ -120,12 +120,12 @@ namespace Morula
       list.n_slots = row_length<dim>;
       for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
         {
-          const auto &particle = tissue.cells().order()[i];
-          const PointData<dim> data = data_of(tissue, i, growth, material);
+          const auto               &particle = tissue.cells().order()[i];
+          const PointData<dim>      data = data_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain(particle->get_location(),
                                            volume(tissue.cell(particle)));
-          const unsigned int n    = domain.n_per_direction(box.spacing());
-          const double       part = std::pow(1. / n, dim);
+          const unsigned int        n = domain.n_per_direction(box.spacing());
+          const double              part = std::pow(1. / n, dim);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
             list.ids.push_back(particle->get_id());
             list.positions.push_back(point);
@@ -158,8 +158,7 @@ namespace Morula
             {
               points.xi.push_back(
                 box.unit_position(list.positions[order[k]], index));
-              append(from_row<dim>(
-                       &list.properties[order[k] * list.n_slots]),
+              append(from_row<dim>(&list.properties[order[k] * list.n_slots]),
                      growth.present,
                      material.is_uniform(),
                      points);
@@ -176,18 +175,17 @@ namespace Morula
   cell_positions(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
     GroupedPoints<dim> points;
-    points.offsets =
-      group_points(tissue.cells(), space, [](const auto &) { return true; })
-        .offsets;
-    points.h = space.box().spacing();
+    points.offsets = group_points(tissue.cells(), space, [](const auto &) {
+                       return true;
+                     }).offsets;
+    points.h       = space.box().spacing();
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
-        const GridIndex<dim> index =
-          space.box().index(space.cells()[c].number);
-        for (unsigned int p = points.offsets[c]; p < points.offsets[c + 1];
-             ++p)
-          points.xi.push_back(space.box().unit_position(
-            tissue.cells().order()[p]->get_location(), index));
+        const GridIndex<dim> index = space.box().index(space.cells()[c].number);
+        for (unsigned int p = points.offsets[c]; p < points.offsets[c + 1]; ++p)
+          points.xi.push_back(
+            space.box().unit_position(tissue.cells().order()[p]->get_location(),
+                                      index));
       }
     return points;
   }
@@ -219,14 +217,13 @@ namespace Morula
     return points;
   }
 
-#define INSTANTIATE(dim)                                       \
-  template MaterialPoints<dim> material_points(                \
-    const Tissue<dim> &,                                       \
-    const SplineSpace<dim> &,                                  \
-    const GrowthOfStep<dim> &,                                 \
-    const TissueMaterial &);                                   \
-  template GroupedPoints<dim> cell_positions(const Tissue<dim> &, \
-                                             const SplineSpace<dim> &);
+#define INSTANTIATE(dim)                                                  \
+  template MaterialPoints<dim> material_points(const Tissue<dim> &,       \
+                                               const SplineSpace<dim> &,  \
+                                               const GrowthOfStep<dim> &, \
+                                               const TissueMaterial &);   \
+  template GroupedPoints<dim>  cell_positions(const Tissue<dim> &,        \
+                                              const SplineSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

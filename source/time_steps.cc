@@ -53,10 +53,9 @@ namespace Morula
   TimeSteps::at(const unsigned int part) const
   {
     const unsigned int parts = 1u << state_.level;
-    return part == parts ? end_of_interval() :
-                           state_.begin + part * ((end_of_interval() -
-                                                   state_.begin) /
-                                                  parts);
+    return part == parts ?
+             end_of_interval() :
+             state_.begin + part * ((end_of_interval() - state_.begin) / parts);
   }
 
   double

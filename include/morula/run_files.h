@@ -38,16 +38,17 @@ namespace Morula
 
     /** Appends to statistics.csv and lineage.csv, and shows the step. */
     void
-    step(StatisticsRow                  row,
-         const std::vector<Birth<dim>> &births);
+    step(StatisticsRow row, const std::vector<Birth<dim>> &births);
 
     /** Whether cells and surface are to be written in any format. */
     bool
     writes_points() const;
 
     /** Whether something is due at @p time (day). The last state is always. */
-    bool output_due(const double time, const bool last) const;
-    bool snapshot_due(const double time, const bool last) const;
+    bool
+    output_due(const double time, const bool last) const;
+    bool
+    snapshot_due(const double time, const bool last) const;
 
     /** Writes the next number of the series of cells and surface. */
     void
@@ -87,15 +88,15 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene           scene;
-    const MPI_Comm        comm;
-    const double          wall_seconds_before;
-    Timer                 timer;
-    std::vector<double>   output_times;
-    unsigned int          next_output   = 0; // due at its Interval-multiple
-    unsigned int          next_snapshot = 1;
-    SectionTimes          sections_before;
-    std::optional<Progress>         progress;
+    const Scene             scene;
+    const MPI_Comm          comm;
+    const double            wall_seconds_before;
+    Timer                   timer;
+    std::vector<double>     output_times;
+    unsigned int            next_output   = 0; // due at its Interval-multiple
+    unsigned int            next_snapshot = 1;
+    SectionTimes            sections_before;
+    std::optional<Progress> progress;
     std::optional<StatisticsFile>   statistics;
     std::optional<LineageFile<dim>> lineage;
   };

@@ -47,23 +47,33 @@ namespace Morula
     n_unknowns();
 
   private:
-    void seed();
-    void restore();
+    void
+    seed();
+    void
+    restore();
 
-    bool must_stop() const;
-    void step();
-    SplineSpace<dim> splines();
-    void solve_step(const SplineSpace<dim> &space,
-                    const RigidModes<dim>  &rigid_modes,
-                    Equilibrium::Vector    &u);
-    void try_step(const SplineSpace<dim> &space,
-                  const RigidModes<dim>  &rigid_modes,
-                  Equilibrium::Vector    &u);
-    void remove_rigid_motion(const SplineSpace<dim> &space,
-                             const RigidModes<dim>  &rigid_modes,
-                             Equilibrium::Vector    &u);
-    void commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
-    void divide();
+    bool
+    must_stop() const;
+    void
+    step();
+    SplineSpace<dim>
+    splines();
+    void
+    solve_step(const SplineSpace<dim> &space,
+               const RigidModes<dim>  &rigid_modes,
+               Equilibrium::Vector    &u);
+    void
+    try_step(const SplineSpace<dim> &space,
+             const RigidModes<dim>  &rigid_modes,
+             Equilibrium::Vector    &u);
+    void
+    remove_rigid_motion(const SplineSpace<dim> &space,
+                        const RigidModes<dim>  &rigid_modes,
+                        Equilibrium::Vector    &u);
+    void
+    commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
+    void
+    divide();
 
     typename MomentumBalance<dim>::TermList
     terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
@@ -72,14 +82,20 @@ namespace Morula
     RigidModes<dim>
     rigid_modes(const SplineSpace<dim> &space) const;
 
-    StatisticsRow     statistics() const;
-    void              complete_row(const SplineSpace<dim> &space);
-    SnapshotData<dim> snapshot() const;
-    void              output(const bool last);
-    [[noreturn]] void give_up(const std::string &reason);
+    StatisticsRow
+    statistics() const;
+    void
+    complete_row(const SplineSpace<dim> &space);
+    SnapshotData<dim>
+    snapshot() const;
+    void
+    output(const bool last);
+    [[noreturn]] void
+    give_up(const std::string &reason);
 
     /** As in cells-NNNN.csv. */
-    unsigned int phase(const CellView<dim, const double> &cell) const;
+    unsigned int
+    phase(const CellView<dim, const double> &cell) const;
 
     const Scene    scene;
     const MPI_Comm comm;

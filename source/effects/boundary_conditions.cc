@@ -72,8 +72,7 @@ namespace Morula
   Tensor<1, dim>
   BoundaryConditions<dim>::traction(const Point<dim> &X, const double t) const
   {
-    return holds(traction_where, X) ? traction_.vector(X, t) :
-                                      Tensor<1, dim>();
+    return holds(traction_where, X) ? traction_.vector(X, t) : Tensor<1, dim>();
   }
 
   template <int dim>

@@ -25,8 +25,7 @@ namespace Morula
     BoundaryView<dim>
     view(const Iterator<dim> &point)
     {
-      return BoundaryView<dim>(
-        boundary_properties<dim>(point));
+      return BoundaryView<dim>(boundary_properties<dim>(point));
     }
 
     bool
@@ -118,9 +117,9 @@ namespace Morula
                const GrowthOfStep<dim>       &growth,
                const double                   t)
   {
-    const auto       &store  = tissue.boundary_points();
-    const PointGroups groups = group_points(
-      store, space, [](const Iterator<dim> &point) {
+    const auto       &store = tissue.boundary_points();
+    const PointGroups groups =
+      group_points(store, space, [](const Iterator<dim> &point) {
         return is_dirichlet(view<dim>(point).condition());
       });
     std::vector<Point<dim>> queries;
@@ -143,8 +142,8 @@ namespace Morula
       {
         const BoundaryView<dim> point =
           view<dim>(store.order()[groups.points[k]]);
-        const Point<dim>     x = queries[k], X = point.initial_position();
-        Point<dim>           target = X;
+        const Point<dim> x = queries[k], X = point.initial_position();
+        Point<dim>       target = X;
         if (point.condition() == SurfaceCondition::fixed)
           target += conditions.displacement(X, t);
         const Tensor<1, dim> area = point.area_vector();
@@ -157,11 +156,10 @@ namespace Morula
         condition.area           = area.norm();
         condition.normal         = area / area.norm();
         condition.lame           = material.lame_at(X);
-        condition.penalty =
-          std::max(conditions.penalty() * E,
-                   least_penalty *
-                     (condition.lame.lambda + 2. * condition.lame.mu)) /
-          space.box().spacing();
+        condition.penalty        = std::max(conditions.penalty() * E,
+                                     least_penalty * (condition.lame.lambda +
+                                                      2. * condition.lame.mu)) /
+                            space.box().spacing();
         list.push_back(condition);
 
         const Tensor<2, dim> F = point.deformation();
@@ -174,15 +172,14 @@ namespace Morula
             const std::size_t row = k * 2 * dim * dim;
             previous.push_back(
               state(F, tensor(row), material.per_grown_volume()));
-            current.push_back(state(F,
-                                    tensor(row + dim * dim),
-                                    material.per_grown_volume()));
+            current.push_back(
+              state(F, tensor(row + dim * dim), material.per_grown_volume()));
           }
       }
     return std::make_unique<Nitsche<dim>>(positions(tissue, space, groups),
-                                     std::move(list),
-                                     std::move(current),
-                                     std::move(previous));
+                                          std::move(list),
+                                          std::move(current),
+                                          std::move(previous));
   }
 
   template <int dim>

@@ -7,7 +7,7 @@ namespace Morula
 {
   template <int dim>
   DeadLoad<dim>::DeadLoad(GroupedPoints<dim>          points,
-                            std::vector<Tensor<1, dim>> forces)
+                          std::vector<Tensor<1, dim>> forces)
     : points(std::move(points))
     , forces(std::move(forces))
   {}
@@ -15,9 +15,9 @@ namespace Morula
   template <int dim>
   void
   DeadLoad<dim>::add(const unsigned int     cell,
-                      const LocalField<dim> &field,
-                      const GrowthAt,
-                      LocalSystem<dim> &system) const
+                     const LocalField<dim> &field,
+                     const GrowthAt,
+                     LocalSystem<dim> &system) const
   {
     if (system.wanted == LocalSystem<dim>::tangent)
       return;

@@ -20,17 +20,17 @@ namespace Morula
       /** Component k of M DT for component j of spline a: [k][j][a]. */
       double derivative[dim][dim][n];
 
-      NominalTraction(const SplineValues<dim>                     &splines,
-                      const Tensor<2, dim>                        &f_inverse,
-                      const NeoHookean<dim>                       &material,
-                      const double                                 weight,
-                      const typename Nitsche<dim>::Condition      &condition)
+      NominalTraction(const SplineValues<dim>                &splines,
+                      const Tensor<2, dim>                   &f_inverse,
+                      const NeoHookean<dim>                  &material,
+                      const double                            weight,
+                      const typename Nitsche<dim>::Condition &condition)
       {
         const Tensor<1, dim>           m  = condition.normal * f_inverse;
         const SymmetricTensor<2, dim> &b  = material.left_cauchy_green();
         const Tensor<1, dim>           bm = b * m;
-        value = weight * (condition.projection *
-                          (material.kirchhoff_stress() * m));
+        value =
+          weight * (condition.projection * (material.kirchhoff_stress() * m));
 
         const double c2 = material.mu_minus_lambda_log_J();
         for (unsigned int a = 0; a < n; ++a)
@@ -67,7 +67,7 @@ namespace Morula
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           {
-            const double N = splines.value[a];
+            const double N           = splines.value[a];
             double       consistency = 0.;
             for (unsigned int k = 0; k < dim; ++k)
               consistency += T.derivative[k][i][a] * gap[k];
@@ -93,9 +93,8 @@ namespace Morula
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int j = 0; j < dim; ++j)
             {
-              double *const row =
-                &system.matrix[(i * n + a) * n_dofs + j * n];
-              const double penalty =
+              double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
+              const double  penalty =
                 condition.penalty * condition.projection[i][j];
               for (unsigned int b = 0; b < n; ++b)
                 row[b] += a_t * (penalty * splines.value[a] * splines.value[b] -

@@ -19,8 +19,7 @@ namespace Morula
     floor_to_coarse(const int i)
     {
       return coarse_size *
-             static_cast<int>(
-               std::floor(static_cast<double>(i) / coarse_size));
+             static_cast<int>(std::floor(static_cast<double>(i) / coarse_size));
     }
   } // namespace
 
@@ -58,8 +57,7 @@ namespace Morula
       {
         const int padding = 2 + (last[d] - first[d] + 1) / 8;
         lower[d]          = floor_to_coarse(first[d] - padding);
-        n[d]              = floor_to_coarse(last[d] + padding) + coarse_size -
-               lower[d];
+        n[d] = floor_to_coarse(last[d] + padding) + coarse_size - lower[d];
       }
     make(lower, n);
   }
@@ -116,10 +114,9 @@ namespace Morula
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int number =
-            box_.number(box_.locate(cell->center()));
-          cells[number]  = cell;
-          owners[number] = rank;
+          const unsigned int number = box_.number(box_.locate(cell->center()));
+          cells[number]             = cell;
+          owners[number]            = rank;
         }
     Utilities::MPI::sum(owners, comm, owners);
   }

@@ -51,8 +51,7 @@ namespace Morula
 
   template <int dim>
   ExtensionSearch<dim>::ExtensionSearch(
-    const GridBox<dim>               &box,
-    const std::vector<GridCellClass> &classes)
+    const GridBox<dim> &box, const std::vector<GridCellClass> &classes)
     : box(box)
     , classes(classes)
     , reached(box.size(), 0)

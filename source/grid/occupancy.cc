@@ -35,9 +35,7 @@ namespace Morula
         last[d]  = std::min(last[d], box_.first()[d] + box_.n()[d] - 1);
       }
     box_.for_range(
-      first,
-      last,
-      [&](const unsigned int number, const GridIndex<dim> &index) {
+      first, last, [&](const unsigned int number, const GridIndex<dim> &index) {
         const Point<dim> corner  = box_.corner(index);
         double           overlap = 1.;
         for (unsigned int d = 0; d < dim; ++d)
@@ -47,11 +45,10 @@ namespace Morula
                      box_.spacing();
         volumes[number] += std::llround(overlap * resolution);
       });
-    domain.for_quadrature_points(domain.n_per_direction(box_.spacing()),
-                                 [&](const Point<dim> &point) {
-                                   ++quadrature_points[box_.number(
-                                     box_.locate(point))];
-                                 });
+    domain.for_quadrature_points(
+      domain.n_per_direction(box_.spacing()), [&](const Point<dim> &point) {
+        ++quadrature_points[box_.number(box_.locate(point))];
+      });
     ++others[box_.number(box_.locate(x))];
   }
 
@@ -116,9 +113,8 @@ namespace Morula
                               std::max(largest, occupancy.fill(neighbor));
                           });
         const double threshold = occupation_parameter * std::min(1., largest);
-        const bool   inner =
-          occupancy.fill(number) >= threshold - 1e-9 &&
-          occupancy.n_quadrature_points(number) >= (1u << dim);
+        const bool   inner     = occupancy.fill(number) >= threshold - 1e-9 &&
+                           occupancy.n_quadrature_points(number) >= (1u << dim);
         classes[number] = inner ? GridCellClass::inner : GridCellClass::cut;
       }
     return classes;

@@ -82,9 +82,8 @@ namespace Morula
       if (classes[number] != GridCellClass::inactive)
         {
           ++n_active;
-          const Kind kind = classes[number] == GridCellClass::inner ?
-                              Kind::inner :
-                              Kind::outer;
+          const Kind kind =
+            classes[number] == GridCellClass::inner ? Kind::inner : Kind::outer;
           box_.for_neighbors(box_.index(number),
                              1,
                              [&](const unsigned int spline, const auto &) {
@@ -198,8 +197,7 @@ namespace Morula
       for (unsigned int k = 0; k <= dim; ++k)
         if (owned_.is_element(field.first_unknown + k))
           pieces_of_unknowns_[owned_.index_within_set(field.first_unknown +
-                                                      k)] =
-            pieces[component];
+                                                      k)] = pieces[component];
   }
 
   template <int dim>
@@ -260,7 +258,7 @@ namespace Morula
       return found->second;
     };
 
-    std::vector<types::global_dof_index> used;
+    std::vector<types::global_dof_index>   used;
     std::vector<std::vector<unsigned int>> unknowns; // global numbers
     for (unsigned int number = 0; number < box_.size(); ++number)
       {
@@ -296,9 +294,8 @@ namespace Morula
             for (unsigned int a = 0; a < n; ++a)
               for (const auto &[unknown, weight] : rows[a])
                 cell.weights[a * columns.size() +
-                             (std::lower_bound(columns.begin(),
-                                               columns.end(),
-                                               unknown) -
+                             (std::lower_bound(
+                                columns.begin(), columns.end(), unknown) -
                               columns.begin())] += weight;
           }
         used.insert(used.end(), columns.begin(), columns.end());

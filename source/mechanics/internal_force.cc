@@ -67,13 +67,13 @@ namespace Morula
                 const double                 W,
                 double                      *matrix)
     {
-      constexpr unsigned int n      = BSpline<dim>::n;
-      constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      const auto            &g      = gradients.g;
-      const double           c1     = W * material.lambda();
-      const double           c2     = W * material.mu_minus_lambda_log_J();
-      const double           c3     = W * material.mu();
-      const SymmetricTensor<2, dim> &b = material.left_cauchy_green();
+      constexpr unsigned int         n      = BSpline<dim>::n;
+      constexpr unsigned int         n_dofs = LocalSystem<dim>::n_dofs;
+      const auto                    &g      = gradients.g;
+      const double                   c1     = W * material.lambda();
+      const double                   c2 = W * material.mu_minus_lambda_log_J();
+      const double                   c3 = W * material.mu();
+      const SymmetricTensor<2, dim> &b  = material.left_cauchy_green();
 
       for (unsigned int a = 0; a < n; ++a)
         {
@@ -93,16 +93,14 @@ namespace Morula
             }
           for (unsigned int i = 0; i < dim; ++i)
             {
-              double *const diagonal =
-                matrix + (i * n + a) * n_dofs + i * n;
-              const double both = (c1 + c2) * g[i][a];
+              double *const diagonal = matrix + (i * n + a) * n_dofs + i * n;
+              const double  both     = (c1 + c2) * g[i][a];
               for (unsigned int c = 0; c < n; ++c)
                 diagonal[c] += both * g[i][c] + geometric[c];
               for (unsigned int j = i + 1; j < dim; ++j)
                 {
-                  double *const block =
-                    matrix + (i * n + a) * n_dofs + j * n;
-                  const double first = c1 * g[i][a], second = c2 * g[j][a];
+                  double *const block = matrix + (i * n + a) * n_dofs + j * n;
+                  const double  first = c1 * g[i][a], second = c2 * g[j][a];
                   for (unsigned int c = 0; c < n; ++c)
                     block[c] += first * g[j][c] + second * g[i][c];
                 }
@@ -143,8 +141,8 @@ namespace Morula
                           const GrowthAt         growth,
                           LocalSystem<dim>      &system) const
   {
-    const bool tangent = system.wanted == LocalSystem<dim>::tangent;
-    const auto &states = points.states(growth);
+    const bool          tangent = system.wanted == LocalSystem<dim>::tangent;
+    const auto         &states  = points.states(growth);
     std::vector<double> upper(tangent ? system.matrix.size() : 0, 0.);
     for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
          ++p)

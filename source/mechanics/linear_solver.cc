@@ -42,8 +42,8 @@ namespace Morula
 
     /**
      * Preconditioned conjugate gradients for K + σ |diag K| that stop where
-     * they meet negative curvature. deal.II's SolverCG and Trilinos' AztecOO and
-     * Belos do not look at the curvature: they iterate on for thousands of
+     * they meet negative curvature. deal.II's SolverCG and Trilinos' AztecOO
+     * and Belos do not look at the curvature: they iterate on for thousands of
      * steps on an indefinite tangent, or return a direction that is none of
      * descent.
      */
@@ -252,14 +252,12 @@ namespace Morula
     SolverControl control(max_iterations, tolerance * balanced.l2_norm());
     // Preconditioned from the right: else the tolerance would be one for the
     // preconditioned residual, which can be far from the residual.
-    SolverGMRES<Vector> gmres(
-      control, SolverGMRES<Vector>::AdditionalData(100, true));
+    SolverGMRES<Vector> gmres(control,
+                              SolverGMRES<Vector>::AdditionalData(100, true));
     x = 0.;
     try
       {
-        const auto                             remove = [this](Vector &y) {
-          project(y);
-        };
+        const auto remove = [this](Vector &y) { project(y); };
         const Projected<Matrix, decltype(remove)> A{K, remove};
         const Projected<TrilinosWrappers::PreconditionBase, decltype(remove)> P{
           *preconditioner, remove};
@@ -291,29 +289,30 @@ namespace Morula
     for (double shift = least; shift < last_shift;
          shift        = std::max(first_shift, shift * shift_factor))
       {
-        if (shift > 0.)
+               if (shift > 0.)
           {
-            shifted.copy_from(K);
-            for (const auto row : K.locally_owned_range_indices())
+                   shifted.copy_from(K);
+                   for (const auto row : K.locally_owned_range_indices())
               shifted.add(row, row, shift * std::abs(K.diag_element(row)));
             shifted.compress(VectorOperation::add);
           }
         SolverControl                  control(1, 0.);
-        TrilinosWrappers::SolverDirect solver(
-          control, TrilinosWrappers::SolverDirect::AdditionalData(false, method));
-        ++iterations;
-        try
+               TrilinosWrappers::SolverDirect solver(
+          control,
+          TrilinosWrappers::SolverDirect::AdditionalData(false, method));
+               ++iterations;
+               try
           {
-            solver.initialize(shift > 0. ? shifted : K);
-            solver.solve(x, balanced);
+                   solver.initialize(shift > 0. ? shifted : K);
+                   solver.solve(x, balanced);
           }
-        catch (const ExceptionBase &)
+               catch (const ExceptionBase &)
           {
-            continue; // singular
+                   continue; // singular
           }
         project(x);
-        // Not a direction of descent: the tangent is indefinite there.
-        if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
+               // Not a direction of descent: the tangent is indefinite there.
+               if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
           return;
       }
     throw StepFailed("the direct solver found no direction of descent");

@@ -45,7 +45,7 @@ namespace Morula
         std::sort(couplings[row].begin(), couplings[row].end());
       }
 
-    TrilinosWrappers::SparsityPattern pattern(space.owned_dofs(),
+    TrilinosWrappers::SparsityPattern    pattern(space.owned_dofs(),
                                               space.owned_dofs(),
                                               space.relevant_dofs(),
                                               comm);
@@ -70,9 +70,9 @@ namespace Morula
   void
   MatrixScatter<dim>::make_positions()
   {
-    const IndexSet          &relevant = space.relevant();
-    const Epetra_CrsMatrix  &epetra   = matrix.trilinos_matrix();
-    std::vector<int>         column_id(relevant.n_elements() * dim);
+    const IndexSet         &relevant = space.relevant();
+    const Epetra_CrsMatrix &epetra   = matrix.trilinos_matrix();
+    std::vector<int>        column_id(relevant.n_elements() * dim);
     owned_number.assign(relevant.n_elements(), -1);
     for (unsigned int s = 0; s < relevant.n_elements(); ++s)
       {
@@ -112,8 +112,10 @@ namespace Morula
         int    *columns;
         for (unsigned int i = 0; i < dim; ++i)
           {
-            epetra.ExtractMyRowView(
-              owned_number[unknown] * dim + i, length, values, columns);
+            epetra.ExtractMyRowView(owned_number[unknown] * dim + i,
+                                    length,
+                                    values,
+                                    columns);
             rows[owned_number[unknown] * dim + i] = values;
           }
         // All components' rows have the same columns.
@@ -145,8 +147,7 @@ namespace Morula
           const double *const source = &cell_matrix[(i * m + s) * dim * m];
           if (owned_number[unknowns[s]] >= 0)
             {
-              double *const target =
-                rows[owned_number[unknowns[s]] * dim + i];
+              double *const target = rows[owned_number[unknowns[s]] * dim + i];
               const unsigned int *const position =
                 &positions[cell][s * m * width];
               for (unsigned int j = 0; j < dim; ++j)

@@ -12,12 +12,12 @@
 namespace Morula
 {
   template <int dim>
-  MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim>  &space,
-                                        const TermList          &terms,
-                                        const double             youngs_modulus,
-                                        const RigidModes<dim>   &rigid_modes,
-                                        TimerOutput             &timer,
-                                        const MPI_Comm           comm)
+  MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim> &space,
+                                        const TermList         &terms,
+                                        const double            youngs_modulus,
+                                        const RigidModes<dim>  &rigid_modes,
+                                        TimerOutput            &timer,
+                                        const MPI_Comm          comm)
     : space(space)
     , terms(terms)
     , youngs_modulus(youngs_modulus)
@@ -41,11 +41,11 @@ namespace Morula
     Vector                                 &sum) const
   {
     const TimerOutput::Scope section(timer, "residual");
-    const bool          magnitudes = wanted == LocalSystem<dim>::rounding;
+    const bool               magnitudes = wanted == LocalSystem<dim>::rounding;
     const DisplacementField<dim> displacement(space, u, comm);
-    LocalSystem<dim>    system(wanted);
-    std::vector<double> sums(space.relevant_dofs().n_elements(), 0.);
-    double              energies[3] = {0., 0., 0.};
+    LocalSystem<dim>             system(wanted);
+    std::vector<double>          sums(space.relevant_dofs().n_elements(), 0.);
+    double                       energies[3] = {0., 0., 0.};
     for (unsigned int c = 0; c < space.cells().size() && !system.inverted; ++c)
       {
         const LocalField<dim> field = displacement.on_cell(c);
@@ -55,7 +55,7 @@ namespace Morula
         energies[0] += system.energy;
         energies[1] += system.energy_magnitude;
 
-        const auto &unknowns = space.cells()[c].unknowns;
+        const auto               &unknowns = space.cells()[c].unknowns;
         const std::vector<double> condensed =
           Condensation<dim>(space.cells()[c])
             .condense(magnitudes ? system.magnitude : system.residual,
@@ -113,16 +113,15 @@ namespace Morula
     const TimerOutput::Scope section(timer, "tangent");
     matrix = 0.;
     const DisplacementField<dim> displacement(space, u, comm);
-    LocalSystem<dim> system(LocalSystem<dim>::tangent);
+    LocalSystem<dim>             system(LocalSystem<dim>::tangent);
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
         const LocalField<dim> field = displacement.on_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, growth, system);
-        scatter->add(c,
-                     Condensation<dim>(space.cells()[c]).condense(
-                       system.matrix));
+        scatter->add(
+          c, Condensation<dim>(space.cells()[c]).condense(system.matrix));
       }
     matrix.compress(VectorOperation::add);
     return matrix;

@@ -84,8 +84,8 @@ namespace Morula
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
-      parameters->sublist("Printing").set("Output Information",
-                                          int(NOX::Utils::Error));
+      parameters->sublist("Printing")
+        .set("Output Information", int(NOX::Utils::Error));
 
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");
@@ -131,7 +131,7 @@ namespace Morula
     if (first <= bound)
       return;
 
-    const auto test = Teuchos::rcp(new ResidualTest(bound));
+    const auto                  test   = Teuchos::rcp(new ResidualTest(bound));
     NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
     try
       {

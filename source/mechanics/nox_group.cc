@@ -228,8 +228,8 @@ namespace Morula
                             const NOX::Abstract::Vector &direction,
                             const NOX::Solver::Generic  &solver)
   {
-    constexpr double       armijo          = 1e-4;
-    constexpr unsigned int max_reductions  = 30;
+    constexpr double       armijo         = 1e-4;
+    constexpr unsigned int max_reductions = 30;
     const auto            &old_group =
       dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
     auto &new_group = dynamic_cast<NoxGroup &>(group);
@@ -237,8 +237,8 @@ namespace Morula
     const bool   conservative = problem.is_conservative();
     const double slope        = direction.innerProduct(old_group.getF());
     const auto  &before       = old_group.evaluation();
-    const double slack        = 10. * std::numeric_limits<double>::epsilon() *
-                         before.energy_magnitude;
+    const double slack =
+      10. * std::numeric_limits<double>::epsilon() * before.energy_magnitude;
     step = 1.;
     for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
       {

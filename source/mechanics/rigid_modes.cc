@@ -169,9 +169,7 @@ namespace Morula
       for (const Mode &mode : pieces[p].free)
         {
           const std::vector<double> coefficients = space.affine_coefficients(
-            p,
-            mode.a - mode.B * (pieces[p].center - Point<dim>()),
-            mode.B);
+            p, mode.a - mode.B * (pieces[p].center - Point<dim>()), mode.B);
           Equilibrium::Vector vector(space.owned_dofs(), comm);
           std::copy(coefficients.begin(), coefficients.end(), vector.begin());
           vector.compress(VectorOperation::insert);
@@ -217,7 +215,7 @@ namespace Morula
     for (std::size_t i = 0; i < masses.size(); ++i)
       {
         double *const        sum = &sums[masses[i].piece * width];
-        const Tensor<1, dim> z = masses[i].x - pieces[masses[i].piece].center;
+        const Tensor<1, dim> z   = masses[i].x - pieces[masses[i].piece].center;
         for (unsigned int d = 0; d < dim; ++d)
           {
             sum[d] += masses[i].V0 * displacements[i][d];
@@ -258,7 +256,7 @@ namespace Morula
         for (unsigned int iteration = 0; iteration < 20; ++iteration)
           {
             const Tensor<2, dim> after = (S + M) * transpose(Q); // Σ V⁰ z⊗y
-            const Tensor<1, dim> mean  = Q * U + piece.volume * shift;
+            const Tensor<1, dim>     mean = Q * U + piece.volume * shift;
             LAPACKFullMatrix<double> jacobian(n);
             Vector<double>           defect(n), twist(n);
             for (unsigned int k = 0; k < n; ++k)

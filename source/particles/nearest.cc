@@ -32,8 +32,8 @@ namespace Morula
                           });
       PointList<dim> all = halo(points, grid, radius * box.spacing());
       PointList<dim> list;
-      list.n_slots     = points.n_slots;
-      const auto add   = [&](const PointList<dim> &from) {
+      list.n_slots   = points.n_slots;
+      const auto add = [&](const PointList<dim> &from) {
         for (std::size_t i = 0; i < from.size(); ++i)
           if (near[box.number(box.locate(from.positions[i]))])
             {
@@ -54,12 +54,14 @@ namespace Morula
      *  that differ by rounding only count as equal. */
     template <int dim, typename Tree>
     std::pair<std::size_t, double>
-    nearest(const Point<dim> &query, const PointList<dim> &list, const Tree &tree)
+    nearest(const Point<dim>     &query,
+            const PointList<dim> &list,
+            const Tree           &tree)
     {
       // A lattice can have 2^dim points at the same distance.
-      constexpr unsigned int n_ties = 2 << dim;
-      std::size_t            best   = 0;
-      double shortest = std::numeric_limits<double>::infinity();
+      constexpr unsigned int n_ties   = 2 << dim;
+      std::size_t            best     = 0;
+      double                 shortest = std::numeric_limits<double>::infinity();
       std::vector<unsigned int> found;
       tree.query(boost::geometry::index::nearest(query, n_ties),
                  std::back_inserter(found));

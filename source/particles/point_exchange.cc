@@ -62,17 +62,16 @@ namespace Morula
       const std::vector<unsigned int> &
       around(const GridIndex<dim> &index)
       {
-        const unsigned int number  = grid.box().number(index);
-        const auto         found   = owners.find(number);
+        const unsigned int number = grid.box().number(index);
+        const auto         found  = owners.find(number);
         if (found != owners.end())
           return found->second;
         std::vector<unsigned int> &list = owners[number];
-        grid.box().for_neighbors(index,
-                                 radius,
-                                 [&](const unsigned int neighbor, const auto &) {
-                                   if (grid.owner(neighbor) != rank)
-                                     list.push_back(grid.owner(neighbor));
-                                 });
+        grid.box().for_neighbors(
+          index, radius, [&](const unsigned int neighbor, const auto &) {
+            if (grid.owner(neighbor) != rank)
+              list.push_back(grid.owner(neighbor));
+          });
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
         return list;

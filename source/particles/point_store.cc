@@ -34,13 +34,13 @@ namespace Morula
     for (std::size_t i = 0; i < mine.size(); ++i)
       {
         const GridIndex<dim> index = box.locate(mine.positions[i]);
-        handler.insert_particle(
-          mine.positions[i],
-          box.unit_position(mine.positions[i], index),
-          mine.ids[i],
-          grid.cell(box.number(index)),
-          ArrayView<const double>(mine.properties.data() + i * n_slots_,
-                                  n_slots_));
+        handler.insert_particle(mine.positions[i],
+                                box.unit_position(mine.positions[i], index),
+                                mine.ids[i],
+                                grid.cell(box.number(index)),
+                                ArrayView<const double>(mine.properties.data() +
+                                                          i * n_slots_,
+                                                        n_slots_));
       }
     sort(grid);
   }
@@ -138,7 +138,7 @@ namespace Morula
   template <int dim>
   std::pair<GridIndex<dim>, GridIndex<dim>>
   extent(const std::vector<const std::vector<Point<dim>> *> &positions,
-         const BackgroundGrid<dim>                           &grid)
+         const BackgroundGrid<dim>                          &grid)
   {
     // Largest coordinates, and largest of the negated: one reduction for both.
     std::vector<int> bounds(2 * dim, std::numeric_limits<int>::lowest());

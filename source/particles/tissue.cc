@@ -148,8 +148,7 @@ namespace Morula
   {
     Occupancy<dim> occupancy(grid_.box());
     for (const auto &particle : cells_.order())
-        occupancy.add_particle(particle->get_location(),
-                               volume(cell(particle)));
+      occupancy.add_particle(particle->get_location(), volume(cell(particle)));
     for (const auto &point : boundary_points_.order())
       occupancy.add_boundary_point(point->get_location());
     occupancy.sum(grid_.communicator());

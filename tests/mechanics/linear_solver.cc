@@ -71,7 +71,7 @@ namespace
   check_solution(const std::string &solver, const double skew)
   {
     SCOPED_TRACE(solver);
-    unsigned int ignored = 0;
+    unsigned int        ignored = 0;
     QuietTimer          timer;
     ChainProblem        problem = chain(0.5, skew);
     LinearSolver        linear_solver(parameters(solver), problem, timer);

@@ -4,8 +4,8 @@
 
 #include <morula/effects/following_pressure.h>
 #include <morula/effects/nitsche.h>
-#include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/momentum_balance.h>
 
 #include <gtest/gtest.h>
@@ -341,8 +341,8 @@ namespace
   void
   check_local()
   {
-    Ball<dim>  ball(MPI_COMM_WORLD, false);
-    const auto fields = ball.body.fields(ball.u);
+    Ball<dim>                    ball(MPI_COMM_WORLD, false);
+    const auto                   fields = ball.body.fields(ball.u);
     const DisplacementField<dim> displacement(*ball.body.space,
                                               ball.u,
                                               MPI_COMM_WORLD);

@@ -62,9 +62,12 @@ namespace Morula
     pressure(const Point<dim> &X, const double t) const;
 
     /** Whether the scene has such conditions at all. */
-    bool has_dirichlet() const; // fixed or slip
-    bool has_traction() const;
-    bool has_pressure() const;
+    bool
+    has_dirichlet() const; // fixed or slip
+    bool
+    has_traction() const;
+    bool
+    has_pressure() const;
 
     /** Nitsche penalty β h / E. */
     double

@@ -23,8 +23,7 @@ namespace Morula
     /**
      * @param forces of each point, kPa µm^(dim-1)
      */
-    DeadLoad(GroupedPoints<dim>          points,
-             std::vector<Tensor<1, dim>> forces);
+    DeadLoad(GroupedPoints<dim> points, std::vector<Tensor<1, dim>> forces);
 
     void
     add(const unsigned int     cell,

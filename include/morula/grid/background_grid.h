@@ -29,8 +29,7 @@ namespace Morula
   class BackgroundGrid
   {
   public:
-    using CellIterator =
-      typename Triangulation<dim>::active_cell_iterator;
+    using CellIterator = typename Triangulation<dim>::active_cell_iterator;
 
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm comm);
 

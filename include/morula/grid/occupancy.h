@@ -76,8 +76,8 @@ namespace Morula
   /**
    * Classifies the grid cells of the box: *inner* is an active grid cell whose
    * fill is at least C_C min(1, largest fill among it and its neighbours) and
-   * that holds at least 2^dim quadrature points; the minimum lets thin sheets and
-   * small clusters have inner grid cells.
+   * that holds at least 2^dim quadrature points; the minimum lets thin sheets
+   * and small clusters have inner grid cells.
    */
   template <int dim>
   std::vector<GridCellClass>

@@ -66,10 +66,14 @@ namespace Morula
     relevant_dofs() const;
 
     /** Counts over all ranks. */
-    unsigned int n_unknowns() const; // splines times dim
-    unsigned int n_active_cells() const;
-    unsigned int n_inner_splines() const;
-    unsigned int n_outer_splines() const;
+    unsigned int
+    n_unknowns() const; // splines times dim
+    unsigned int
+    n_active_cells() const;
+    unsigned int
+    n_inner_splines() const;
+    unsigned int
+    n_outer_splines() const;
 
     /**
      * The piece that a grid cell belongs to: active grid cells that share a
@@ -115,33 +119,39 @@ namespace Morula
       unsigned int lowest_cell;
     };
 
-    void find_kinds();
-    void find_pieces();
-    void find_affine_fields();
-    void number_unknowns(const BackgroundGrid<dim> &grid);
-    void express_cells(const BackgroundGrid<dim> &grid);
-    unsigned int piece_of_spline(const unsigned int spline) const;
+    void
+    find_kinds();
+    void
+    find_pieces();
+    void
+    find_affine_fields();
+    void
+    number_unknowns(const BackgroundGrid<dim> &grid);
+    void
+    express_cells(const BackgroundGrid<dim> &grid);
+    unsigned int
+    piece_of_spline(const unsigned int spline) const;
 
     /** Global unknowns and weights of one spline. */
     std::vector<std::pair<unsigned int, double>>
     expression(const unsigned int spline, ExtensionSearch<dim> &search) const;
 
-    GridBox<dim>               box_;
-    bool                       extend;
-    std::vector<GridCellClass> classes;
-    std::vector<Kind>          kinds;      // by spline
-    std::vector<unsigned int>  numbers;    // by spline: unknown's number
-    std::vector<unsigned int>  pieces;     // by grid cell
-    std::vector<unsigned int>  components; // by grid cell: connected
-    std::vector<unsigned int>  pieces_of_unknowns_;
+    GridBox<dim>                        box_;
+    bool                                extend;
+    std::vector<GridCellClass>          classes;
+    std::vector<Kind>                   kinds;   // by spline
+    std::vector<unsigned int>           numbers; // by spline: unknown's number
+    std::vector<unsigned int>           pieces;  // by grid cell
+    std::vector<unsigned int>           components; // by grid cell: connected
+    std::vector<unsigned int>           pieces_of_unknowns_;
     std::map<unsigned int, AffineField> affine_fields; // by component
     std::vector<Cell>                   cells_;
     IndexSet     owned_, relevant_, owned_dofs_, relevant_dofs_;
-    unsigned int n_splines   = 0;
-    unsigned int n_pieces_   = 0;
-    unsigned int n_active    = 0;
-    unsigned int n_inner     = 0;
-    unsigned int n_outer     = 0;
+    unsigned int n_splines = 0;
+    unsigned int n_pieces_ = 0;
+    unsigned int n_active  = 0;
+    unsigned int n_inner   = 0;
+    unsigned int n_outer   = 0;
   };
 } // namespace Morula
 

@@ -55,7 +55,8 @@ namespace Morula
 
     /** Cᵀ X, C acting on each component; X has dim 3^dim rows. */
     std::vector<double>
-    times_rows(const std::vector<double> &X, const unsigned int n_columns) const;
+    times_rows(const std::vector<double> &X,
+               const unsigned int         n_columns) const;
 
     std::array<std::vector<Entry>, BSpline<dim>::n> rows;
     unsigned int                                    m_;

@@ -47,10 +47,10 @@ namespace Morula
     void
     make_positions();
 
-    const SplineSpace<dim>                &space;
-    Matrix                                &matrix;
-    std::vector<double *>                  rows; // by owned dof
-    std::vector<int>                       owned_number; // by relevant unknown
+    const SplineSpace<dim> &space;
+    Matrix                 &matrix;
+    std::vector<double *>   rows;         // by owned dof
+    std::vector<int>        owned_number; // by relevant unknown
     /** 1 where the columns of an unknown's components follow each other. On
      *  three or more ranks Epetra may order a rank's ghost columns otherwise;
      *  then dim: each component has a position of its own. */

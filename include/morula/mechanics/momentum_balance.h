@@ -34,12 +34,12 @@ namespace Morula
      * @param youngs_modulus a typical one, kPa
      * @param rigid_modes    unsupported rigid motions: the null space
      */
-    MomentumBalance(const SplineSpace<dim>  &space,
-                    const TermList          &terms,
-                    const double             youngs_modulus,
-                    const RigidModes<dim>   &rigid_modes,
-                    TimerOutput             &timer,
-                    const MPI_Comm           comm);
+    MomentumBalance(const SplineSpace<dim> &space,
+                    const TermList         &terms,
+                    const double            youngs_modulus,
+                    const RigidModes<dim>  &rigid_modes,
+                    TimerOutput            &timer,
+                    const MPI_Comm          comm);
 
     void
     initialize(Vector &vector) const override;
@@ -67,17 +67,17 @@ namespace Morula
 
   private:
     Evaluation
-    assemble_residual(const Vector                         &u,
+    assemble_residual(const Vector                           &u,
                       const typename LocalSystem<dim>::Wanted wanted,
-                      Vector                               &sum) const;
+                      Vector                                 &sum) const;
 
-    const SplineSpace<dim>  &space;
-    const TermList          &terms;
-    const double             youngs_modulus;
-    const std::vector<Vector> null_space_;
-    TimerOutput             &timer;
-    const MPI_Comm           comm;
-    Matrix                   matrix;
+    const SplineSpace<dim>           &space;
+    const TermList                   &terms;
+    const double                      youngs_modulus;
+    const std::vector<Vector>         null_space_;
+    TimerOutput                      &timer;
+    const MPI_Comm                    comm;
+    Matrix                            matrix;
     std::optional<MatrixScatter<dim>> scatter; // made with the first tangent
   };
 } // namespace Morula

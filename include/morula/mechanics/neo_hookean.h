@@ -72,7 +72,8 @@ namespace Morula
              0.5 * lame.mu * (trace(b) + dim + 2. * std::abs(log_J_));
     }
 
-    /** The part of the Kirchhoff stress τ in the plane (3-D: all of it), kPa. */
+    /** The part of the Kirchhoff stress τ in the plane (3-D: all of it), kPa.
+     */
     SymmetricTensor<2, dim>
     kirchhoff_stress() const
     {

@@ -83,14 +83,14 @@ namespace Morula
     void
     invalidate();
 
-    Equilibrium              &problem;
-    LinearSolver             &linear_solver;
-    NewtonReport             &report;
-    NoxVector                 u, R, direction;
-    Equilibrium::Evaluation   evaluation_{0., 0.};
-    const Equilibrium::Matrix *K           = nullptr;
-    bool                      has_residual = false, has_direction = false;
-    bool                      first_tangent = true;
+    Equilibrium               &problem;
+    LinearSolver              &linear_solver;
+    NewtonReport              &report;
+    NoxVector                  u, R, direction;
+    Equilibrium::Evaluation    evaluation_{0., 0.};
+    const Equilibrium::Matrix *K            = nullptr;
+    bool                       has_residual = false, has_direction = false;
+    bool                       first_tangent = true;
   };
 
   /**

@@ -142,10 +142,10 @@ namespace Morula
      * @param growth which growth to use
      */
     virtual void
-    add(const unsigned int      cell,
-        const LocalField<dim>  &field,
-        const GrowthAt          growth,
-        LocalSystem<dim>       &system) const = 0;
+    add(const unsigned int     cell,
+        const LocalField<dim> &field,
+        const GrowthAt         growth,
+        LocalSystem<dim>      &system) const = 0;
 
     /** Whether the term has an energy, i.e., a symmetric tangent. */
     virtual bool

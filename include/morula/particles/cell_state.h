@@ -34,13 +34,13 @@ namespace Morula
         growth = add(dim * dim);
       if (proliferating)
         {
-          parent          = add(1);
-          generation      = add(1);
-          phase           = add(1);
-          event_time      = add(1);
-          lineage_key     = add(2);
-          division_axis   = add(dim);
-          growth_pre      = add(dim * dim);
+          parent        = add(1);
+          generation    = add(1);
+          phase         = add(1);
+          event_time    = add(1);
+          lineage_key   = add(2);
+          division_axis = add(dim);
+          growth_pre    = add(dim * dim);
         }
     }
 
@@ -189,7 +189,8 @@ namespace Morula
       return slots;
     }
 
-    ArrayView<Number> raw() const
+    ArrayView<Number>
+    raw() const
     {
       return data;
     }

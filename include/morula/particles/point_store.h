@@ -25,7 +25,8 @@ namespace Morula
   class PointStore
   {
   public:
-    using Iterator = typename Particles::ParticleHandler<dim>::particle_iterator;
+    using Iterator =
+      typename Particles::ParticleHandler<dim>::particle_iterator;
 
     /** The points of one grid cell: `order()[begin...end)`. */
     struct Cell
@@ -78,11 +79,11 @@ namespace Morula
     void
     sort(const BackgroundGrid<dim> &grid);
 
-    const unsigned int                 n_slots_;
-    MappingQ1<dim>                     mapping;
-    Particles::ParticleHandler<dim>    handler;
-    std::vector<Cell>                  cells_;
-    std::vector<Iterator>              order_;
+    const unsigned int              n_slots_;
+    MappingQ1<dim>                  mapping;
+    Particles::ParticleHandler<dim> handler;
+    std::vector<Cell>               cells_;
+    std::vector<Iterator>           order_;
   };
 
   /**
@@ -92,7 +93,7 @@ namespace Morula
   template <int dim>
   std::pair<GridIndex<dim>, GridIndex<dim>>
   extent(const std::vector<const std::vector<Point<dim>> *> &positions,
-         const BackgroundGrid<dim>                           &grid);
+         const BackgroundGrid<dim>                          &grid);
 
   /**
    * Number of points in each grid cell of the box, over all ranks; for

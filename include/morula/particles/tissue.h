@@ -47,7 +47,7 @@ namespace Morula
     /** Removes mothers and inserts daughters. Collective. */
     void
     replace(const std::vector<typename PointStore<dim>::Iterator> &mothers,
-            const PointList<dim>                                   &daughters);
+            const PointList<dim>                                  &daughters);
 
     /** The extended B-splines around the tissue as it is now. Collective. */
     SplineSpace<dim>

@@ -67,7 +67,7 @@ namespace Morula
     {
       PointList<dim> points;
       double         largest_area = 0.;
-      points.n_slots = dim;
+      points.n_slots              = dim;
       for (const auto &particle : tissue.boundary_points().order())
         {
           const BoundaryView<dim> point(boundary_properties<dim>(particle));

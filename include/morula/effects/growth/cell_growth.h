@@ -31,8 +31,8 @@ namespace Morula
   class CellGrowth
   {
   public:
-    CellGrowth(std::optional<IsotropicGrowth>  isotropic,
-               std::optional<CellCycle<dim>>   cycle);
+    CellGrowth(std::optional<IsotropicGrowth> isotropic,
+               std::optional<CellCycle<dim>>  cycle);
 
     /** Whether anything grows. */
     bool
@@ -44,8 +44,8 @@ namespace Morula
 
     /** Sets a founder's growth slots, at t = 0. */
     void
-    initialize(const types::particle_index      id,
-               const CellView<dim, double>     &cell) const;
+    initialize(const types::particle_index  id,
+               const CellView<dim, double> &cell) const;
 
     /** The trial growth over (t0, t1]. */
     GrowthOfStep<dim>

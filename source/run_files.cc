@@ -22,6 +22,17 @@ namespace Morula
       return data ? data->numbers.at(name) : otherwise;
     }
 
+    /** Number of the first multiple of @p interval that is due after @p time;
+     *  it follows from the time, as the interval may change on resume. */
+    unsigned int
+    next_multiple(const double time, const double interval, const double step)
+    {
+      return interval > 0. ? static_cast<unsigned int>(
+                               std::floor((time + 1e-9 * step) / interval)) +
+                               1 :
+                             0;
+    }
+
     /** Prefix of a section's numbers in a snapshot. */
     const std::string section_prefix = "seconds in ";
     const std::string calls_prefix   = "calls of ";
@@ -34,8 +45,13 @@ namespace Morula
     : scene(scene)
     , comm(comm)
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
-    , next_output(number_or(resumed_from, "next_output", 0.))
-    , next_snapshot(number_or(resumed_from, "next_snapshot", 1.))
+    , next_output(resumed_from ? next_multiple(resumed_from->time,
+                                               scene.output.interval,
+                                               scene.time.step) :
+                                 0)
+    , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
+                                  scene.output.snapshot_interval,
+                                  scene.time.step))
   {
     if (resumed_from)
       {
@@ -164,9 +180,7 @@ namespace Morula
                               const double            time)
   {
     output_times.push_back(time);
-    const double interval = scene.output.interval;
-    if (interval > 0.)
-      next_output = std::floor((time + 1e-9 * scene.time.step) / interval) + 1;
+    next_output = next_multiple(time, scene.output.interval, scene.time.step);
     write_series("cells", cells, time);
     write_series("surface", surface, time);
   }
@@ -176,17 +190,13 @@ namespace Morula
   RunFiles<dim>::write_snapshot(SnapshotData<dim>  data,
                                 const TimerOutput &timer)
   {
-    const double interval = scene.output.snapshot_interval;
-    if (interval > 0.)
-      next_snapshot =
-        std::floor((data.time + 1e-9 * scene.time.step) / interval) + 1;
+    next_snapshot =
+      next_multiple(data.time, scene.output.snapshot_interval, scene.time.step);
     // What the snapshot counts must be on the disk before it.
     statistics->sync();
     lineage->sync();
     data.parameters                 = scene.parameters();
     data.numbers["wall_seconds"]    = wall_seconds();
-    data.numbers["next_output"]     = next_output;
-    data.numbers["next_snapshot"]   = next_snapshot;
     data.numbers["statistics_rows"] = statistics->n_rows();
     data.numbers["lineage_rows"]    = lineage->n_rows();
     data.tables["output_times"]     = output_times;
@@ -210,9 +220,9 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::message(const std::string &text)
+  RunFiles<dim>::fail(const std::string &text) noexcept
   {
-    progress->message(text);
+    progress->fail(text);
   }
 
   template <int dim>

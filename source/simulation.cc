@@ -3,7 +3,6 @@
 
 #include <morula/effects/dead_load.h>
 #include <morula/effects/division/divide.h>
-#include <morula/input_error.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/particles/boundary_state.h>
@@ -13,6 +12,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <new>
+#include <sstream>
 
 namespace Morula
 {
@@ -45,11 +46,18 @@ namespace Morula
             output(must_stop());
           }
       }
-    catch (const InputError &error)
+    catch (const std::bad_alloc &)
       {
-        // An expression without a value at some later time: the scene had been
-        // accepted, so this is no longer bad input but a run that failed.
-        throw std::runtime_error(error.what());
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        // Also an expression without a value at some later time: the scene had
+        // been accepted, so this is no longer bad input but a run that failed.
+        std::ostringstream text;
+        text << "At t = " << time_steps.time() << " day: " << error.what();
+        files->fail(text.str());
+        throw std::runtime_error(text.str());
       }
 
     files->write_timings(timer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/output/agreement.h>
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
 #include <morula/particles/boundary_state.h>
@@ -157,6 +158,20 @@ namespace Morula
                         static_cast<unsigned int>(numbers.at("step_part")),
                         static_cast<unsigned int>(numbers.at("step_level"))});
     row = statistics();
+    check_resumed_cycle();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_resumed_cycle() const
+  {
+    if (growth.cycle() == nullptr)
+      return;
+    std::vector<Point<dim>> founders;
+    for (const auto &particle : tissue.cells().order())
+      founders.push_back(tissue.cell(particle).founder_position());
+    everywhere(comm,
+               [&]() { growth.cycle()->check(founders, scene.time.step); });
   }
 
   template <int dim>
@@ -291,12 +306,10 @@ namespace Morula
     files->write_snapshot(snapshot(), timer);
     files->write_timings(timer);
     std::ostringstream text;
-    text << "The step from t = " << time_steps.time()
-         << " day failed even at a length of "
+    text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()
          << " day (Time/Smallest step = " << scene.time.smallest_step
-         << "): " << reason << ". The state at t = " << time_steps.time()
-         << " day is saved in snapshot.h5.";
+         << "): " << reason << ". The state is saved in snapshot.h5.";
     throw std::runtime_error(text.str());
   }
 

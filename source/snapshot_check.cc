@@ -3,6 +3,7 @@
 
 #include <morula/input_error.h>
 #include <morula/parameter_file.h>
+#include <morula/scene_refusals.h>
 #include <morula/snapshot_check.h>
 
 #include <map>
@@ -39,8 +40,8 @@ namespace Morula
     for (const auto &[path, value] : values(scene.parameters(), "the scene"))
       {
         const auto found = before.find(path);
-        if (may_differ(path) ||
-            (found != before.end() && found->second == value))
+        if (may_differ(path) || (found != before.end() &&
+                                 Refusals::same_value(found->second, value)))
           continue;
         throw InputError(
           path,

@@ -63,8 +63,9 @@ namespace Morula
     void
     write_timings(const TimerOutput &timer);
 
+    /** Into log.txt, where possible: what ends the run. Not collective. */
     void
-    message(const std::string &text);
+    fail(const std::string &text) noexcept;
 
     void
     finish(const std::string   &outcome,
@@ -88,15 +89,16 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene             scene;
-    const MPI_Comm          comm;
-    const double            wall_seconds_before;
-    Timer                   timer;
-    std::vector<double>     output_times;
-    unsigned int            next_output   = 0; // due at its Interval-multiple
-    unsigned int            next_snapshot = 1;
-    SectionTimes            sections_before;
-    std::optional<Progress> progress;
+    const Scene         scene;
+    const MPI_Comm      comm;
+    const double        wall_seconds_before;
+    Timer               timer;
+    std::vector<double> output_times;
+    // Due at these multiples of their intervals.
+    unsigned int                    next_output;
+    unsigned int                    next_snapshot;
+    SectionTimes                    sections_before;
+    std::optional<Progress>         progress;
     std::optional<StatisticsFile>   statistics;
     std::optional<LineageFile<dim>> lineage;
   };

@@ -51,6 +51,8 @@ namespace Morula
     seed();
     void
     restore();
+    void
+    check_resumed_cycle() const; // Step may have changed
 
     bool
     must_stop() const;

@@ -102,9 +102,6 @@ namespace Morula
       const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory =
         Teuchos::rcp(new EnergyLineSearchFactory(problem));
       search.set("User Defined Line Search Factory", factory);
-      // A search that finds nothing is a failure of the step, not a step of
-      // length zero or one.
-      search.sublist("User Defined").set("Recovery Step", 0.);
       return parameters;
     }
   } // namespace

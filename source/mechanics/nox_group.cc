@@ -255,6 +255,7 @@ namespace Morula
                   problem.rounding(values_of(new_group.getX())))
           return true;
       }
+    step = 0.; // any other length NOX would take for a recovery step
     return false;
   }
 } // namespace Morula

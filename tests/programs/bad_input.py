@@ -6,7 +6,7 @@ stdout, and no output directory.
 """
 from pathlib import Path
 
-from program import Session, main, overrides
+from program import ProgramTest, main, overrides
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 CYCLE = "Proliferation/Cell cycle/"
@@ -102,7 +102,7 @@ CASES = {
 }
 
 
-class BadInput(Session):
+class BadInput(ProgramTest):
     def assert_refused(self, result, texts):
         self.assertEqual(result.stdout, "")
         for text in texts:

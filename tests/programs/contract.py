@@ -7,7 +7,7 @@ and that effects which a scene does not call for are absent.
 import re
 from pathlib import Path
 
-from program import SCENES, Session, main, overrides, read_csv
+from program import SCENES, ProgramTest, main, overrides, read_csv
 from results import read_keys
 
 HERE = Path(__file__).resolve().parent
@@ -78,7 +78,7 @@ def as_number(text):
         return text
 
 
-class Contract(Session):
+class Contract(ProgramTest):
     def files(self, directory="output"):
         return {path.name for path in (self.work / directory).iterdir()}
 

@@ -4,13 +4,13 @@
 """The same tissue on 1, 2 and 3 ranks, on larger scenes than the references:
 several grid cells a rank, with cells that move from rank to rank.
 """
-from program import SCENES, Session, main, overrides, read_csv
+from program import SCENES, ProgramTest, main, overrides, read_csv
 
 PAPER = SCENES.parents[1] / "prm/paper"
 NEAR = {"x": 1e-6, "y": 1e-6, "z": 1e-6}
 
 
-class Determinism(Session):
+class Determinism(ProgramTest):
     def run_on_all(self, scene, keys):
         keys = {"Output/Formats": "csv", "Output/Interval": "0", **keys}
         for ranks in (1, 2, 3):

@@ -17,7 +17,7 @@ from results import read_csv  # noqa: E402 (for the tests that import it)
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 
 
-class Session(unittest.TestCase):
+class ProgramTest(unittest.TestCase):
     """A test with the program and an empty directory of its own."""
 
     options = None
@@ -93,5 +93,5 @@ def main():
     options.morula = os.path.abspath(options.morula)
     with tempfile.TemporaryDirectory() as temporary:
         options.work = (options.work or Path(temporary)).resolve()
-        Session.options = options
+        ProgramTest.options = options
         unittest.main(argv=[sys.argv[0], *rest], verbosity=2)

@@ -10,7 +10,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from program import Session, main, overrides, read_csv
+from program import ProgramTest, main, overrides, read_csv
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
@@ -18,7 +18,7 @@ SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
                    "Solver/Newton tolerance": "1e-12"})
 
 
-class Resume(Session):
+class Resume(ProgramTest):
     def assert_same_run(self, whole, resumed):
         """Equal bit for bit, but for the wall time."""
         names = sorted(path.name for path in whole.glob("*.csv"))
@@ -97,6 +97,33 @@ class Resume(Session):
         self.execute(SCENE, "--resume", *overrides({"Time/Step": "0.25"}))
         times = list(read_csv(self.work / "output/statistics.csv")["time"])
         self.assertEqual(times, [0, 0.125, 0.25, 0.375, 0.5, 0.75, 1])
+
+    def test_step_too_long_for_the_cycle(self):
+        self.execute(SCENE, *overrides({"Time/End time": "0.5"}))
+        before = (self.work / "output/statistics.csv").read_bytes()
+        result = self.execute(SCENE, "--resume",
+                              *overrides({"Time/Step": "0.6"}), code=1)
+        self.assertIn("Time/Step", result.stderr)
+        self.assertEqual(
+            before, (self.work / "output/statistics.csv").read_bytes())
+
+    def test_other_output_interval(self):
+        self.execute(SCENE, *overrides({"Time/End time": "0.5",
+                                        "Output/Interval": "0.125"}))
+        self.execute(SCENE, "--resume", *overrides({"Output/Interval": "0.25"}))
+        times = [read_csv(path)["time"][0] for path in
+                 sorted((self.work / "output").glob("cells-*.csv"))]
+        self.assertEqual(times, [0, 0.125, 0.25, 0.375, 0.5, 0.75, 1])
+
+    def test_failure_is_logged(self):
+        result = self.execute(
+            SCENE, *overrides({"Growth/Law": "isotropic",
+                               "Growth/Isotropic/Stretch":
+                               "if (t > 0.2 && t < 0.3, log(-1), 1)"}), code=2)
+        log = (self.work / "output/log.txt").read_text()
+        for text in (result.stderr, log):
+            self.assertIn("t = 0.125 day", text)
+            self.assertIn("Growth/Isotropic/Stretch", text)
 
     def test_finished_run(self):
         short = overrides({"Time/End time": "0.25"})

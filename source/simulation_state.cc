@@ -130,9 +130,9 @@ namespace Morula
   void
   Simulation<dim>::restore()
   {
-    resumed_from =
-      read_snapshot<dim>(scene.output_directory + "/snapshot.h5", comm);
-    check_resumable(scene, resumed_from->parameters);
+    const std::string path = scene.output_directory + "/snapshot.h5";
+    check_resumable(scene, read_snapshot_parameters(path, comm));
+    resumed_from        = read_snapshot<dim>(path, comm);
     const auto &numbers = resumed_from->numbers;
     const auto &tables  = resumed_from->integer_tables;
 

@@ -245,6 +245,25 @@ TEST(Newton, FailsWithoutASolution)
 }
 
 
+// Wherever the search looks, the body is inverted: it does not go on from one
+// of these places.
+TEST(Newton, EndsWithASearchThatFindsNothing)
+{
+  ChainProblem problem = alike(
+    [](double u) {
+      return u == 0. ? 0. : std::numeric_limits<double>::infinity();
+    },
+    [](double) { return -1.; },
+    [](double) { return 1.; });
+  QuietTimer          timer;
+  NewtonReport        report;
+  Equilibrium::Vector u;
+  EXPECT_THROW(solve(problem, SolverParameters(), timer, u, report),
+               StepFailed);
+  EXPECT_EQ(report.newton_iterations, 1u);
+}
+
+
 TEST(Newton, ReportsAddUp)
 {
   QuietTimer          timer;

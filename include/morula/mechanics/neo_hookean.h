@@ -42,13 +42,6 @@ namespace Morula
       return J_;
     }
 
-    /** ln J_e. */
-    double
-    log_J() const
-    {
-      return log_J_;
-    }
-
     /** b_e = F_e F_eᵀ. */
     const SymmetricTensor<2, dim> &
     left_cauchy_green() const

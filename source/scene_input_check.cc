@@ -115,6 +115,11 @@ namespace Morula
                     scene.solver.newton_tolerance,
                     "a number > 0 and < 1",
                     "1e-6 is a good choice.");
+      refuse_unless(scene.solver.linear_tolerance < 1.,
+                    "Solver/Linear tolerance",
+                    scene.solver.linear_tolerance,
+                    "0, or a number between 0 and 1",
+                    "0 lets Newton's method choose.");
       check_output(scene);
     }
   } // namespace

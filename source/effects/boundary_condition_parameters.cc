@@ -50,7 +50,15 @@ namespace Morula
     prm.add_parameter("Nitsche penalty",
                       nitsche_penalty,
                       "Penalty of fixed and slip points in units of E/h; > 0. "
-                      "At least 20 (lambda + 2 mu)/h is used.",
+                      "The symmetric form uses at least "
+                      "20 (lambda + 2 mu)/h.",
                       Patterns::Double());
+    prm.add_parameter(
+      "Nitsche form",
+      nitsche_form,
+      "symmetric: the paper's, for large penalties. unsymmetric: stable for "
+      "any penalty; with Nitsche penalty = 10 it is much more accurate beside "
+      "the edge of a fixed surface, for somewhat dearer linear solves.",
+      Patterns::Selection("symmetric|unsymmetric"));
   }
 } // namespace Morula

@@ -4,10 +4,16 @@
 #include <morula/effects/boundary_conditions.h>
 #include <morula/unit_vector.h>
 
+#include <algorithm>
+
 namespace Morula
 {
   namespace
   {
+    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
+     *  (λ + 2μ)/h (doc/theory.md, section 4). */
+    constexpr double least_penalty = 20.;
+
     std::optional<Expression>
     where(const std::string &key, const std::string &text)
     {
@@ -30,7 +36,9 @@ namespace Morula
     , traction_("Boundary conditions/Traction", parameters.traction, 3, dim)
     , pressure_("Boundary conditions/Pressure", parameters.pressure)
     , has_slip_normal(!parameters.slip_normal.empty())
-    , penalty_(parameters.nitsche_penalty)
+    , relative_penalty(parameters.nitsche_penalty)
+    , form(parameters.nitsche_form == "symmetric" ? NitscheForm::symmetric :
+                                                    NitscheForm::unsymmetric)
   {
     if (has_slip_normal)
       slip_normal = unit_vector<dim>("Boundary conditions/Slip normal",
@@ -105,9 +113,21 @@ namespace Morula
 
   template <int dim>
   double
-  BoundaryConditions<dim>::penalty() const
+  BoundaryConditions<dim>::penalty(const double E,
+                                   const Lame  &lame,
+                                   const double h) const
   {
-    return penalty_;
+    const double least = form == NitscheForm::symmetric ?
+                           least_penalty * (lame.lambda + 2. * lame.mu) :
+                           0.;
+    return std::max(relative_penalty * E, least) / h;
+  }
+
+  template <int dim>
+  NitscheForm
+  BoundaryConditions<dim>::nitsche_form() const
+  {
+    return form;
   }
 
   template class BoundaryConditions<2>;

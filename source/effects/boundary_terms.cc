@@ -14,10 +14,6 @@ namespace Morula
 {
   namespace
   {
-    /** Least penalty that keeps Nitsche's form definite, in units of
-     *  (λ + 2μ)/h (doc/theory.md, section 4). */
-    constexpr double least_penalty = 20.;
-
     template <int dim>
     using Iterator = typename PointStore<dim>::Iterator;
 
@@ -147,7 +143,6 @@ namespace Morula
         if (point.condition() == SurfaceCondition::fixed)
           target += conditions.displacement(X, t);
         const Tensor<1, dim> area = point.area_vector();
-        const double         E    = material.youngs_modulus(X);
 
         typename Nitsche<dim>::Condition condition;
         condition.projection     = projection(point);
@@ -156,10 +151,9 @@ namespace Morula
         condition.area           = area.norm();
         condition.normal         = area / area.norm();
         condition.lame           = material.lame_at(X);
-        condition.penalty        = std::max(conditions.penalty() * E,
-                                     least_penalty * (condition.lame.lambda +
-                                                      2. * condition.lame.mu)) /
-                            space.box().spacing();
+        condition.penalty = conditions.penalty(material.youngs_modulus(X),
+                                               condition.lame,
+                                               space.box().spacing());
         list.push_back(condition);
 
         const Tensor<2, dim> F = point.deformation();
@@ -176,7 +170,8 @@ namespace Morula
               state(F, tensor(row + dim * dim), material.per_grown_volume()));
           }
       }
-    return std::make_unique<Nitsche<dim>>(positions(tissue, space, groups),
+    return std::make_unique<Nitsche<dim>>(conditions.nitsche_form(),
+                                          positions(tissue, space, groups),
                                           std::move(list),
                                           std::move(current),
                                           std::move(previous));

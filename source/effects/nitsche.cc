@@ -4,19 +4,21 @@
 #include <morula/effects/nitsche.h>
 #include <morula/mechanics/neo_hookean.h>
 
-#include <cmath>
+#include <array>
 
 namespace Morula
 {
   namespace
   {
-    /** M T and its derivative at one boundary point. */
+    /** T and its derivatives at one boundary point. */
     template <int dim>
     struct NominalTraction
     {
       static constexpr unsigned int n = BSpline<dim>::n;
 
-      Tensor<1, dim> value; // M T
+      Tensor<1, dim> m;                // f⁻ᵀ n_t
+      double         gradient[dim][n]; // f⁻ᵀ ∇N_a, by component
+      Tensor<1, dim> value;            // M T
       /** Component k of M DT for component j of spline a: [k][j][a]. */
       double derivative[dim][dim][n];
 
@@ -25,33 +27,63 @@ namespace Morula
                       const NeoHookean<dim>                  &material,
                       const double                            weight,
                       const typename Nitsche<dim>::Condition &condition)
+        : m(condition.normal * f_inverse)
+        , weight(weight)
+        , lambda(material.lambda())
+        , c2(material.mu_minus_lambda_log_J())
       {
-        const Tensor<1, dim>           m  = condition.normal * f_inverse;
-        const SymmetricTensor<2, dim> &b  = material.left_cauchy_green();
-        const Tensor<1, dim>           bm = b * m;
+        const Tensor<1, dim> bm = material.left_cauchy_green() * m;
         value =
           weight * (condition.projection * (material.kirchhoff_stress() * m));
-
-        const double c2 = material.mu_minus_lambda_log_J();
         for (unsigned int a = 0; a < n; ++a)
           {
-            Tensor<1, dim> g; // f⁻ᵀ ∇N_a
+            Tensor<1, dim> g;
             for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int j = 0; j < dim; ++j)
                 g[j] += f_inverse[k][j] * splines.gradient[k][a];
             for (unsigned int j = 0; j < dim; ++j)
               {
                 // δT for δu = N_a e_j.
-                Tensor<1, dim> change =
-                  c2 * m[j] * g + material.lambda() * g[j] * m;
+                Tensor<1, dim> change = c2 * m[j] * g + lambda * g[j] * m;
                 change[j] += material.mu() * (g * bm);
                 change = weight * (condition.projection * change);
                 for (unsigned int k = 0; k < dim; ++k)
                   derivative[k][j][a] = change[k];
+                gradient[j][a] = g[j];
               }
           }
       }
+
+      /** g·D²T for component i of spline a and component j of all splines;
+       *  @p along are the g·f⁻ᵀ∇N_b. */
+      void
+      second_derivative(const Tensor<1, dim>        &gap,
+                        const std::array<double, n> &along,
+                        const unsigned int           i,
+                        const unsigned int           a,
+                        const unsigned int           j,
+                        std::array<double, n>       &result) const
+      {
+        const double gm = gap * m;
+        for (unsigned int b = 0; b < n; ++b)
+          result[b] =
+            -weight * (lambda * (gm * gradient[i][b] * gradient[j][a] +
+                                 gradient[i][a] * along[b] * m[j] +
+                                 gradient[j][b] * along[a] * m[i]) +
+                       c2 * (along[b] * gradient[j][a] * m[i] +
+                             along[a] * gradient[i][b] * m[j]));
+      }
+
+    private:
+      const double weight, lambda, c2;
     };
+
+    /** The sign of g·DT[δu] in -R. */
+    double
+    sign_of(const NitscheForm form)
+    {
+      return form == NitscheForm::symmetric ? 1. : -1.;
+    }
 
     template <int dim>
     void
@@ -59,6 +91,7 @@ namespace Morula
                const NominalTraction<dim>             &T,
                const Tensor<1, dim>                   &gap,
                const typename Nitsche<dim>::Condition &condition,
+               const double                            sign,
                LocalSystem<dim>                       &system)
     {
       const double a_t = condition.area, beta = condition.penalty;
@@ -72,7 +105,9 @@ namespace Morula
             for (unsigned int k = 0; k < dim; ++k)
               consistency += T.derivative[k][i][a] * gap[k];
             system.add_force(i, a, a_t * beta * gap[i] * N);
-            system.add_force(i, a, -a_t * (T.value[i] * N + consistency));
+            system.add_force(i,
+                             a,
+                             -a_t * (T.value[i] * N + sign * consistency));
             if (system.wanted == LocalSystem<dim>::rounding)
               system.magnitude[i * BSpline<dim>::n + a] +=
                 a_t * beta * condition.position_scale * N;
@@ -83,12 +118,18 @@ namespace Morula
     void
     add_tangent(const SplineValues<dim>                &splines,
                 const NominalTraction<dim>             &T,
+                const Tensor<1, dim>                   &gap,
                 const typename Nitsche<dim>::Condition &condition,
+                const double                            sign,
                 LocalSystem<dim>                       &system)
     {
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const double           a_t    = condition.area;
+      std::array<double, n>  along{}, second;
+      for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int k = 0; k < dim; ++k)
+          along[b] += gap[k] * T.gradient[k][b];
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int j = 0; j < dim; ++j)
@@ -96,20 +137,25 @@ namespace Morula
               double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
               const double  penalty =
                 condition.penalty * condition.projection[i][j];
+              T.second_derivative(gap, along, i, a, j, second);
               for (unsigned int b = 0; b < n; ++b)
-                row[b] += a_t * (penalty * splines.value[a] * splines.value[b] -
-                                 splines.value[a] * T.derivative[i][j][b] -
-                                 splines.value[b] * T.derivative[j][i][a]);
+                row[b] +=
+                  a_t * (penalty * splines.value[a] * splines.value[b] -
+                         splines.value[a] * T.derivative[i][j][b] -
+                         sign * (splines.value[b] * T.derivative[j][i][a] +
+                                 second[b]));
             }
     }
   } // namespace
 
   template <int dim>
-  Nitsche<dim>::Nitsche(GroupedPoints<dim>             points,
+  Nitsche<dim>::Nitsche(const NitscheForm              form,
+                        GroupedPoints<dim>             points,
                         std::vector<Condition>         conditions,
                         std::vector<ElasticState<dim>> current,
                         std::vector<ElasticState<dim>> previous)
-    : points(std::move(points))
+    : form(form)
+    , points(std::move(points))
     , conditions(std::move(conditions))
     , current(std::move(current))
     , previous(std::move(previous))
@@ -139,16 +185,20 @@ namespace Morula
         const NeoHookean<dim>      material(F_e, condition.lame);
         const NominalTraction<dim> T(
           splines, invert(f), material, states[p].W, condition);
+        const Tensor<1, dim> gap =
+          condition.gap + condition.projection * field.value(splines);
         if (system.wanted == LocalSystem<dim>::tangent)
-          add_tangent(splines, T, condition, system);
+          add_tangent(splines, T, gap, condition, sign_of(form), system);
         else
-          add_forces(splines,
-                     T,
-                     condition.gap +
-                       condition.projection * field.value(splines),
-                     condition,
-                     system);
+          add_forces(splines, T, gap, condition, sign_of(form), system);
       }
+  }
+
+  template <int dim>
+  bool
+  Nitsche<dim>::is_conservative() const
+  {
+    return form == NitscheForm::symmetric;
   }
 
   template class Nitsche<2>;

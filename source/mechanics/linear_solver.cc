@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_solver.h>
 
 #include <Amesos.h>
+#include <EpetraExt_MatrixMatrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -112,6 +113,20 @@ namespace Morula
       }
     };
 
+    /** (K + Kᵀ)/2. */
+    Matrix
+    symmetric_part(const Matrix &K)
+    {
+      Epetra_CrsMatrix *sum   = nullptr; // made by the next line
+      const int         error = EpetraExt::MatrixMatrix::Add(
+        K.trilinos_matrix(), false, 0.5, K.trilinos_matrix(), true, 0.5, sum);
+      const std::unique_ptr<Epetra_CrsMatrix> owner(sum);
+      AssertThrow(error == 0 && sum->FillComplete() == 0, ExcInternalError());
+      Matrix result;
+      result.reinit(*sum);
+      return result;
+    }
+
     /** |diag K|. */
     Vector
     diagonal_magnitude(const Matrix &K, const Vector &layout)
@@ -161,11 +176,16 @@ namespace Morula
   LinearSolver::make_preconditioner(const Matrix &K)
   {
     // A slightly raised diagonal keeps the factorisation positive, and usable
-    // for the later tangents of the step. A following pressure makes the
-    // tangent but slightly unsymmetric: this serves it better than an
-    // incomplete LU factorisation of the very matrix.
+    // for the later tangents of the step. Of an unsymmetric tangent it is that
+    // of the symmetric part: positive definite where the body is stable, so
+    // that the preconditioned operator is the identity and a bounded skew part.
     auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
-    ic->initialize(K, {0, 2e-5 * problem.stiffness_scale(), 1.02, overlap});
+    const TrilinosWrappers::PreconditionIC::AdditionalData data(
+      0, 2e-5 * problem.stiffness_scale(), 1.02, overlap);
+    if (symmetric)
+      ic->initialize(K, data);
+    else
+      ic->initialize(symmetric_part(K), data);
     preconditioner = std::move(ic);
   }
 

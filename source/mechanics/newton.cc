@@ -80,7 +80,7 @@ namespace Morula
     };
 
     Teuchos::RCP<Teuchos::ParameterList>
-    nox_parameters(const Equilibrium &problem)
+    nox_parameters(const Equilibrium &problem, const double linear_tolerance)
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
@@ -90,7 +90,9 @@ namespace Morula
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");
       parameters->sublist("Direction").set("Method", "Newton");
-      newton.set("Forcing Term Method", "Type 2");
+      newton.set("Forcing Term Method",
+                 linear_tolerance > 0. ? "Constant" : "Type 2");
+      newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);
       newton.set("Forcing Term Initial Tolerance", 1e-2);
       newton.set("Forcing Term Maximum Tolerance", 1e-1);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
@@ -132,8 +134,8 @@ namespace Morula
     NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
     try
       {
-        const auto solver =
-          NOX::Solver::buildSolver(group, test, nox_parameters(problem));
+        const auto solver = NOX::Solver::buildSolver(
+          group, test, nox_parameters(problem, parameters.linear_tolerance));
         status          = solver->solve();
         u               = values_of(solver->getSolutionGroup().getX());
         report.residual = solver->getSolutionGroup().getNormF() / first;

@@ -15,6 +15,13 @@ namespace Morula
                       "Residual at which a step is solved, relative to the "
                       "step's first; 0 < tolerance < 1.",
                       Patterns::Double());
+    prm.add_parameter("Linear tolerance",
+                      linear_tolerance,
+                      "Residual at which a linear system counts as solved, "
+                      "relative to its right-hand side, < 1; 0: as accurately "
+                      "as Newton's method can use at the moment. Without "
+                      "effect on a direct solver.",
+                      Patterns::Double(0.));
     prm.add_parameter(
       "Linear solver",
       linear_solver,

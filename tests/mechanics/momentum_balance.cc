@@ -186,6 +186,7 @@ namespace
           conditions.push_back(condition);
         }
       terms.push_back(std::make_unique<Nitsche<dim>>(
+        NitscheForm::symmetric,
         body.grouped(body.boundary, groups),
         std::move(conditions),
         states_at(body.boundary, groups, 0.3, 1.),

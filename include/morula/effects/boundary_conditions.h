@@ -4,6 +4,7 @@
 #ifndef morula_effects_boundary_conditions_h
 #define morula_effects_boundary_conditions_h
 
+#include <morula/effects/nitsche.h>
 #include <morula/expression.h>
 #include <morula/particles/cell_state.h>
 
@@ -28,6 +29,7 @@ namespace Morula
     std::string pressure_where  = "";
     std::string pressure        = "0";
     double      nitsche_penalty = 1e3;
+    std::string nitsche_form    = "symmetric";
 
     void
     declare(ParameterHandler &prm);
@@ -69,9 +71,13 @@ namespace Morula
     bool
     has_pressure() const;
 
-    /** Nitsche penalty β h / E. */
+    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E and
+     *  Lamé constants @p lame (kPa) on a grid of spacing @p h (µm). */
     double
-    penalty() const;
+    penalty(const double E, const Lame &lame, const double h) const;
+
+    NitscheForm
+    nitsche_form() const;
 
   private:
     bool
@@ -82,7 +88,8 @@ namespace Morula
     Expression     displacement_, traction_, pressure_;
     bool           has_slip_normal;
     Tensor<1, dim> slip_normal;
-    double         penalty_;
+    double         relative_penalty; // β h / E
+    NitscheForm    form;
   };
 } // namespace Morula
 

@@ -11,15 +11,25 @@
 
 namespace Morula
 {
+  /** How the traction stands in Nitsche's term (doc/theory.md, section 4). */
+  enum class NitscheForm
+  {
+    /** Derived from an energy; stable for large penalties. */
+    symmetric,
+    /** The traction's variation with the other sign: no energy, but stable for
+     *  any penalty. */
+    unsymmetric
+  };
+
   /**
    * Prescribed positions of boundary points by Nitsche's method in total-gap
    * form (doc/theory.md, section 4):
    *
-   *   Π = Σ a_t (β/2 g·g - T·g), g = M (x_t + u - x̄),
+   *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
    *
    * with M = I at fixed points and N⊗N at slip points, and the nominal traction
-   * of the step's configuration T = (W/V_t) τ f⁻ᵀ n_t. The term with g·D²T is
-   * dropped from the tangent: it only costs late convergence.
+   * of the step's configuration T = (W/V_t) τ f⁻ᵀ n_t. The upper sign is that
+   * of the symmetric form, which has the energy Π = Σ a_t (β/2 g·g - T·g).
    */
   template <int dim>
   class Nitsche : public Term<dim>
@@ -46,7 +56,8 @@ namespace Morula
      * @param current  states with growth at t + dt
      * @param previous states with growth at t; empty if nothing grows
      */
-    Nitsche(GroupedPoints<dim>             points,
+    Nitsche(const NitscheForm              form,
+            GroupedPoints<dim>             points,
             std::vector<Condition>         conditions,
             std::vector<ElasticState<dim>> current,
             std::vector<ElasticState<dim>> previous);
@@ -57,7 +68,11 @@ namespace Morula
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
 
+    bool
+    is_conservative() const override;
+
   private:
+    const NitscheForm                    form;
     const GroupedPoints<dim>             points;
     const std::vector<Condition>         conditions;
     const std::vector<ElasticState<dim>> current;

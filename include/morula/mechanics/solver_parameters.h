@@ -16,6 +16,7 @@ namespace Morula
   struct SolverParameters
   {
     double      newton_tolerance = 1e-6;
+    double      linear_tolerance = 0.;
     std::string linear_solver    = "automatic";
 
     void

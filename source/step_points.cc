@@ -124,7 +124,7 @@ namespace Morula
           const PointData<dim>      data = data_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain(particle->get_location(),
                                            volume(tissue.cell(particle)));
-          const unsigned int        n = domain.n_per_direction(box.spacing());
+          const unsigned int        n    = tissue.n_quadrature_points(domain);
           const double              part = std::pow(1. / n, dim);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
             list.ids.push_back(particle->get_id());
@@ -201,9 +201,8 @@ namespace Morula
     for (const auto &particle : tissue.cells().order())
       n_per_direction =
         std::max(n_per_direction,
-                 ParticleDomain<dim>(particle->get_location(),
-                                     volume(tissue.cell(particle)))
-                   .n_per_direction(space.box().spacing()));
+                 tissue.n_quadrature_points(ParticleDomain<dim>(
+                   particle->get_location(), volume(tissue.cell(particle)))));
     if (Utilities::MPI::max(n_per_direction, tissue.communicator()) > 1)
       return subdivided_points(tissue, space, growth, material);
 

@@ -15,8 +15,10 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  Occupancy<dim>::Occupancy(const GridBox<dim> &box)
+  Occupancy<dim>::Occupancy(const GridBox<dim> &box,
+                            const unsigned int  points_per_cell)
     : box_(box)
+    , points_per_cell(points_per_cell)
     , volumes(box.size(), 0)
     , quadrature_points(box.size(), 0)
     , others(box.size(), 0)
@@ -46,7 +48,8 @@ namespace Morula
         volumes[number] += std::llround(overlap * resolution);
       });
     domain.for_quadrature_points(
-      domain.n_per_direction(box_.spacing()), [&](const Point<dim> &point) {
+      domain.n_per_direction(box_.spacing(), points_per_cell),
+      [&](const Point<dim> &point) {
         ++quadrature_points[box_.number(box_.locate(point))];
       });
     ++others[box_.number(box_.locate(x))];

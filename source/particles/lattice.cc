@@ -66,6 +66,40 @@ namespace Morula
   }
 
   template <int dim>
+  double
+  Lattice<dim>::site_spacing() const
+  {
+    return spacing;
+  }
+
+  template <int dim>
+  std::vector<std::uint64_t>
+  Lattice<dim>::neighbors(const std::uint64_t site) const
+  {
+    const unsigned int         n = dim == 2 ? 9 : 27;
+    std::vector<std::uint64_t> list;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        std::uint64_t other = 0, stride = 1, rest = site;
+        bool          numbered = true;
+        unsigned int  offsets  = k;
+        for (unsigned int d = 0; d < dim; ++d, offsets /= 3)
+          {
+            // one below, the same, or one above; 0 - 1 wraps round to a
+            // number that is too large
+            const std::uint64_t i = rest % counts[d] + offsets % 3 - 1;
+            numbered              = numbered && i < counts[d];
+            other += i * stride;
+            stride *= counts[d];
+            rest /= counts[d];
+          }
+        if (numbered && other != site)
+          list.push_back(other);
+      }
+    return list;
+  }
+
+  template <int dim>
   bool
   Lattice<dim>::is_occupied(const Shape<dim> &shape,
                             const Point<dim> &position) const

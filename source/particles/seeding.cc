@@ -6,6 +6,7 @@
 #include <morula/particles/points_file.h>
 #include <morula/particles/seeding.h>
 #include <morula/particles/shape.h>
+#include <morula/particles/trimming.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -100,14 +101,19 @@ namespace Morula
     const Lattice<dim> lattice(parameters, shape->bounding_box());
     const auto [begin, end] = share(lattice.n_sites(), comm);
 
-    Founders<dim> founders;
+    Founders<dim>              founders;
+    std::vector<std::uint64_t> sites;
     for (std::uint64_t site = begin; site < end; ++site)
       {
         const Point<dim> x = lattice.position(site);
-        if (lattice.is_occupied(*shape, x))
-          founders.positions.push_back(x);
+        if (!lattice.is_occupied(*shape, x))
+          continue;
+        founders.positions.push_back(x);
+        sites.push_back(site);
       }
     founders.volumes.assign(founders.positions.size(), volume);
+    if (parameters.surface_cells == "trimmed")
+      trim(lattice, *shape, sites, founders);
     number_founders(founders, parameters, comm);
     return founders;
   }

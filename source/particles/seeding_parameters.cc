@@ -60,6 +60,14 @@ namespace Morula
       lattice_offset,
       "Shifts the lattice of cells against the shape, um. Without "
       "effect on points.");
+    prm.add_parameter(
+      "Surface cells",
+      surface_cells,
+      "Cells at a surface that cuts through the lattice. whole: each has the "
+      "volume L_p^3 at its place on the lattice, the paper's. trimmed: each has "
+      "the volume and the centroid of its part of the shape, so that the "
+      "volumes add up to the shape's. Without effect on points.",
+      Patterns::Selection("whole|trimmed"));
     prm.add_parameter("Boundary points",
                       boundary_points,
                       "Number of points on the surface, met as nearly as the "

@@ -146,7 +146,7 @@ namespace Morula
   SplineSpace<dim>
   Tissue<dim>::splines() const
   {
-    Occupancy<dim> occupancy(grid_.box());
+    Occupancy<dim> occupancy(grid_.box(), parameters.points_per_cell);
     for (const auto &particle : cells_.order())
       occupancy.add_particle(particle->get_location(), volume(cell(particle)));
     for (const auto &point : boundary_points_.order())
@@ -160,6 +160,14 @@ namespace Morula
   Tissue<dim>::grid() const
   {
     return grid_;
+  }
+
+  template <int dim>
+  unsigned int
+  Tissue<dim>::n_quadrature_points(const ParticleDomain<dim> &domain) const
+  {
+    return domain.n_per_direction(grid_.box().spacing(),
+                                  parameters.points_per_cell);
   }
 
   template <int dim>

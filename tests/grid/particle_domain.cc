@@ -60,16 +60,18 @@ namespace
   void
   check_number()
   {
-    const double h        = 50.;
-    const auto   n_points = [&](const double side) {
+    const double h      = 50.;
+    const auto n_points = [&](const double side, const unsigned int least = 1) {
       return ParticleDomain<dim>(Point<dim>(), std::pow(side, dim))
-        .n_per_direction(h);
+        .n_per_direction(h, least);
     };
     EXPECT_EQ(n_points(1.), 1u);
     EXPECT_EQ(n_points(25.), 1u);
     EXPECT_EQ(n_points(25.1), 2u);
     EXPECT_EQ(n_points(50.), 2u);
     EXPECT_EQ(n_points(120.), 5u);
+    EXPECT_EQ(n_points(1., 2), 2u);
+    EXPECT_EQ(n_points(120., 2), 5u);
   }
 } // namespace
 

@@ -19,6 +19,7 @@ namespace Morula
     std::vector<double> offset               = {0., 0., 0.};
     double              occupation_parameter = 0.85;
     bool                extension            = true;
+    unsigned int        points_per_cell      = 1;
 
     void
     declare(ParameterHandler &prm);

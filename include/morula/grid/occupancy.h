@@ -27,7 +27,10 @@ namespace Morula
   class Occupancy
   {
   public:
-    explicit Occupancy(const GridBox<dim> &box);
+    /** @param points_per_cell least number of quadrature points of a particle
+     *  per direction */
+    explicit Occupancy(const GridBox<dim> &box,
+                       const unsigned int  points_per_cell = 1);
 
     /**
      * Adds a particle at @p x with current volume @p V (µm^dim), and its
@@ -60,6 +63,7 @@ namespace Morula
 
   private:
     GridBox<dim>              box_;
+    unsigned int              points_per_cell;
     std::vector<std::int64_t> volumes;
     std::vector<std::int64_t> quadrature_points;
     std::vector<std::int64_t> others; // particles and boundary points

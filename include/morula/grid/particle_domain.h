@@ -16,8 +16,8 @@ namespace Morula
   /**
    * The axis-parallel box of side V^(1/dim) that a particle occupies, and the
    * quadrature points in it: one in the middle, or a regular n^dim of them
-   * where the box is larger than half a grid cell. Without these, a full grid
-   * cell could hold no point at all.
+   * where the scene asks for it or the box is larger than half a grid cell.
+   * Without these, a full grid cell could hold no point at all.
    */
   template <int dim>
   class ParticleDomain
@@ -44,11 +44,14 @@ namespace Morula
       return corner(0.5);
     }
 
-    /** Quadrature points per direction on a grid of spacing @p h (µm). */
+    /** Quadrature points per direction, at least @p least, on a grid of
+     *  spacing @p h (µm). */
     unsigned int
-    n_per_direction(const double h) const
+    n_per_direction(const double h, const unsigned int least) const
     {
-      return std::max(1, static_cast<int>(std::ceil(2. * side / h - 1e-9)));
+      return std::max(least,
+                      static_cast<unsigned int>(
+                        std::ceil(std::max(2. * side / h - 1e-9, 1e-9))));
     }
 
     /** Calls @p visit(position) for all n^dim points, x fastest. */

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace Morula
 {
@@ -35,6 +36,14 @@ namespace Morula
     /** µm; bitwise the same for any number of ranks. */
     Point<dim>
     position(std::uint64_t site) const;
+
+    /** L_p, µm. */
+    double
+    site_spacing() const;
+
+    /** The numbered ones of the 3^dim - 1 sites around it, ascending. */
+    std::vector<std::uint64_t>
+    neighbors(const std::uint64_t site) const;
 
     /** Whether a cell sits there: inside by more than 1e-9 L_p. */
     bool

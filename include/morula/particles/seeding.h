@@ -29,6 +29,7 @@ namespace Morula
     std::string         points_file     = "";
     double              cell_spacing    = 10.;
     std::vector<double> lattice_offset  = {0., 0., 0.};
+    std::string         surface_cells   = "whole";
     unsigned int        boundary_points = 0;
 
     /** Declares the section's keys, bound to the members. */

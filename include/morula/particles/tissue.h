@@ -5,6 +5,7 @@
 #define morula_particles_tissue_h
 
 #include <morula/grid/background_grid.h>
+#include <morula/grid/particle_domain.h>
 #include <morula/grid/spline_space.h>
 #include <morula/particles/cell_state.h>
 #include <morula/particles/point_store.h>
@@ -55,6 +56,11 @@ namespace Morula
 
     const BackgroundGrid<dim> &
     grid() const;
+
+    /** Quadrature points per direction in a cell's domain: as many as the scene
+     *  asks for, more where the domain is large on the grid. */
+    unsigned int
+    n_quadrature_points(const ParticleDomain<dim> &domain) const;
 
     const PointStore<dim> &
     cells() const;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_trimming_h
+#define morula_particles_trimming_h
+
+#include <morula/particles/lattice.h>
+#include <morula/particles/seeding.h>
+#include <morula/particles/shape.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Gives every founder the volume and the centroid of its part of the shape:
+   * of all points of the shape to which its site is the nearest occupied one
+   * (ties: lowest site), among the sites of their lattice box and the boxes
+   * around it. The volumes then add up to the shape's, to the accuracy of the
+   * sampling (about 1e-5 of the whole on the paper's sphere), instead of one
+   * lattice box for every site inside. Parts of the shape farther from any
+   * site, such as thin spikes, belong to nobody.
+   * @param sites    of @p founders, ascending
+   */
+  template <int dim>
+  void
+  trim(const Lattice<dim>               &lattice,
+       const Shape<dim>                 &shape,
+       const std::vector<std::uint64_t> &sites,
+       Founders<dim>                    &founders);
+} // namespace Morula
+
+#endif

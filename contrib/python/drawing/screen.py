@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""A screen for VTK where there is none."""
+import os
+import shutil
+import subprocess
+import sys
+
+VARIABLE = "MORULA_VIRTUAL_SCREEN"
+
+
+def on_virtual_screen():
+    """Whether this process draws on a screen of run_on_virtual_screen()."""
+    return VARIABLE in os.environ
+
+
+def run_on_virtual_screen(command):
+    """Runs a command with a virtual screen as its display and returns its
+    exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
+    pictures everywhere."""
+    if not shutil.which("Xvfb"):
+        sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
+    # The server itself picks a display that nobody uses. It must not reset
+    # when its last client leaves: VTK comes and goes several times.
+    reading, writing = os.pipe()
+    with subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24",
+             "-nolisten", "tcp", "-noreset"],
+            pass_fds=[writing], stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
+        try:
+            os.close(writing)
+            with os.fdopen(reading) as pipe:
+                display = pipe.readline().strip()
+            if not display:
+                sys.exit("Drawing: Xvfb did not start.")
+            environment = {**os.environ, "DISPLAY": ":" + display,
+                           VARIABLE: display}
+            environment.pop("XAUTHORITY", None)
+            return subprocess.call(command, env=environment)
+        finally:
+            server.terminate()

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What the run of a scene has left, read on demand."""
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from drawing import points
+
+
+class Run:
+    """The output directory of a scene. Times up to `end` belong to the panel;
+    what comes later was added to reach a number of cells."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        self.name = self.directory.name
+        self.latest = None, None  # file and what it holds
+
+    @cached_property
+    def keys(self):
+        """All keys as used, as text, by full path."""
+        keys, sections = {}, []
+        for line in (self.directory / "parameters.prm").read_text().split("\n"):
+            line = line.split("#")[0].strip()
+            if line.startswith("subsection "):
+                sections.append(line.split(None, 1)[1])
+            elif line == "end":
+                sections.pop()
+            elif line:
+                name, value = line[len("set"):].split("=", 1)
+                keys["/".join([*sections, name.strip()])] = value.strip()
+        return keys
+
+    def number(self, key):
+        return float(self.keys[key])
+
+    @cached_property
+    def statistics(self):
+        """The columns of statistics.csv by name, a row a step."""
+        return np.atleast_1d(np.genfromtxt(
+            self.directory / "statistics.csv", delimiter=",", names=True,
+            encoding="utf-8"))
+
+    def until(self, end):
+        """The rows of the statistics up to this time (days)."""
+        return self.statistics[self.statistics["time"] <= end + 1e-6]
+
+    @property
+    def founders(self):
+        return int(self.statistics["cells"][0])
+
+    def cells_at(self, time):
+        """The number of cells at the step end nearest to a time (days)."""
+        nearest = np.argmin(np.abs(self.statistics["time"] - time))
+        return int(self.statistics["cells"][nearest])
+
+    @property
+    def last_output(self):
+        """The time of the last output, in days."""
+        return self.output_times[-1]
+
+    @cached_property
+    def output_times(self):
+        """When cells and surface were written, in days."""
+        return [time for time, _ in points.states(self.directory, "cells")]
+
+    def output_nearest(self, time):
+        """The time of the output nearest to a time (days)."""
+        return min(self.output_times, key=lambda t: abs(t - time))
+
+    def output_with_cells(self, wanted):
+        """The time of the output whose number of cells is nearest."""
+        return min(self.output_times,
+                   key=lambda t: abs(self.cells_at(t) - wanted))
+
+    def stretch(self, time):
+        """θ of isotropic growth near a time, from det F_g = θ³."""
+        columns = self.read("cells", time)[1]
+        return float(np.mean(columns["growth_volume_ratio"])) ** (1 / 3)
+
+    def read(self, kind, time):
+        """Positions (n, 3) and columns of the 'cells' or the 'surface' in the
+        output nearest to a time (days), in order of their ids."""
+        _, file = min(points.states(self.directory, kind),
+                      key=lambda state: abs(state[0] - time))
+        # Several pictures in a row are of the same state.
+        if self.latest[0] != file:
+            self.latest = file, in_order_of_ids(*points.read_points(file))
+        return self.latest[1]
+
+
+def in_order_of_ids(positions, columns):
+    order = np.argsort(columns["id"])
+    return positions[order], {name: values[order]
+                              for name, values in columns.items()}
+
+
+class Runs(dict):
+    """The runs in a directory, by the name of their scene."""
+
+    def __init__(self, directory):
+        super().__init__()
+        self.directory = Path(directory)
+
+    def __missing__(self, scene):
+        self[scene] = Run(self.directory / scene)
+        return self[scene]
+
+    def has(self, scene):
+        """Whether a run has reached its end: it has a snapshot, and its last
+        row is at the end time or at the wanted number of cells."""
+        directory = self.directory / scene
+        if not all((directory / name).is_file() for name in
+                   ("snapshot.h5", "statistics.csv", "parameters.prm")):
+            return False
+        run = self[scene]
+        last = run.statistics[-1]
+        enough = run.number("Time/Stop at cells")
+        return bool(last["time"] >= run.number("Time/End time") - 1e-6 or
+                    0 < enough <= last["cells"])

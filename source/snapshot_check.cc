@@ -36,19 +36,18 @@ namespace Morula
   void
   check_resumable(const Scene &scene, const std::string &parameters)
   {
-    const auto before = values(parameters, "the snapshot's scene");
+    // A key that the program of the snapshot did not have yet stands for its
+    // default: a new key's default is what was done before.
+    auto before = values(parameters, "the snapshot's scene");
+    before.merge(values(Scene().parameters(), "the default scene"));
     for (const auto &[path, value] : values(scene.parameters(), "the scene"))
       {
-        const auto found = before.find(path);
-        if (may_differ(path) || (found != before.end() &&
-                                 Refusals::same_value(found->second, value)))
+        if (may_differ(path) || Refusals::same_value(before.at(path), value))
           continue;
         throw InputError(
           path,
           value,
-          found == before.end() ?
-            "nothing: the snapshot's scene does not have this key" :
-            "'" + found->second + "', as in the snapshot",
+          "'" + before.at(path) + "', as in the snapshot",
           "A resumed run may differ only in Time/End time, Time/Step, "
           "Time/Stop at cells, Solver and Output. Put the old value back, or "
           "start a new run without --resume.");

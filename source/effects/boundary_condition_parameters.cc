@@ -57,7 +57,7 @@ namespace Morula
       "Nitsche form",
       nitsche_form,
       "symmetric: the paper's, for large penalties. unsymmetric: stable for "
-      "any penalty; with Nitsche penalty = 10 it is much more accurate beside "
+      "any penalty; with Nitsche penalty = 20 it is much more accurate beside "
       "the edge of a fixed surface, for somewhat dearer linear solves.",
       Patterns::Selection("symmetric|unsymmetric"));
   }

@@ -66,7 +66,8 @@ namespace Morula
       "Cells at a surface that cuts through the lattice. whole: each has the "
       "volume L_p^3 at its place on the lattice, the paper's. trimmed: each has "
       "the volume and the centroid of its part of the shape, so that the "
-      "volumes add up to the shape's. Without effect on points.",
+      "volumes add up to the shape's and smooth problems converge with "
+      "second order. Without effect on points.",
       Patterns::Selection("whole|trimmed"));
     prm.add_parameter("Boundary points",
                       boundary_points,

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/snapshot_check.h>
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+using namespace Morula;
+
+namespace
+{
+  /** The parameters of a scene without one of its keys. */
+  std::string
+  without(const std::string &key, const Scene &scene)
+  {
+    return std::regex_replace(scene.parameters(),
+                              std::regex("set " + key + " *=[^\n]*\n"),
+                              "");
+  }
+} // namespace
+
+
+TEST(SnapshotCheck, AcceptsTheSameSceneAndAnotherEnd)
+{
+  Scene scene;
+  check_resumable(scene, scene.parameters());
+  Scene longer         = scene;
+  longer.time.end_time = 7.;
+  check_resumable(longer, scene.parameters());
+}
+
+
+TEST(SnapshotCheck, RefusesAnotherTissue)
+{
+  Scene scene, other;
+  other.tissue.radius = 100.;
+  EXPECT_THROW(check_resumable(other, scene.parameters()), InputError);
+}
+
+
+TEST(SnapshotCheck, TakesAKeyThatTheSnapshotLacksForItsDefault)
+{
+  Scene             scene;
+  const std::string older = without("Surface cells", scene);
+  ASSERT_NE(older, scene.parameters());
+  check_resumable(scene, older);
+  scene.tissue.surface_cells = "trimmed";
+  EXPECT_THROW(check_resumable(scene, older), InputError);
+}

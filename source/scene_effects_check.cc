@@ -175,7 +175,8 @@ namespace Morula
                     section + "Nitsche penalty",
                     given.nitsche_penalty,
                     "a number > 0",
-                    "1e3 is a good choice.");
+                    "1e3 is a good choice for the symmetric Nitsche form, 20 "
+                    "for the unsymmetric one.");
     }
   } // namespace
 

@@ -33,7 +33,7 @@ namespace Morula
       "Least number of quadrature points of a cell and direction, each with an "
       "equal part of the cell's volume; 1 is the paper's method. 2 halves the "
       "integration error in grid cells that the surface cuts, and costs as much "
-      "as 2^3 times the cells.",
+      "as 2^3 times the cells (2-D: 2^2).",
       Patterns::Integer(1, 10));
   }
 } // namespace Morula

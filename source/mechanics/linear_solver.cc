@@ -113,18 +113,16 @@ namespace Morula
       }
     };
 
-    /** (K + Kᵀ)/2. */
-    Matrix
-    symmetric_part(const Matrix &K)
+    /** Makes @p result (K + Kᵀ)/2. */
+    void
+    symmetrize(const Matrix &K, Matrix &result)
     {
       Epetra_CrsMatrix *sum   = nullptr; // made by the next line
       const int         error = EpetraExt::MatrixMatrix::Add(
         K.trilinos_matrix(), false, 0.5, K.trilinos_matrix(), true, 0.5, sum);
       const std::unique_ptr<Epetra_CrsMatrix> owner(sum);
       AssertThrow(error == 0 && sum->FillComplete() == 0, ExcInternalError());
-      Matrix result;
       result.reinit(*sum);
-      return result;
     }
 
     /** |diag K|. */
@@ -185,7 +183,10 @@ namespace Morula
     if (symmetric)
       ic->initialize(K, data);
     else
-      ic->initialize(symmetric_part(K), data);
+      {
+        symmetrize(K, symmetric_part);
+        ic->initialize(symmetric_part, data);
+      }
     preconditioner = std::move(ic);
   }
 

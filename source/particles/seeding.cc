@@ -112,8 +112,13 @@ namespace Morula
         sites.push_back(site);
       }
     founders.volumes.assign(founders.positions.size(), volume);
-    if (parameters.surface_cells == "trimmed")
-      trim(lattice, *shape, sites, founders);
+    const bool seeded = parameters.surface_cells == "whole" ||
+                        trim(lattice, *shape, sites, founders);
+    if (Utilities::MPI::min(seeded ? 1 : 0, comm) == 0)
+      throw InputError("Tissue/Surface cells",
+                       parameters.surface_cells,
+                       "'whole' where the tissue is much thinner than a cell",
+                       "Choose 'whole' or a smaller Cell spacing.");
     number_founders(founders, parameters, comm);
     return founders;
   }

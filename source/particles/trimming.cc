@@ -84,7 +84,7 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  void
+  bool
   trim(const Lattice<dim>               &lattice,
        const Shape<dim>                 &shape,
        const std::vector<std::uint64_t> &sites,
@@ -134,17 +134,20 @@ namespace Morula
 
     for (std::size_t i = 0; i < sites.size(); ++i)
       {
+        if (!(parts[i].volume > 0.))
+          return false;
         founders.volumes[i]   = parts[i].volume;
         founders.positions[i] = Point<dim>(parts[i].moment / parts[i].volume);
       }
+    return true;
   }
 
-  template void
+  template bool
   trim(const Lattice<2> &,
        const Shape<2> &,
        const std::vector<std::uint64_t> &,
        Founders<2> &);
-  template void
+  template bool
   trim(const Lattice<3> &,
        const Shape<3> &,
        const std::vector<std::uint64_t> &,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/input_error.h>
 #include <morula/particles/seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -127,4 +128,16 @@ TEST(Trimming, LeavesCellsInsideAlone)
       }
     else
       EXPECT_GT(trimmed.volumes[i], 400.);
+}
+
+
+TEST(Trimming, RefusesAPlateThatIsTooThinToSample)
+{
+  TissueParameters parameters;
+  parameters.shape          = "box";
+  parameters.size           = {50., 50., 0.5};
+  parameters.cell_spacing   = 10.;
+  parameters.lattice_offset = {0., 0., -4.75};
+  parameters.surface_cells  = "trimmed";
+  EXPECT_THROW(seed_founders<3>(parameters, MPI_COMM_WORLD), InputError);
 }

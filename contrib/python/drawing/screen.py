@@ -14,12 +14,17 @@ def on_virtual_screen():
     return VARIABLE in os.environ
 
 
+def require_virtual_screen():
+    """Ends the program if there can be none."""
+    if not shutil.which("Xvfb"):
+        sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
+
+
 def run_on_virtual_screen(command):
     """Runs a command with a virtual screen as its display and returns its
     exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
     pictures everywhere."""
-    if not shutil.which("Xvfb"):
-        sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
+    require_virtual_screen()
     # The server itself picks a display that nobody uses. It must not reset
     # when its last client leaves: VTK comes and goes several times.
     reading, writing = os.pipe()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from drawing import points
+from morula_runs.prm import parse
 
 
 class Run:
@@ -20,17 +21,7 @@ class Run:
     @cached_property
     def keys(self):
         """All keys as used, as text, by full path."""
-        keys, sections = {}, []
-        for line in (self.directory / "parameters.prm").read_text().split("\n"):
-            line = line.split("#")[0].strip()
-            if line.startswith("subsection "):
-                sections.append(line.split(None, 1)[1])
-            elif line == "end":
-                sections.pop()
-            elif line:
-                name, value = line[len("set"):].split("=", 1)
-                keys["/".join([*sections, name.strip()])] = value.strip()
-        return keys
+        return parse((self.directory / "parameters.prm").read_text())
 
     def number(self, key):
         return float(self.keys[key])

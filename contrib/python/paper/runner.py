@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Runs the scenes with the program: once each, going on where one stopped."""
-import os
 import subprocess
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
+
+from morula_runs.program import environment
 
 from .run_results import Run
 
@@ -27,10 +28,7 @@ class Runner:
     say: callable = print
 
     def __post_init__(self):
-        self.environment = {**os.environ, "OMP_NUM_THREADS": "1",
-                            "OMPI_ALLOW_RUN_AS_ROOT": "1",
-                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                            "OMPI_MCA_hwloc_base_binding_policy": "none"}
+        self.environment = environment()
         self.lock = threading.Lock()
         self.processes = []
         self.stopped = False

@@ -24,8 +24,8 @@ PICTURE_RATIO = 1.5**3
 # Caption of Fig. 4 (e-g): "for 5 days".
 CURVES_END = 5.0
 
-# What is asked of a reproduction: fits' factors and slope relative, rates and
-# the line's constant absolute (1/day, kPa).
+# What is asked of a reproduction: fits' factors and slope relative, rates
+# absolute (1/day).
 FACTOR_TOLERANCE = 0.05
 RATE_TOLERANCE = 0.02
 SLOPE_TOLERANCE = 0.10

@@ -83,11 +83,12 @@ namespace Morula
     void
     project(Vector &x) const;
 
-    const bool                                          direct;
-    const bool                                          automatic;
-    const Equilibrium                                  &problem;
-    const bool                                          symmetric;
-    TimerOutput                                        &timer;
+    const bool         direct;
+    const bool         automatic;
+    const Equilibrium &problem;
+    const bool         symmetric;
+    TimerOutput       &timer;
+    Matrix symmetric_part; // of an unsymmetric tangent; the preconditioner's
     std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
     bool prepared = false; // a preconditioner was made; none now: Jacobi
   };

@@ -22,9 +22,11 @@ namespace Morula
    * lattice box for every site inside. Parts of the shape farther from any
    * site, such as thin spikes, belong to nobody.
    * @param sites    of @p founders, ascending
+   * @return false if a site's part of the shape is too thin to be sampled; the
+   * founders are of no use then
    */
   template <int dim>
-  void
+  bool
   trim(const Lattice<dim>               &lattice,
        const Shape<dim>                 &shape,
        const std::vector<std::uint64_t> &sites,

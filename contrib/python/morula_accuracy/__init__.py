@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Accuracy against time: contrib/accuracy.
+
+The way through the package: `options` is the command line, `request` checks
+it, `measures` what is looked at in a run, `reference` what a file knows of the
+right values, `limits` where a ladder tends to, `estimate` the errors and what
+is known of them, `front` the runs worth their time, `findings` all of that
+together, `report` and `figures` the tables and pictures; `documentation` is
+for contrib/accuracy-ladders.
+"""

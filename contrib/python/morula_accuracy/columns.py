@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The columns that Morula writes, and their units (2-D: per um of thickness,
+so that a volume is an area)."""
+
+LENGTH, VOLUME, STRESS, NUMBER = "um", "um^dim", "kPa", ""
+
+# Results in statistics.csv.
+STATISTICS = {
+    "cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
+    "mean_energy_density": STRESS, "cell_mean_energy_density": STRESS,
+    "max_energy_density": STRESS, "min_elastic_volume_ratio": NUMBER,
+    "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER,
+    "held_at_checkpoint": NUMBER, "xmin": LENGTH, "xmax": LENGTH,
+    "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH, "zmax": LENGTH}
+
+# The other columns of statistics.csv: what a step was and what it took. Their
+# "error" would mean nothing.
+EFFORT = (
+    "step", "time", "dt", "active_grid_cells", "inner_splines",
+    "outer_splines", "unknowns", "newton_iterations", "linear_iterations",
+    "rejected_steps", "residual", "wall_seconds")
+
+_POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
+           "Z": LENGTH, "radius": LENGTH}
+
+# Columns of cells-NNNN.csv and surface-NNNN.csv that are results; 'radius' is
+# computed from the others: the distance from Tissue/Center.
+POINTS = {
+    "cells": {
+        **_POINTS, "generation": NUMBER, "phase": NUMBER,
+        "initial_volume": VOLUME, "volume": VOLUME,
+        "growth_volume_ratio": NUMBER, "elastic_volume_ratio": NUMBER,
+        "energy_density": STRESS, "sigma_xx": STRESS, "sigma_yy": STRESS,
+        "sigma_zz": STRESS, "sigma_xy": STRESS, "sigma_yz": STRESS,
+        "sigma_zx": STRESS},
+    "surface": {**_POINTS, "nx": NUMBER, "ny": NUMBER, "nz": NUMBER,
+                "area": "um^(dim-1)"}}
+
+# Columns of statistics.csv that are those of the boundary points.
+OF_SURFACE = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
+
+# Columns that are zero throughout in two dimensions.
+FLAT = ("z", "Z", "zmin", "zmax", "nz", "sigma_yz", "sigma_zx")
+
+
+def unit_in(unit, dimension):
+    """The unit as written for a scene of 2 or 3 dimensions."""
+    return {VOLUME: f"um^{dimension}",
+            "um^(dim-1)": "um^2" if dimension == 3 else "um"}.get(unit, unit)

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The ladders of doc/accuracy-and-cost.md, and how their results get there."""
+import re
+import shlex
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from morula_runs.program import Program
+
+from . import graded_sphere
+from .tool import main
+
+ROOT = Path(__file__).resolve().parents[3]
+DOCUMENT = ROOT / "doc/accuracy-and-cost.md"
+IMAGES = ROOT / "doc/images/accuracy"
+
+NEWTON = "Solver/Newton tolerance=1e-2,1e-4,1e-6,1e-8,1e-10"
+LINEAR = "Solver/Linear tolerance=0,1e-1,1e-2,1e-4,1e-8"
+OCCUPATION = "Grid/Occupation parameter=0.2,0.5,0.7,0.85,1"
+
+
+@dataclass(frozen=True)
+class DocumentedScene:
+    """A scene, its ladders and options, and the figures that are shown."""
+
+    file: str
+    ladders: tuple
+    options: tuple
+    figures: tuple
+    short_ladders: tuple
+    short_options: tuple
+
+
+HALF_FIXED = DocumentedScene(
+    "prm/paper/fig-2b.prm",
+    ("Grid/Spacing=100,75,50,33,25",
+     "Tissue/Cell spacing=20,14,10,7,5",
+     "Time/Step=2,1,0.5,0.25", NEWTON, LINEAR, OCCUPATION,
+     "Grid/Spacing,Tissue/Cell spacing=100:20,75:15,50:10,35:7,25:5"),
+    ("--at", "2", "--repeat", "2",
+     "--measure", "zmax,total_volume,mean_energy_density",
+     "--wanted", "zmax=0.5um,total_volume=1%,mean_energy_density=5%"),
+    ("alone", "zmax", "total-volume", "mean-energy-density"),
+    ("Grid/Spacing=100,75", "Time/Step=2,1"),
+    ("--at", "2", "--measure", "zmax,total_volume,mean_energy_density",
+     "-s", "Tissue/Cell spacing=20", "-s", "Grid/Spacing=100"))
+
+FORM = "Boundary conditions/Nitsche form,Boundary conditions/Nitsche penalty"
+OPTIONS = DocumentedScene(
+    HALF_FIXED.file,
+    ("Grid/Spacing=100,75,50,33,25",
+     f"Grid/Spacing,{FORM},Tissue/Surface cells="
+     + ",".join(f"{h}:unsymmetric:20:trimmed" for h in (100, 75, 50, 33, 25)),
+     f"{FORM}=symmetric:1000,unsymmetric:40,unsymmetric:20,unsymmetric:10",
+     "Grid/Points per cell=1,2"),
+    ("--at", "4", *HALF_FIXED.options[2:]),
+    ("mean-energy-density", "total-volume"),
+    ("Grid/Spacing=100,75",
+     f"Grid/Spacing,{FORM}=100:unsymmetric:20,75:unsymmetric:20"),
+    HALF_FIXED.short_options)
+
+REFINED = ("Tissue/Cell spacing,Tissue/Surface cells,Tissue/Boundary points,"
+           "Time/Step,Solver/Newton tolerance")
+BUDGET = DocumentedScene(
+    HALF_FIXED.file,
+    ("Tissue/Cell spacing,Tissue/Surface cells=10:whole,10:trimmed,5:trimmed",
+     "Tissue/Boundary points=2600,10400,41600",
+     "Time/Step=1,0.5,0.25",
+     "Solver/Newton tolerance=1e-6,1e-10", "Solver/Linear tolerance=0,1e-8",
+     f"{FORM}=symmetric:10000,symmetric:1000,symmetric:300,unsymmetric:20",
+     "Grid/Occupation parameter=0.5,0.85,1",
+     f"{REFINED}=10:whole:2600:1:1e-6,5:trimmed:41600:0.5:1e-10",
+     f"{REFINED},{FORM}=10:whole:2600:1:1e-6:symmetric:1000,"
+     "5:trimmed:41600:0.5:1e-10:unsymmetric:20"),
+    ("--at", "4", *HALF_FIXED.options[4:]),
+    (),
+    ("Tissue/Boundary points=2600,5200", "Time/Step=2,1"),
+    HALF_FIXED.short_options)
+
+GRADED = DocumentedScene(
+    "prm/verification/graded-sphere.prm",
+    ("Grid/Spacing=100,75,50,33,25",
+     "Tissue/Cell spacing=20,14,10,7,5",
+     "Time/Step=1,0.5,0.25,0.125", NEWTON + ",1e-9", LINEAR, OCCUPATION,
+     "Grid/Spacing,Tissue/Cell spacing=100:20,75:15,50:10,35:7,25:5"),
+    ("--repeat", "2", "--measure",
+     "surface:mean(radius),surface:std(radius),mean_energy_density",
+     "--wanted", "surface:mean(radius)=0.05um,mean_energy_density=1%"),
+    ("alone", "surface-mean-radius", "mean-energy-density"),
+    ("Grid/Spacing=100,75", "Solver/Newton tolerance=1e-9,1e-2"),
+    ("--measure", "surface:mean(radius),mean_energy_density",
+     "-s", "Tissue/Cell spacing=25", "-s", "Grid/Spacing=100"))
+
+PROLIFERATION = DocumentedScene(
+    "prm/paper/fig-3b.prm",
+    ("Grid/Spacing=100,50,33",
+     "Tissue/Cell spacing=12.5,10,8",
+     "Time/Step=0.2,0.1,0.05,0.025",
+     "Solver/Newton tolerance=1e-2,1e-4,1e-6,1e-8",
+     "Solver/Linear tolerance=0,1e-1,1e-2,1e-4",
+     "Grid/Occupation parameter=0.5,0.85,1"),
+    ("--at", "2", "--seeds", "1..8", "--jobs", "2", "--measure",
+     "zmax,total_volume,mean_energy_density",
+     "--wanted", "total_volume=1%,mean_energy_density=10%"),
+    ("alone", "mean-energy-density"),
+    ("Grid/Spacing=100,50", "Time/Step=0.2,0.1"),
+    ("--at", "0.6", "--seeds", "1..2", "--measure",
+     "zmax,total_volume,mean_energy_density",
+     "-s", "Tissue/Cell spacing=20"))
+
+SCENES = {"half-fixed-sphere": HALF_FIXED,
+          "half-fixed-sphere-options": OPTIONS, "error-budget": BUDGET,
+          "graded-sphere": GRADED,
+          "random-proliferation": PROLIFERATION}
+
+
+def measure(name, options):
+    """Runs the ladders of a scene and renews its part of the document;
+    returns the exit code."""
+    words = command(name, options)
+    typed = as_typed(words, options)
+    print("contrib/accuracy " + shlex.join(typed), flush=True)
+    if options.list:
+        return 0
+    output = options.output / (name + (".short" if options.short else ""))
+    here = ["--morula", str(options.morula), "--output", str(output)]
+    for option in ("jobs", "repeat"):
+        if getattr(options, option):
+            here += [f"--{option}", getattr(options, option)]
+    if options.again:
+        here.append("--again")
+    code = main([*words, *here])
+    if code == 0 and options.document:
+        document(name, typed, output)
+    return code
+
+
+def command(name, options):
+    """The arguments of contrib/accuracy, without those that only say where
+    things are. Keys that this build of Morula does not know are left out."""
+    scene = SCENES[name]
+    known = Program(options.morula).defaults
+    ladders = scene.short_ladders if options.short else scene.ladders
+    words = [str(ROOT / scene.file)]
+    for ladder in ladders:
+        keys = ladder.split("=")[0].split(":")[-1].strip().split(",")
+        if all(key in known for key in keys):
+            words += ["--vary", ladder]
+    words += scene.short_options if options.short else scene.options
+    return words + reference(name, options)
+
+
+def reference(name, options):
+    """Right values that do not come from Morula, where there are some."""
+    if SCENES[name].file == HALF_FIXED.file:
+        file = ROOT / "doc/data/half-fixed-sphere.csv"
+        if not file.is_file():
+            return []
+        return ["--reference", str(file.resolve()), "--reference-column",
+                "zmax=apex", "--reference-column", "time=10*(theta-1)"]
+    if name == "graded-sphere":
+        file = options.output / "graded-sphere-reference.csv"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        graded_sphere.write(ROOT / GRADED.file, file)
+        return ["--reference", str(file.resolve())]
+    return []
+
+
+def as_typed(words, options):
+    """The words as they are typed in the repository, whatever the working
+    directory and the place of the output are now."""
+    output = str(options.output.resolve())
+    return [word.replace(output, "output/accuracy")
+            .replace(f"{ROOT}/", "") for word in words]
+
+
+def document(name, words, output):
+    """Puts tables and figures into their places in the document."""
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    for figure in SCENES[name].figures:
+        shutil.copy(output / f"{figure}.png", IMAGES / f"{name}-{figure}.png")
+    found = (output / "table.md").read_text(encoding="utf-8")
+    tables = re.sub("^## ", "#### ", found[found.index("## Runs"):],
+                    flags=re.MULTILINE)
+    text = f"```\n{wrapped(words)}\n```\n\n{tables}"
+    DOCUMENT.write_text(with_part(
+        DOCUMENT.read_text(encoding="utf-8"), name, text), encoding="utf-8")
+
+
+def wrapped(words):
+    """The command, an option a line."""
+    lines = ["contrib/accuracy " + shlex.quote(words[0])]
+    for word in words[1:]:
+        if word.startswith("-"):
+            lines.append("    " + word)
+        else:
+            lines[-1] += " " + shlex.quote(word)
+    return " \\\n".join(lines)
+
+
+def with_part(text, name, part):
+    """The text with what is between the marks of a name replaced."""
+    begin, end = (f"<!-- {name}: {word} -->" for word in ("begin", "end"))
+    if text.count(begin) != 1 or text.count(end) != 1:
+        raise LookupError(f"{DOCUMENT} needs the line '{begin}' and after it "
+                          f"'{end}', once each")
+    before, rest = text.split(begin)
+    return f"{before}{begin}\n\n{part.strip()}\n\n{end}{rest.split(end)[1]}"

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The words of the command line."""
+import argparse
+import sys
+from pathlib import Path
+
+from morula_runs.refusal import Refused
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+class Parser(argparse.ArgumentParser):
+    """Mistakes in the words themselves end like all others."""
+
+    def error(self, message):
+        raise Refused("The command line", " ".join(sys.argv[1:]),
+                      "what --help shows", message + ".")
+
+
+def parser():
+    result = Parser(
+        prog="contrib/accuracy", allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Runs a scene over ladders of its keys and draws error "
+        "against wall time,\nunknowns and memory.",
+        epilog="""examples:
+  contrib/accuracy prm/paper/fig-2b.prm --vary "Grid/Spacing=100,75,50,33" \\
+      --vary "Time/Step=2,1,0.5" --measure zmax,total_volume --wanted 1%
+  contrib/accuracy my.prm --measure "cells:p99(energy_density)" \\
+      --vary "Grid/Spacing,Tissue/Cell spacing=100:20,50:10,25:5" --seeds 1..8
+
+doc/accuracy-and-cost.md explains the results.""")
+    add = result.add_argument
+    add("scene", metavar="SCENE.prm")
+    add("--vary", action="append", default=[], metavar="KEY=VALUES",
+        help="a ladder: values separated by commas ('|' where they contain "
+        "some); KEY,KEY=VALUE:VALUE,... changes keys together; 'NAME: KEY=...' "
+        "names it in the figures; may be repeated")
+    add("--measure", required=True, metavar="LIST",
+        help="columns of statistics.csv, or cells:reduction(column), "
+        "surface:reduction(column)")
+    add("--at", metavar="DAYS", help="times of the comparison; default: the "
+        "scene's end. Runs end at the last of them")
+    add("--seeds", metavar="1..8", help="means over these random seeds")
+    add("--grid", action="store_true", help="every combination of the "
+        "ladders, instead of each alone round the scene's own values")
+    add("--reference", metavar="FILE.csv", help="right values, in columns "
+        "named like the measures, MEASURE_error, time")
+    add("--reference-column", action="append", default=[],
+        metavar="NEW=EXPRESSION", help="names or computes a column of the "
+        "reference file, e.g. zmax=apex or time=10*(theta-1)")
+    add("--limit", action="append", default=[], metavar="KEY=KIND",
+        help="how a key becomes finer: zero, large, tolerance, none")
+    add("--wanted", metavar="ERROR", help="1%%, 0.5um, zmax=0.5um,...: marks "
+        "the cheapest run that is as good")
+    add("-s", "--set", action="append", default=[], metavar="KEY=VALUE",
+        help="overrides a key of the scene for all runs")
+    add("--ranks", default="1", help="MPI ranks of each run")
+    add("--jobs", default="1", help="runs at the same time; more than one "
+        "makes their times less certain")
+    add("--repeat", default="1", metavar="N", help="times that each run is "
+        "done; the shortest counts")
+    add("--again", action="store_true", help="do not use runs from before")
+    add("--plan", action="store_true", help="check, list the runs, and stop")
+    add("--output", type=Path, metavar="DIRECTORY",
+        help="default: output/accuracy/SCENE")
+    add("--morula", default=ROOT / "build/morula", help="the executable")
+    add("--mpiexec", default="mpiexec")
+    return result

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Runs one command and writes what it cost: exit code, wall seconds, and the
+peak resident memory of its largest process in bytes.
+
+    python3 -I -S launcher.py RECORD.json OUTPUT ERRORS COMMAND...
+
+A process of its own, with next to nothing in memory: Linux counts what the
+parent of a new process holds as that process's peak.
+"""
+import json
+import os
+import sys
+import time
+
+
+def main():
+    record, output, errors, *command = sys.argv[1:]
+    start = time.monotonic()
+    child = os.fork()
+    if child == 0:
+        for number, path in ((1, output), (2, errors)):
+            flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
+            os.dup2(os.open(path, flags, 0o644), number)
+        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        try:
+            os.execvp(command[0], command)
+        except OSError as error:
+            os.write(2, f"{command[0]}: {error}\n".encode())
+            os._exit(127)
+    _, status, usage = os.wait4(child, 0)
+    result = {"exit": os.waitstatus_to_exitcode(status),
+              "process_seconds": time.monotonic() - start,
+              "peak_bytes": usage.ru_maxrss * 1024}
+    with open(record, "w", encoding="utf-8") as stream:
+        json.dump(result, stream)
+
+
+if __name__ == "__main__":
+    main()

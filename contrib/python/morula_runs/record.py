@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What is known of a run: whether it finished, and what it cost."""
+import json
+import shutil
+from pathlib import Path
+
+from .results import read_csv, time_of
+
+
+class Record:
+    """The directory of one run: run.json, the program's output, its words."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        self.file = self.directory / "run.json"
+        self.output = self.directory / "output"
+        self.identity, self.overrides, self.repeats = None, (), []
+
+    def load(self, identity):
+        """Takes over what a former run has left; false if there is none, or
+        if it was one of another program or scene."""
+        try:
+            stored = json.loads(self.file.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return False
+        if stored.get("identity") != identity:
+            return False
+        self.identity, self.repeats = identity, stored["repeats"]
+        self.overrides = tuple(map(tuple, stored["overrides"]))
+        return bool(self.repeats)
+
+    def begin(self, identity, overrides):
+        """Forgets what was there."""
+        shutil.rmtree(self.directory, ignore_errors=True)
+        self.directory.mkdir(parents=True)
+        self.identity, self.overrides, self.repeats = identity, overrides, []
+
+    def add(self, cost, ranks, jobs, keep):
+        """One more execution, with what launcher.py says of it. The row times
+        are kept for each, because the files are those of the last one; of
+        these, only the kinds of points in `keep` stay."""
+        cost.update(ranks=ranks, jobs=jobs)
+        if cost["exit"] == 0:
+            cost["row_seconds"] = self._computing_seconds()
+            # Nobody resumes these runs, and they are many.
+            (self.output / "snapshot.h5").unlink(missing_ok=True)
+            for kind in {"cells", "surface"} - set(keep):
+                for file in self.output.glob(f"{kind}-[0-9]*.csv"):
+                    file.unlink()
+        self.repeats.append(cost)
+        stored = {"identity": self.identity, "overrides": self.overrides,
+                  "repeats": self.repeats}
+        temporary = self.file.with_suffix(".tmp")
+        temporary.write_text(json.dumps(stored, indent=1), encoding="utf-8")
+        temporary.replace(self.file)
+
+    def _computing_seconds(self):
+        """Wall time from the start to each row of statistics.csv, less the
+        writing of cells and surface before it, which takes about equally long
+        each time."""
+        statistics = self.statistics()
+        written = [time_of(file) for file
+                   in self.output.glob("cells-[0-9]*.csv")]
+        timings = read_csv(self.output / "timings.csv", dtype=None)
+        spent = timings["wall_seconds"][timings["section"] == "output"].sum()
+        return [float(seconds - spent * sum(t < time for t in written)
+                      / max(1, len(written)))
+                for time, seconds in zip(statistics["time"],
+                                         statistics["wall_seconds"])]
+
+    @property
+    def finished(self):
+        return bool(self.repeats) and all(r["exit"] == 0 for r in self.repeats)
+
+    @property
+    def failed(self):
+        return any(r["exit"] != 0 for r in self.repeats)
+
+    @property
+    def killed(self):
+        """Failed for a reason that is not the program's own (1 and 2)."""
+        return any(r["exit"] not in (0, 1, 2) for r in self.repeats)
+
+    def statistics(self):
+        return read_csv(self.output / "statistics.csv")
+
+    def row_seconds(self, row):
+        """Least wall time from the start to the end of a step, without the
+        writing of cells and surface, seconds."""
+        return min(repeat["row_seconds"][row] for repeat in self.repeats)
+
+    @property
+    def process_seconds(self):
+        """Least wall time of the whole process, start and end of MPI, output
+        and all, seconds."""
+        return min(repeat["process_seconds"] for repeat in self.repeats)
+
+    @property
+    def peak_bytes(self):
+        """Peak resident memory: that of the largest rank times the ranks."""
+        return max(r["peak_bytes"] * r["ranks"] for r in self.repeats)
+
+    @property
+    def crowded(self):
+        """Whether other runs went on at the same time."""
+        return any(repeat["jobs"] > 1 for repeat in self.repeats)
+
+    def summary(self):
+        if self.finished:
+            return f"{self.process_seconds:.1f} s"
+        if not self.repeats:
+            return "interrupted"
+        return (f"failed with exit code {self.repeats[-1]['exit']}: "
+                f"{self.last_words()}")
+
+    def last_words(self):
+        """The last line that a failed run wrote to stderr."""
+        file = self.directory / "stderr"
+        lines = file.read_text(errors="replace").split("\n") if (
+            file.is_file()) else []
+        words = [line.strip() for line in lines if line.startswith("morula")]
+        words = words or [line.strip() for line in lines if line.strip()]
+        return words[-1] if words else "it said nothing"

@@ -1,0 +1,261 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The estimates of contrib/accuracy against made-up values whose limit, order,
+noise and fronts are known: no run of the program.
+"""
+import math
+import sys
+import unittest
+from pathlib import Path
+
+import numpy
+from program import main
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "contrib/python"))
+
+from morula_accuracy import arithmetic, documentation  # noqa: E402
+from morula_accuracy.estimate import center_of, estimate  # noqa: E402
+from morula_accuracy.front import (Wanted, cheapest, pareto,  # noqa: E402
+                                   read_wanted)
+from morula_accuracy.limits import (DEFAULT_KINDS, limit_of,  # noqa: E402
+                                    observed_order, size_of)
+from morula_accuracy.measures import read_measure  # noqa: E402
+from morula_accuracy.request import output_interval  # noqa: E402
+from morula_runs.ladder import Plan, read_ladder, read_seeds  # noqa: E402
+from morula_runs.prm import parse  # noqa: E402
+from morula_runs.scene import normal  # noqa: E402
+
+
+class MadeUpScene:
+    """Keys without a program behind them."""
+
+    dimension = 3
+    keys = {"Grid/Spacing": "50", "Tissue/Cell spacing": "10",
+            "Time/Step": "1", "Grid/Occupation parameter": "0.85",
+            "Solver/Newton tolerance": "1e-6", "Tissue/Size": "1, 2, 3"}
+
+    def __getitem__(self, key):
+        return self.keys[key]
+
+    def require_key(self, key, option):
+        assert key in self.keys, (key, option)
+
+
+def plan_of(*ladders, full_grid=False):
+    scene = MadeUpScene()
+    return Plan(scene, [read_ladder(text, scene) for text in ladders],
+                full_grid)
+
+
+def estimate_of(plan, function, seeds=(0.0,), reference=None):
+    """With the values function(number of each key) + what the seed adds."""
+    center = center_of(plan, DEFAULT_KINDS)
+    values = {point: numpy.array(
+        [function(*map(float, point), seed) for seed in seeds])
+        for point in plan.points}
+    return estimate(plan, center, DEFAULT_KINDS, read_measure("zmax", 3), 1.0,
+                    values, reference)
+
+
+def one(value):
+    return numpy.array([value])
+
+
+class Limits(unittest.TestCase):
+    def test_order_and_limit_are_found(self):
+        for order in (0.6, 1.0, 2.0, 3.5):
+            sizes = (100.0, 33.0, 50.0, 75.0)
+            values = [one(7.0 + 1e-4 * size**order) for size in sizes]
+            limit = limit_of(sizes, values, "zero")
+            self.assertAlmostEqual(limit.order, order, places=5)
+            self.assertAlmostEqual(float(limit.apply(values)[0]), 7.0,
+                                   places=6)
+            self.assertAlmostEqual(limit.uncertainty, 1e-4 * 33.0**order,
+                                   places=6)
+
+    def test_no_order_is_made_up(self):
+        """Values that turn round, that hardly converge, that jump: the finest
+        one, with the spread as its uncertainty."""
+        for values in ((1.0, 3.0, 2.0), (1.0, 2.0, 2.2), (1.0, 1.0001, 9.0)):
+            limit = limit_of((1.0, 2.0, 4.0), [one(v) for v in values],
+                             "zero")
+            self.assertEqual(limit.note, "not asymptotic", values)
+            self.assertEqual(limit.weights, {0: 1.0})
+            self.assertAlmostEqual(limit.uncertainty,
+                                   max(values) - min(values))
+
+    def test_power_law_through_values_that_scatter(self):
+        """7 + 0.01 s with a disturbance that spoils the three finest."""
+        sizes = (100.0, 75.0, 50.0, 33.0, 25.0)
+        values = [one(7 + 0.01 * size + error) for size, error in
+                  zip(sizes, (0.01, -0.02, 0.015, 0.03, -0.02))]
+        self.assertFalse(0.5 <= observed_order(
+            sizes[:1:-1], [float(v[0]) for v in values[:1:-1]]) <= 4.5)
+        limit = limit_of(sizes, values, "zero")
+        self.assertTrue(limit.note.startswith("fit of order"), limit.note)
+        self.assertLess(abs(float(limit.apply(values)[0]) - 7.0),
+                        limit.uncertainty)
+        self.assertLess(limit.uncertainty, 0.5)
+        self.assertAlmostEqual(sum(limit.weights.values()), 1.0)
+
+    def test_two_values(self):
+        limit = limit_of((50.0, 100.0), [one(2.0), one(3.0)], "zero")
+        self.assertEqual((limit.note, limit.uncertainty), ("two values", 1.0))
+
+    def test_tolerances_are_not_extrapolated(self):
+        values = [one(1.0 + size) for size in (1e-2, 1e-4, 1e-6)]
+        limit = limit_of((1e-2, 1e-4, 1e-6), values, "tolerance")
+        self.assertEqual(limit.weights, {2: 1.0})
+        self.assertAlmostEqual(limit.uncertainty, 1e-4 - 1e-6)
+
+    def test_differences_within_the_noise(self):
+        """Seeds that disagree about the sign of a difference."""
+        generator = numpy.random.default_rng(1)
+        values = [1.0 + 0.1 * generator.standard_normal(8) for _ in range(3)]
+        self.assertEqual(limit_of((1.0, 2.0, 4.0), values, "zero").note,
+                         "noise")
+
+    def test_sizes(self):
+        self.assertEqual(size_of("50", "zero", 3), 50)
+        self.assertEqual(size_of("400", "large", 3), 0.05)
+        self.assertEqual(size_of("400", "large", 2), 0.0025)
+        for value, kind in (("0", "tolerance"), ("iterative", "zero"),
+                            ("1", "none")):
+            self.assertIsNone(size_of(value, kind, 3))
+
+    def test_order_of_values_that_turn_round(self):
+        self.assertTrue(math.isnan(observed_order((1, 2, 4), (1, 3, 2))))
+
+
+class Estimates(unittest.TestCase):
+    def test_errors_that_add_up(self):
+        """Q = 5 + h^2 + 3 dt: the star finds 5 though no run is near it, and
+        what either ladder has in it."""
+        plan = plan_of("Grid/Spacing=100,75,50", "Time/Step=4,2,1")
+        self.assertEqual(len(plan.points), 5)
+        found = estimate_of(plan, lambda h, dt, _: 5 + 1e-4 * h**2 + 3 * dt)
+        self.assertAlmostEqual(found.right, 5.0, places=6)
+        self.assertAlmostEqual(found.errors[plan.own], 0.25 + 3, places=6)
+        self.assertAlmostEqual(found.parts[0].change, -0.25, places=6)
+        self.assertAlmostEqual(found.parts[1].change, -3.0, places=6)
+        self.assertAlmostEqual(found.uncertainty, 3.25, places=6)
+
+    def test_grid_goes_from_its_finest_corner(self):
+        plan = plan_of("Grid/Spacing=100,75,25", "Time/Step=4,2,0.5",
+                       full_grid=True)
+        self.assertEqual(len(plan.points), 9)
+        self.assertEqual(center_of(plan, DEFAULT_KINDS), ("25", "0.5"))
+        found = estimate_of(plan, lambda h, dt, _: 5 + 1e-4 * h**2 + 3 * dt)
+        self.assertAlmostEqual(found.right, 5.0, places=6)
+
+    def test_a_key_counts_once(self):
+        """The same grid spacing alone and with the cells': one of the two."""
+        plan = plan_of("Grid/Spacing=100,75,50",
+                       "Grid/Spacing,Tissue/Cell spacing=100:20,75:15,50:10")
+        found = estimate_of(plan, lambda h, _, __: 5 + 1e-4 * h**2)
+        self.assertEqual([part.used for part in found.parts], [True, False])
+        self.assertAlmostEqual(found.right, 5.0, places=6)
+
+    def test_setting_without_a_limit(self):
+        plan = plan_of("Grid/Occupation parameter=0.5,0.85,1")
+        found = estimate_of(plan, lambda C, _: 5 + C)
+        self.assertAlmostEqual(found.uncertainty, 0.5)
+        self.assertEqual(found.errors[plan.own], 0)
+
+    def test_noise(self):
+        """What seeds add to all runs alike is scatter of the values, not noise
+        of the differences."""
+        plan = plan_of("Grid/Spacing=100,75,50")
+        seeds = (-1.0, 0.0, 1.0)
+        found = estimate_of(plan, lambda h, s: 5 + 1e-4 * h**2 + s, seeds)
+        self.assertAlmostEqual(found.scatter[plan.own], 1.0)
+        self.assertAlmostEqual(found.noise[plan.own], 0.0, places=9)
+        self.assertAlmostEqual(found.right, 5.0, places=6)
+
+        class Reference:
+            @staticmethod
+            def value(_measure, _time):
+                return 5.0, 0.1
+
+        found = estimate_of(plan, lambda h, s: 5 + 1e-4 * h**2 + s, seeds,
+                            Reference)
+        self.assertAlmostEqual(found.noise[plan.own], 2 / math.sqrt(3))
+        self.assertAlmostEqual(found.bound(plan.own),
+                               0.25 + 0.1 + 2 / math.sqrt(3))
+
+
+class Fronts(unittest.TestCase):
+    def test_front(self):
+        costs = (1, 2, 3, 4, 5, 2)
+        errors = (9, 5, 6, 1, 1, 4)
+        self.assertEqual(pareto(costs, errors), [0, 5, 3])
+
+    def test_cheapest(self):
+        self.assertEqual(cheapest((3, 1, 2), (1, 9, 2), 2.5), 2)
+        self.assertIsNone(cheapest((3, 1, 2), (1, 9, 2), 0.5))
+
+    def test_wanted(self):
+        measures = [read_measure(word, 3) for word in ("zmax", "total_volume")]
+        found = read_wanted("zmax=0.5um, 1%", measures)
+        self.assertEqual(found[measures[1]], Wanted("1%", 1.0, "%"))
+        self.assertEqual(found[measures[1]].absolute(-300.0), 3.0)
+        found = read_wanted("0.5um", measures)
+        self.assertEqual(set(found), {measures[0]})
+
+
+class Words(unittest.TestCase):
+    def test_ladders(self):
+        scene = MadeUpScene()
+        self.assertEqual(read_ladder("Tissue/Size=1,1,1|2,2,2", scene).rungs,
+                         (("1,1,1",), ("2,2,2",)))
+        plan = plan_of("Tissue/Size=1,2,3.0|2,2,2")
+        self.assertEqual(len(plan.points), 2)
+        self.assertEqual(normal(" 1e1, 2.50"), "10,2.5")
+
+    def test_names(self):
+        """The same keys under two names; only what changes is in a label; a
+        scene beside the path is on the line, but not on the path."""
+        plan = plan_of("coarse: Grid/Spacing,Time/Step=100:2,75:2",
+                       "fine: Grid/Spacing,Time/Step=75:0.5,25:0.5")
+        self.assertEqual([ladder.name for ladder in plan.ladders],
+                         ["coarse", "fine"])
+        coarse = plan.ladders[0]
+        self.assertEqual([plan.rung_label(coarse, point) for point in
+                          plan.path(coarse, plan.own)], ["100", "75"])
+        self.assertIn(plan.own, plan.line(coarse, plan.own))
+
+    def test_seeds(self):
+        self.assertEqual(read_seeds("1..3, 7"), [1, 2, 3, 7])
+
+    def test_outputs_meet_all_times(self):
+        for times, interval in (([2.0], "0"), ([0.5, 2.0], "0.5"),
+                                ([0.3, 0.5, 1.0], "0.1")):
+            self.assertEqual(output_interval(times), interval)
+
+    def test_expressions(self):
+        self.assertAlmostEqual(arithmetic.evaluate(
+            "10*(theta - 1)", {"theta": 1.2}, "-"), 2.0)
+
+    def test_parameter_files(self):
+        keys = parse("set A = 1 # one\nsubsection B\n  subsection C\n"
+                     "  set D = 2, \\\n 3\n  end\n  set E =\nend\nset A = 4\n")
+        self.assertEqual(keys, {"A": "4", "B/C/D": "2,  3", "B/E": ""})
+
+    def test_document(self):
+        text = "a\n<!-- x: begin -->\nold\n<!-- x: end -->\nb\n"
+        new = documentation.with_part(text, "x", "new")
+        self.assertIn("-->\n\nnew\n\n<!--", new)
+        self.assertNotIn("old", new)
+        self.assertEqual(documentation.with_part(new, "x", "new"), new)
+        with self.assertRaises(LookupError):
+            documentation.with_part(text, "y", "new")
+        for name in documentation.SCENES:
+            there = documentation.DOCUMENT.read_text(encoding="utf-8")
+            self.assertIn("right", documentation.with_part(there, name,
+                                                           "right"))
+
+
+if __name__ == "__main__":
+    main()

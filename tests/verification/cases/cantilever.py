@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""A cantilever bent by its own weight."""
+from functools import lru_cache
+
+import block
+from finite_elements import Axis, Block
+from ladder import Case, Ladder, rungs, spacing, spacing_and_cut
+from material import lame
+
+PLANE, SPACE = ("cantilever-2d.prm",), ("cantilever-3d.prm",)
+SMOOTH = {"displacement": 1.9, "stress": 0.9}
+
+
+@lru_cache(maxsize=None)
+def reference():
+    """Elements refined towards the clamped corners."""
+    return block.converged(lambda degree: Block(
+        (Axis([0, 2, 8, 24, 60, 120, 200], degree),
+         Axis([0, 2, 8, 25, 42, 48, 50], degree)),
+        lame(nu=0), (0, -4e-5), {"left": lambda factor: (0, 0)}))
+
+
+CASE = Case(
+    title="Cantilever",
+    reference="body-fitted finite elements",
+    errors=lambda results: block.errors(results, reference()),
+    ladders=[
+        Ladder("2d-h", PLANE, "h [µm]", "h/L_p = 6, one step",
+               rungs("Grid/Spacing", [12.5, 6.25, 3.125], spacing(6)),
+               least_orders=SMOOTH, label="cantilever"),
+        Ladder("2d-h-cut", PLANE, "h [µm]", "h/L_p = 6, cut grid, one step",
+               rungs("Grid/Spacing", [25, 12.5, 6.25, 3.125],
+                     spacing_and_cut(6), full_only=[3.125]),
+               least_orders=SMOOTH, full_only=True),
+        Ladder("2d-h-fixed-cells", PLANE, "h [µm]",
+               "L_p = 0.390625 µm, one step",
+               rungs("Grid/Spacing", [25, 12.5, 6.25, 3.125],
+                     {"Tissue/Cell spacing": "0.390625"}),
+               least_orders={"stress": 0.9}, full_only=True),
+        Ladder("2d-cells", PLANE, "L_p [µm]", "h = 12.5 µm, one step",
+               rungs("Tissue/Cell spacing", [6.25, 3.125, 1.5625, 0.78125],
+                     full_only=[0.78125]),
+               least_orders={"displacement": 1.9}, label="cantilever"),
+        Ladder("2d-dt", PLANE, "dt [day]", "h = 12.5 µm, L_p = 1.5625 µm",
+               rungs("Time/Step", [1, 0.5, 0.25, 0.125, 0.0625],
+                     full_only=[0.5, 0.125, 0.0625]),
+               most={"displacement": 1e-3, "stress": 1.5e-2},
+               label="cantilever"),
+        Ladder("3d-h", SPACE, "h [µm]", "h/L_p = 6, one step",
+               rungs("Grid/Spacing", [12.5, 6.25], spacing(6)),
+               least_orders=SMOOTH, label="cantilever, 3-D"),
+    ])

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Uniform growth between slip walls: exact on aligned grids, near it on cut
+ones."""
+import numpy
+from errors import field_errors
+from ladder import Case, Ladder, cut, rungs, spacing_and_cut
+from material import cauchy, lame
+from scipy.optimize import brentq
+
+THETA = 1.4
+PLANE, SPACE = ("confined-growth-2d.prm",), ("confined-growth-3d.prm",)
+EXACT = {"displacement": 1e-9, "stress": 1e-8}
+CUT = {"displacement": 1.9, "stress": 1.9}
+# At fixed h/L_p a layer of grid cells along the surface has equal errors.
+CUT_AT_FIXED_RATIO = {"displacement": 1.4, "stress": 0.3}
+
+
+def height(dim):
+    """Final over initial height, theta L."""
+    lame_lambda, mu = lame()
+    return THETA * brentq(
+        lambda L: mu * (L**2 - 1) + lame_lambda * numpy.log(
+            L / THETA**(dim - 1)), 0.1, 10, xtol=1e-15, rtol=1e-15)
+
+
+def motion(X, t):
+    x = X.copy()
+    x[:, -1] *= height(X.shape[1])
+    return x
+
+
+def stress(X, t):
+    dim = X.shape[1]
+    F = numpy.eye(3)
+    F[dim - 1, dim - 1] = height(dim)
+    return numpy.broadcast_to(
+        cauchy(F[None], lame(), numpy.array([THETA]), dim), (len(X), 3, 3))
+
+
+CASE = Case(
+    title="Uniform growth between slip walls",
+    reference="closed form",
+    errors=lambda results: field_errors(results, motion, stress),
+    ladders=[
+        Ladder("2d-aligned", PLANE, "h [µm]", "L_p = 2 µm, one step",
+               rungs("Grid/Spacing", [40, 20, 10],
+                     {"Tissue/Cell spacing": "2"}), most=EXACT),
+        Ladder("3d-aligned", SPACE, "h [µm]", "L_p = 5 µm, one step",
+               rungs("Grid/Spacing", [40, 20]), most=EXACT),
+        Ladder("2d-h-cut", PLANE, "h [µm]", "h/L_p = 8, cut grid, one step",
+               rungs("Grid/Spacing", [20, 10, 5, 2.5], spacing_and_cut(8)),
+               least_orders=CUT_AT_FIXED_RATIO, full_only=True),
+        Ladder("2d-cells-cut", PLANE, "L_p [µm]",
+               "h = 20 µm, cut grid, one step",
+               rungs("Tissue/Cell spacing", [10, 5, 2.5, 1.25, 0.625],
+                     lambda L_p: cut(20, L_p), full_only=[0.625]),
+               least_orders=CUT, label="confined growth, cut"),
+        Ladder("2d-dt", PLANE, "dt [day]", "h = 20 µm, L_p = 2.5 µm",
+               rungs("Time/Step", [1, 0.5, 0.25, 0.125, 0.0625],
+                     {"Tissue/Cell spacing": "2.5"},
+                     full_only=[0.5, 0.125, 0.0625]),
+               most=EXACT),
+        Ladder("3d-cells-cut", SPACE, "L_p [µm]",
+               "h = 20 µm, cut grid, one step",
+               rungs("Tissue/Cell spacing", [10, 5, 2.5, 1.25],
+                     lambda L_p: cut(20, L_p), full_only=[2.5, 1.25]),
+               least_orders=CUT, label="confined growth, cut, 3-D"),
+    ])

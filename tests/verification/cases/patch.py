@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Patch tests: affine and rigid motions and free growth, for any cut of the
+grid."""
+import numpy
+from errors import norm
+from ladder import Case, Ladder, rungs, spacing
+from material import cauchy, lame
+from results import initial_positions, positions, stresses
+
+PLANE, SPACE = ("patch-2d.prm",), ("patch-3d.prm",)
+EXACT = {"displacement": 1e-8, "stress [kPa]": 1e-8}
+ALIGNED = {"Tissue/Shape": "box", "Tissue/Surface mesh": "",
+           "Tissue/Size": "120, 80, 80",
+           "Grid/Offset": "0, 0, 0", "Tissue/Cell spacing": "4",
+           "Solver/Newton tolerance": "1e-12"}
+QUADRATURE = {"displacement": 1.2, "stress": 1.2}
+TURN = {"Boundary conditions/Displacement":
+        "(cos(t)-1)*X - sin(t)*Y + 20*t; sin(t)*X + (cos(t)-1)*Y - 13*t; 9*t",
+        "Time/Step": "0.25", "Solver/Newton tolerance": "1e-12"}
+GROW = {"Boundary conditions/Fixed where": "", "Growth/Law": "isotropic",
+        "Growth/Isotropic/Stretch": "1 + 0.5*t", "Time/Step": "0.25"}
+
+
+def turned_lattice():
+    """A square of 20 x 20 cells of 5 µm, turned by 0.5 rad."""
+    side = 5 * (numpy.arange(20) - 9.5)
+    X = numpy.stack(numpy.meshgrid(side, side), axis=-1).reshape(-1, 2)
+    turn = numpy.array([[numpy.cos(0.5), -numpy.sin(0.5)],
+                        [numpy.sin(0.5), numpy.cos(0.5)]])
+    return X @ turn.T, numpy.full(len(X), 25.0)
+
+
+def motion(results, X, t):
+    """Exact positions and gradient: of free growth about the cells' centre, or
+    of the affine displacement that the scene prescribes."""
+    dim = results.dimension
+    if results.keys["Growth/Law"] != "none":
+        theta = results.function("Growth/Isotropic/Stretch", X, t)[0]
+        centre = X.mean(axis=0)
+        return centre + theta * (X - centre), theta * numpy.eye(dim), theta
+    key = "Boundary conditions/Displacement"
+    u_0, *u = results.function(
+        key, numpy.concatenate([numpy.zeros((1, dim)), numpy.eye(dim)]), t)
+    F = numpy.eye(dim) + (numpy.array(u) - u_0).T
+    return X @ F.T + u_0, F, 1.0
+
+
+def errors(results):
+    cells = results.last_cells()
+    dim = results.dimension
+    X = initial_positions(cells)[:, :dim]
+    x, F, theta = motion(results, X, cells["time"][0])
+    V = cells["volume"]
+    sigma = cauchy(F[None], lame(), numpy.array([theta]), dim)
+    error = norm(stresses(cells) - sigma, V)
+    scale = norm(numpy.broadcast_to(sigma, (len(X), 3, 3)), V)
+    name = "stress" if scale > 1e-12 else "stress [kPa]"
+    return {"displacement": norm(positions(cells)[:, :dim] - x, V)
+            / norm(x - X, V),
+            name: error / scale if name == "stress" else error}
+
+
+CASE = Case(
+    title="Patch tests: affine, rigid, free growth",
+    reference="closed form",
+    errors=errors,
+    ladders=[
+        Ladder("2d-affine-aligned", PLANE, "h [µm]",
+               "box on the grid's lines, L_p = 4 µm",
+               rungs("Grid/Spacing", [40, 20], ALIGNED),
+               most={"displacement": 1e-8, "stress": 1e-8}),
+        Ladder("2d-affine-cells", PLANE, "L_p [µm]", "h = 20 µm",
+               rungs("Tissue/Cell spacing", [10, 5, 2.5, 1.25, 0.625], {},
+                     full_only=[0.625]),
+               least_orders=QUADRATURE, label="affine, ellipse"),
+        Ladder("2d-affine-h", PLANE, "h [µm]", "h/L_p = 8",
+               rungs("Grid/Spacing", [40, 20, 10, 5],
+                     spacing(8)),
+               least_orders={"displacement": 0.9}, most={"stress": 0.02},
+               full_only=True),
+        Ladder("2d-rigid", PLANE, "h [µm]", "L_p = 2.5 µm, 4 steps",
+               rungs("Grid/Spacing", [27, 13], TURN), most=EXACT),
+        Ladder("2d-growth", PLANE, "h [µm]", "L_p = 2.5 µm, 4 steps",
+               rungs("Grid/Spacing", [27, 13], GROW), most=EXACT),
+        Ladder("2d-growth-turned-lattice", PLANE, "h [µm]",
+               "a square of cells askew in the grid, 4 steps",
+               rungs("Grid/Spacing", [27, 13], GROW,
+                     cells=lambda h: turned_lattice), most=EXACT),
+        Ladder("3d-affine-aligned", SPACE, "h [µm]",
+               "box on the grid's lines, L_p = 4 µm",
+               rungs("Grid/Spacing", [40, 20], ALIGNED),
+               most={"displacement": 1e-8, "stress": 1e-8}),
+        Ladder("3d-affine-cells", SPACE, "L_p [µm]", "h = 20 µm",
+               rungs("Tissue/Cell spacing", [10, 5, 2.5, 1.5], {},
+                     full_only=[1.5]),
+               least_orders=QUADRATURE, label="affine, cube askew"),
+        Ladder("3d-rigid", SPACE, "h [µm]", "L_p = 4 µm, 4 steps",
+               rungs("Grid/Spacing", [27, 17], TURN), most=EXACT),
+        Ladder("3d-growth", SPACE, "h [µm]", "L_p = 4 µm, 4 steps",
+               rungs("Grid/Spacing", [27, 17], GROW), most=EXACT),
+    ])

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Tables of errors and orders, for the terminal and for the documentation."""
+import re
+
+import numpy
+
+
+def table(measured):
+    """Header and rows of text: size, then each error with the order at which
+    it has fallen since the rung before; last the order through all rungs."""
+    names = list(measured.errors)
+    header = [measured.ladder.varied] + [
+        word for name in names for word in (name, "order")]
+    rows = []
+    for i, size in enumerate(measured.sizes):
+        row = [f"{size:g}"]
+        for name in names:
+            error = measured.errors[name]
+            row.append(f"{error[i]:.2e}")
+            if i == 0 or not error[i - 1] > 0 < error[i]:
+                row.append("")
+            else:
+                row.append("%.2f" % (
+                    numpy.log(error[i - 1] / error[i])
+                    / numpy.log(measured.sizes[i - 1] / size)))
+        rows.append(row)
+    if len(rows) > 2:
+        rows.append(["all"] + [word for name in names
+                               for word in ("", f"{measured.order(name):.2f}")])
+    return header, rows
+
+
+def print_ladder(measured):
+    ladder = measured.ladder
+    scenes = ", ".join(ladder.scenes)
+    print(f"\n  {ladder.name}: {scenes}, {ladder.fixed}")
+    header, rows = table(measured)
+    widths = [max(len(row[i]) for row in [header, *rows])
+              for i in range(len(header))]
+    for row in [header, *rows]:
+        print("    " + "  ".join(word.rjust(width)
+                                 for word, width in zip(row, widths)))
+    print(flush=True)
+
+
+def number(value):
+    """Two digits in Markdown: 3.1·10⁻³; zero and ordinary numbers plain."""
+    if value == 0 or 0.01 <= abs(value) < 1000:
+        return f"{value:.2g}"
+    digits, power = f"{value:.1e}".split("e")
+    superscript = str(int(power)).translate(
+        str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{digits}·10{superscript}"
+
+
+def summary(measured, name):
+    """What the documentation says of one error of a ladder."""
+    ladder, errors = measured.ladder, measured.errors[name]
+    if name in ladder.most:
+        return (f"≤ {number(max(errors))} "
+                f"(asserted: {number(ladder.most[name])})")
+    text = f"{number(errors[0])} → {number(errors[-1])}"
+    if ladder.varied.startswith("dt"):
+        return text
+    order = f"order {measured.order(name):.1f}"
+    if name in ladder.least_orders:
+        order = f"**{order}** (≥ {ladder.least_orders[name]:g})"
+    return f"{text}, {order}"
+
+
+def markdown(ladders):
+    """A table with a row for each ladder of a case."""
+    others = [name for measured in ladders for name in measured.errors
+              if name not in ("displacement", "stress")]
+    names = ["displacement", "stress", *dict.fromkeys(others)]
+    lines = ["| ladder | varied | fixed | " + " | ".join(names) + " |",
+             "| --- | --- | --- | " + " | ".join("---" for _ in names) + " |"]
+    for measured in ladders:
+        ladder = measured.ladder
+        symbol, unit = ladder.varied.split(" [")
+        cells = [f"`{ladder.name}`",
+                 f"{symbol} = {measured.sizes[0]:g} → {measured.sizes[-1]:g} "
+                 + unit.rstrip("]"), ladder.fixed]
+        cells += [summary(measured, name) if name in measured.errors else ""
+                  for name in names]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def renew(document, measured_by_case):
+    """Writes the tables of these cases between their markers."""
+    text = document.read_text()
+    for name, ladders in measured_by_case.items():
+        begin, end = f"<!-- table {name} -->\n", "<!-- end -->"
+        pattern = re.escape(begin) + ".*?" + re.escape(end)
+        if not re.search(pattern, text, re.DOTALL):
+            raise RuntimeError(f"{document} has no place for the table of "
+                               f"{name}: {begin.strip()} ... {end}")
+        new = begin + markdown(ladders) + "\n" + end
+        text = re.sub(pattern, lambda _: new, text, flags=re.DOTALL)
+    document.write_text(text)

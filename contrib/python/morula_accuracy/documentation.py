@@ -7,8 +7,6 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from morula_runs.program import Program
-
 from . import graded_sphere
 from .tool import main
 
@@ -51,28 +49,33 @@ FORM = "Boundary conditions/Nitsche form,Boundary conditions/Nitsche penalty"
 OPTIONS = DocumentedScene(
     HALF_FIXED.file,
     ("Grid/Spacing=100,75,50,33,25",
-     f"Grid/Spacing,{FORM},Tissue/Surface cells="
+     f"unsymmetric and trimmed: Grid/Spacing,{FORM},Tissue/Surface cells="
      + ",".join(f"{h}:unsymmetric:20:trimmed" for h in (100, 75, 50, 33, 25)),
-     f"{FORM}=symmetric:1000,unsymmetric:40,unsymmetric:20,unsymmetric:10",
+     f"form and penalty: {FORM}=symmetric:1000,unsymmetric:40,"
+     "unsymmetric:20,unsymmetric:10",
      "Grid/Points per cell=1,2"),
     ("--at", "4", *HALF_FIXED.options[2:]),
     ("mean-energy-density", "total-volume"),
     ("Grid/Spacing=100,75",
-     f"Grid/Spacing,{FORM}=100:unsymmetric:20,75:unsymmetric:20"),
+     f"unsymmetric: Grid/Spacing,{FORM}=100:unsymmetric:20,"
+     "75:unsymmetric:20"),
     HALF_FIXED.short_options)
 
 REFINED = ("Tissue/Cell spacing,Tissue/Surface cells,Tissue/Boundary points,"
            "Time/Step,Solver/Newton tolerance")
 BUDGET = DocumentedScene(
     HALF_FIXED.file,
-    ("Tissue/Cell spacing,Tissue/Surface cells=10:whole,10:trimmed,5:trimmed",
+    ("cells: Tissue/Cell spacing,Tissue/Surface cells=10:whole,10:trimmed,"
+     "5:trimmed",
      "Tissue/Boundary points=2600,10400,41600",
      "Time/Step=1,0.5,0.25",
      "Solver/Newton tolerance=1e-6,1e-10", "Solver/Linear tolerance=0,1e-8",
-     f"{FORM}=symmetric:10000,symmetric:1000,symmetric:300,unsymmetric:20",
+     f"form and penalty: {FORM}=symmetric:10000,symmetric:1000,"
+     "symmetric:300,unsymmetric:20",
      "Grid/Occupation parameter=0.5,0.85,1",
-     f"{REFINED}=10:whole:2600:1:1e-6,5:trimmed:41600:0.5:1e-10",
-     f"{REFINED},{FORM}=10:whole:2600:1:1e-6:symmetric:1000,"
+     f"all but form and grid: {REFINED}=10:whole:2600:1:1e-6,"
+     "5:trimmed:41600:0.5:1e-10",
+     f"all but the grid: {REFINED},{FORM}=10:whole:2600:1:1e-6:symmetric:1000,"
      "5:trimmed:41600:0.5:1e-10:unsymmetric:20"),
     ("--at", "4", *HALF_FIXED.options[4:]),
     (),
@@ -120,15 +123,17 @@ def measure(name, options):
     """Runs the ladders of a scene and renews its part of the document;
     returns the exit code."""
     words = command(name, options)
+    for option in ("jobs", "repeat"):
+        if getattr(options, option):
+            words += [f"--{option}", getattr(options, option)]
     typed = as_typed(words, options)
     print("contrib/accuracy " + shlex.join(typed), flush=True)
     if options.list:
         return 0
+    if name == "graded-sphere":
+        graded_sphere.write(ROOT / GRADED.file, graded_reference(options))
     output = options.output / (name + (".short" if options.short else ""))
     here = ["--morula", str(options.morula), "--output", str(output)]
-    for option in ("jobs", "repeat"):
-        if getattr(options, option):
-            here += [f"--{option}", getattr(options, option)]
     if options.again:
         here.append("--again")
     code = main([*words, *here])
@@ -139,15 +144,11 @@ def measure(name, options):
 
 def command(name, options):
     """The arguments of contrib/accuracy, without those that only say where
-    things are. Keys that this build of Morula does not know are left out."""
+    things are."""
     scene = SCENES[name]
-    known = Program(options.morula).defaults
-    ladders = scene.short_ladders if options.short else scene.ladders
     words = [str(ROOT / scene.file)]
-    for ladder in ladders:
-        keys = ladder.split("=")[0].split(":")[-1].strip().split(",")
-        if all(key in known for key in keys):
-            words += ["--vary", ladder]
+    for ladder in scene.short_ladders if options.short else scene.ladders:
+        words += ["--vary", ladder]
     words += scene.short_options if options.short else scene.options
     return words + reference(name, options)
 
@@ -155,17 +156,17 @@ def command(name, options):
 def reference(name, options):
     """Right values that do not come from Morula, where there are some."""
     if SCENES[name].file == HALF_FIXED.file:
-        file = ROOT / "doc/data/half-fixed-sphere.csv"
-        if not file.is_file():
-            return []
-        return ["--reference", str(file.resolve()), "--reference-column",
+        return ["--reference", str(ROOT / "doc/data/half-fixed-sphere.csv"),
+                "--reference-column",
                 "zmax=apex", "--reference-column", "time=10*(theta-1)"]
     if name == "graded-sphere":
-        file = options.output / "graded-sphere-reference.csv"
-        file.parent.mkdir(parents=True, exist_ok=True)
-        graded_sphere.write(ROOT / GRADED.file, file)
-        return ["--reference", str(file.resolve())]
+        return ["--reference", str(graded_reference(options))]
     return []
+
+
+def graded_reference(options):
+    """Where the right values of the graded sphere are written."""
+    return (options.output / "graded-sphere-reference.csv").resolve()
 
 
 def as_typed(words, options):

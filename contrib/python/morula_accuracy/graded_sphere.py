@@ -30,6 +30,7 @@ def write(scene, file):
     if given != (GROWTH, RADIUS, 1.0):
         raise ValueError(f"{scene} is no longer the sphere solved in "
                          f"{__name__}: {given}")
+    file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerows(zip(*values().items()))

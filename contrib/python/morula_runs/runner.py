@@ -42,6 +42,17 @@ def run_name(special, overrides):
     return f"{readable or 'scene'}.{unique}"
 
 
+def signalled(child, number):
+    """Sends a signal to the group that a process has begun, which may outlive
+    it; whether anybody of it was there. 0 only asks."""
+    child.poll()
+    try:
+        os.killpg(child.pid, number)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 class Runner:
     """Does runs of a scene below a directory, each in a room of its own."""
 
@@ -140,13 +151,10 @@ class Runner:
             self._stopped = True
             children = list(self._children)
         for number, patience in ((signal.SIGTERM, 5.0), (signal.SIGKILL, 1.0)):
-            for child in children:
-                if child.poll() is None:
-                    with contextlib.suppress(ProcessLookupError):
-                        # mpiexec hands the signal on to the ranks
-                        os.killpg(child.pid, number)
+            # mpiexec hands the signal on to the ranks
+            children = [child for child in children if signalled(child, number)]
             end = time.monotonic() + patience
-            while time.monotonic() < end and any(child.poll() is None
+            while time.monotonic() < end and any(signalled(child, 0)
                                                  for child in children):
                 time.sleep(0.05)
 

@@ -18,7 +18,7 @@ namespace Morula
    * of all points of the shape to which its site is the nearest occupied one
    * (ties: lowest site), among the sites of their lattice box and the boxes
    * around it. The volumes then add up to the shape's, to the accuracy of the
-   * sampling (about 1e-5 of the whole on the paper's sphere), instead of one
+   * sampling (5e-5 of the whole at six cells a radius), instead of one
    * lattice box for every site inside. Parts of the shape farther from any
    * site, such as thin spikes, belong to nobody.
    * @param sites    of @p founders, ascending

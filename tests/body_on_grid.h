@@ -115,7 +115,8 @@ namespace Morula
         ++weights[grid.box().number(grid.box().locate(x))];
       grid.partition(weights);
       Occupancy<dim> occupancy(grid.box());
-      if (Utilities::MPI::this_mpi_process(comm) == 0)
+      const bool     first_rank = Utilities::MPI::this_mpi_process(comm) == 0;
+      if (first_rank)
         {
           for (const Point<dim> &x : particles)
             occupancy.add_particle(x, V);
@@ -123,7 +124,11 @@ namespace Morula
             occupancy.add_boundary_point(x);
         }
       occupancy.sum(comm);
-      space.emplace(grid, occupancy, parameters);
+      if (first_rank)
+        for (const Point<dim> &x : particles)
+          occupancy.add_quadrature_points(x, V);
+      occupancy.sum_quadrature_points(comm);
+      space.emplace(grid, std::move(occupancy), parameters);
     }
 
     /** Those of @p points in active grid cells of this rank. */

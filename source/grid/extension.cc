@@ -57,25 +57,32 @@ namespace Morula
     , reached(box.size(), 0)
   {}
 
-  /** Active grid cells within @p radius of the spline's centre that are
-   *  connected, inside this window, to its support. */
+  /** Grid cells with tissue within @p radius of the spline's centre that are
+   *  connected, inside this window, to the copy's support. */
   template <int dim>
   std::vector<unsigned int>
-  ExtensionSearch<dim>::connected(const GridIndex<dim> &spline,
-                                  const int             radius)
+  ExtensionSearch<dim>::connected(const SplineCopy &copy, const int radius)
   {
+    const GridIndex<dim>      center = box.index(copy.spline);
     std::vector<unsigned int> list;
     const auto reach = [&](const unsigned int number, const auto &index) {
       for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(index[d] - spline[d]) > radius)
+        if (std::abs(index[d] - center[d]) > radius)
           return;
-      if (classes[number] != GridCellClass::inactive && !reached[number])
+      if (classes[number] != GridCellClass::empty && !reached[number])
         {
           reached[number] = 1;
           list.push_back(number);
         }
     };
-    box.for_neighbors(spline, 1, reach);
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      if (copy.support & (1u << a))
+        {
+          GridIndex<dim> cell = center;
+          for (unsigned int d = 0; d < dim; ++d)
+            cell[d] += BSpline<dim>::offset(a, d);
+          reach(box.number(cell), cell);
+        }
     for (std::size_t i = 0; i < list.size(); ++i)
       box.for_neighbors(box.index(list[i]), 1, reach);
     for (const unsigned int number : list)
@@ -85,18 +92,19 @@ namespace Morula
 
   template <int dim>
   std::optional<unsigned int>
-  ExtensionSearch<dim>::block(const GridIndex<dim> &spline)
+  ExtensionSearch<dim>::block(const SplineCopy &copy)
   {
+    const GridIndex<dim>        center = box.index(copy.spline);
     std::optional<unsigned int> best;
     double                      best_sum = std::numeric_limits<double>::max();
     std::size_t                 n_before = 0;
     for (int radius = 2;; ++radius)
       {
-        const auto list = connected(spline, radius);
+        const auto list = connected(copy, radius);
         for (const unsigned int number : list)
           if (classes[number] == GridCellClass::inner)
             {
-              const double sum = sum_of_weights(spline, box.index(number));
+              const double sum = sum_of_weights(center, box.index(number));
               if (sum < best_sum || (sum == best_sum && number < *best))
                 {
                   best     = number;

@@ -12,6 +12,17 @@ namespace Morula
   {
     /** Fill in units of 2^-40; a grid cell can be overfull a million times. */
     constexpr double resolution = 1099511627776.;
+
+    /** Thinner than so many cells, tissue counts as one or as two cells thick.
+     */
+    constexpr double one_layer = 1.5, two_layers = 2.5;
+
+    /** Rows are thin whose tissue ends within so many grid spacings. */
+    constexpr double thin_row = 1.5;
+
+    /** Grid cells with so much of the fullest one's volume are about as full.
+     */
+    constexpr double about_equal = 0.8;
   } // namespace
 
   template <int dim>
@@ -21,7 +32,9 @@ namespace Morula
     , points_per_cell(points_per_cell)
     , volumes(box.size(), 0)
     , quadrature_points(box.size(), 0)
-    , others(box.size(), 0)
+    , particles(box.size(), 0)
+    , boundary_points(box.size(), 0)
+    , reaches(box.size() * 2 * dim, 0.f)
   {}
 
   template <int dim>
@@ -41,33 +54,164 @@ namespace Morula
         const Point<dim> corner  = box_.corner(index);
         double           overlap = 1.;
         for (unsigned int d = 0; d < dim; ++d)
-          overlap *= std::max(0.,
-                              std::min(upper[d], corner[d] + box_.spacing()) -
-                                std::max(lower[d], corner[d])) /
-                     box_.spacing();
+          {
+            const double from =
+              std::max(0., (lower[d] - corner[d]) / box_.spacing());
+            const double to =
+              std::min(1., (upper[d] - corner[d]) / box_.spacing());
+            overlap *= std::max(0., to - from);
+            float *const reach = &reaches[(number * dim + d) * 2];
+            reach[0]           = std::max(reach[0], static_cast<float>(to));
+            reach[1] = std::max(reach[1], static_cast<float>(1. - from));
+          }
         volumes[number] += std::llround(overlap * resolution);
       });
-    domain.for_quadrature_points(
-      domain.n_per_direction(box_.spacing(), points_per_cell),
-      [&](const Point<dim> &point) {
-        ++quadrature_points[box_.number(box_.locate(point))];
-      });
-    ++others[box_.number(box_.locate(x))];
+    ++particles[box_.number(box_.locate(x))];
   }
 
   template <int dim>
   void
   Occupancy<dim>::add_boundary_point(const Point<dim> &x)
   {
-    ++others[box_.number(box_.locate(x))];
+    ++boundary_points[box_.number(box_.locate(x))];
   }
 
   template <int dim>
   void
   Occupancy<dim>::sum(const MPI_Comm comm)
   {
-    for (auto *table : {&volumes, &quadrature_points, &others})
+    for (auto *table : {&volumes, &particles, &boundary_points})
       Utilities::MPI::sum(*table, comm, *table);
+    Utilities::MPI::max(reaches, comm, reaches);
+    measure_rows();
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::measure_rows()
+  {
+    thicknesses.assign(box_.size(), 1.f);
+    lengths.assign(box_.size(), 2.f);
+    n_thin.assign(box_.size(), 0);
+    leads.assign(box_.size(), 1);
+    unsigned int              stride = 1;
+    std::vector<unsigned int> row;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        for (unsigned int first = 0; first < box_.size(); ++first)
+          {
+            if (first / stride % box_.n()[d] != 0)
+              continue;
+            for (int i = 0; i <= box_.n()[d]; ++i)
+              {
+                const unsigned int number = first + i * stride;
+                if (i < box_.n()[d] && volumes[number] > 0)
+                  row.push_back(number);
+                else if (!row.empty())
+                  {
+                    measure_row(row, d);
+                    row.clear();
+                  }
+              }
+          }
+        stride *= box_.n()[d];
+      }
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::measure_row(const std::vector<unsigned int> &row,
+                              const unsigned int               direction)
+  {
+    std::int64_t sum = 0, largest = 0;
+    for (const unsigned int number : row)
+      {
+        sum += volumes[number];
+        if (leads[number])
+          largest = std::max(largest, volumes[number]);
+      }
+    const float thickness  = sum / resolution / cross_section(row, direction);
+    const float row_length = length(row, direction);
+    bool        led        = false;
+    for (const unsigned int number : row)
+      {
+        thicknesses[number] = std::min(thicknesses[number], thickness);
+        if (!(row_length < thin_row))
+          continue;
+        lengths[number] = std::min(lengths[number], row_length);
+        ++n_thin[number];
+        leads[number] =
+          leads[number] && !led && volumes[number] >= about_equal * largest;
+        led = led || leads[number];
+      }
+  }
+
+  /** From the first to the last tissue in a row, by h. */
+  template <int dim>
+  double
+  Occupancy<dim>::length(const std::vector<unsigned int> &row,
+                         const unsigned int               direction) const
+  {
+    return reaches[(row.back() * dim + direction) * 2] +
+           reaches[(row.front() * dim + direction) * 2 + 1] + row.size() - 2.;
+  }
+
+  template <int dim>
+  double
+  Occupancy<dim>::cross_section(const std::vector<unsigned int> &row,
+                                const unsigned int direction) const
+  {
+    double area = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != direction)
+        {
+          float up = 0.f, down = 0.f;
+          for (const unsigned int number : row)
+            {
+              up   = std::max(up, reaches[(number * dim + d) * 2]);
+              down = std::max(down, reaches[(number * dim + d) * 2 + 1]);
+            }
+          area *= up + down - 1.;
+        }
+    return area;
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::add_quadrature_points(const Point<dim> &x, const double V)
+  {
+    ParticleDomain<dim>(x, V).for_quadrature_points(
+      n_points_per_direction(x, V), [&](const Point<dim> &point) {
+        ++quadrature_points[box_.number(box_.locate(point))];
+      });
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::sum_quadrature_points(const MPI_Comm comm)
+  {
+    Utilities::MPI::sum(quadrature_points, comm, quadrature_points);
+  }
+
+  template <int dim>
+  unsigned int
+  Occupancy<dim>::n_points_per_direction(const Point<dim> &x,
+                                         const double      V) const
+  {
+    const unsigned int number = box_.number(box_.locate(x));
+    const double       side   = std::pow(V, 1. / dim);
+    const bool         rod    = n_thin[number] > 1; // or a cluster
+    const auto         below  = [&](const double n_layers) {
+      // Most are thick: the neighbours are not looked at.
+      return thicknesses[number] * box_.spacing() < n_layers * side &&
+             thickness(number) < n_layers * side;
+    };
+    unsigned int least = points_per_cell;
+    if (below(one_layer))
+      least = std::max(rod ? 3u : 2u, least);
+    else if (rod && below(two_layers))
+      least = std::max(2u, least);
+    return ParticleDomain<dim>(x, V).n_per_direction(box_.spacing(), least);
   }
 
   template <int dim>
@@ -75,6 +219,57 @@ namespace Morula
   Occupancy<dim>::fill(const unsigned int number) const
   {
     return volumes[number] / resolution;
+  }
+
+  template <int dim>
+  double
+  Occupancy<dim>::thickness(const unsigned int number) const
+  {
+    return largest_around(thicknesses, number) * box_.spacing();
+  }
+
+  template <int dim>
+  bool
+  Occupancy<dim>::is_thin(const unsigned int number) const
+  {
+    return n_thin[number] > 0 && largest_around(lengths, number) < thin_row;
+  }
+
+  /** Of a grid cell and its neighbours with tissue. */
+  template <int dim>
+  float
+  Occupancy<dim>::largest_around(const std::vector<float> &values,
+                                 const unsigned int        number) const
+  {
+    float largest = values[number];
+    box_.for_neighbors(box_.index(number),
+                       1,
+                       [&](const unsigned int neighbor, const auto &) {
+                         if (volumes[neighbor] > 0)
+                           largest = std::max(largest, values[neighbor]);
+                       });
+    return largest;
+  }
+
+  template <int dim>
+  std::pair<Point<dim>, Point<dim>>
+  Occupancy<dim>::bounds(const unsigned int number) const
+  {
+    Point<dim> lower = box_.corner(box_.index(number)), upper = lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const float *const reach = &reaches[(number * dim + d) * 2];
+        upper[d] += reach[0] * box_.spacing();
+        lower[d] += (1. - reach[1]) * box_.spacing();
+      }
+    return {lower, upper};
+  }
+
+  template <int dim>
+  std::uint64_t
+  Occupancy<dim>::n_particles(const unsigned int number) const
+  {
+    return particles[number];
   }
 
   template <int dim>
@@ -88,7 +283,15 @@ namespace Morula
   bool
   Occupancy<dim>::active(const unsigned int number) const
   {
-    return quadrature_points[number] > 0 || others[number] > 0;
+    return quadrature_points[number] > 0 || particles[number] > 0 ||
+           boundary_points[number] > 0;
+  }
+
+  template <int dim>
+  bool
+  Occupancy<dim>::leads_thin_rows(const unsigned int number) const
+  {
+    return leads[number];
   }
 
   template <int dim>
@@ -98,35 +301,6 @@ namespace Morula
     return box_;
   }
 
-  template <int dim>
-  std::vector<GridCellClass>
-  classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
-  {
-    const GridBox<dim>        &box = occupancy.box();
-    std::vector<GridCellClass> classes(box.size(), GridCellClass::inactive);
-    for (unsigned int number = 0; number < box.size(); ++number)
-      {
-        if (!occupancy.active(number))
-          continue;
-        double largest = 0.;
-        box.for_neighbors(box.index(number),
-                          1,
-                          [&](const unsigned int neighbor, const auto &) {
-                            largest =
-                              std::max(largest, occupancy.fill(neighbor));
-                          });
-        const double threshold = occupation_parameter * std::min(1., largest);
-        const bool   inner     = occupancy.fill(number) >= threshold - 1e-9 &&
-                           occupancy.n_quadrature_points(number) >= (1u << dim);
-        classes[number] = inner ? GridCellClass::inner : GridCellClass::cut;
-      }
-    return classes;
-  }
-
   template class Occupancy<2>;
   template class Occupancy<3>;
-  template std::vector<GridCellClass>
-  classify(const Occupancy<2> &, const double);
-  template std::vector<GridCellClass>
-  classify(const Occupancy<3> &, const double);
 } // namespace Morula

@@ -14,34 +14,16 @@ namespace Morula
   {
     constexpr unsigned int none = numbers::invalid_unsigned_int;
 
-    /** Disjoint sets; the representative is the smallest member. */
-    class DisjointSets
+    /** Coordinates of the grid cell that spline @p a of a grid cell is centred
+     *  on. */
+    template <int dim>
+    GridIndex<dim>
+    neighbor(GridIndex<dim> index, const unsigned int a)
     {
-    public:
-      explicit DisjointSets(const unsigned int n)
-        : parents(n)
-      {
-        std::iota(parents.begin(), parents.end(), 0u);
-      }
-
-      unsigned int
-      find(unsigned int i)
-      {
-        while (parents[i] != i)
-          i = parents[i] = parents[parents[i]];
-        return i;
-      }
-
-      void
-      unite(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = find(i), b = find(j);
-        parents[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::vector<unsigned int> parents;
-    };
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] += BSpline<dim>::offset(a, d);
+      return index;
+    }
 
     /** Expands spline numbers to degrees of freedom. */
     IndexSet
@@ -59,96 +41,82 @@ namespace Morula
 
   template <int dim>
   SplineSpace<dim>::SplineSpace(const BackgroundGrid<dim> &grid,
-                                const Occupancy<dim>      &occupancy,
+                                Occupancy<dim>             occupancy,
                                 const GridParameters      &parameters)
-    : box_(occupancy.box())
+    : occupancy_(std::move(occupancy))
+    , box_(occupancy_.box())
     , extend(parameters.extension)
-    , classes(classify(occupancy, parameters.occupation_parameter))
+    , classes(classify(occupancy_, parameters.occupation_parameter))
+    , copies(box_, classes)
   {
-    find_kinds();
-    find_pieces();
     if (extend)
-      find_affine_fields();
+      find_small_pieces();
+    n_active = std::count_if(classes.begin(), classes.end(), is_active);
+    n_inner =
+      std::count_if(copies.list().begin(),
+                    copies.list().end(),
+                    [&](const SplineCopy &copy) {
+                      return copy.inner && small_pieces.count(copy.piece) == 0;
+                    });
+    n_outer = copies.list().size() - n_inner;
     number_unknowns(grid);
     express_cells(grid);
+    find_relevant();
   }
 
   template <int dim>
-  void
-  SplineSpace<dim>::find_kinds()
+  std::vector<typename SplineSpace<dim>::Extent>
+  SplineSpace<dim>::extents() const
   {
-    kinds.assign(box_.size(), Kind::inactive);
+    std::vector<Extent> list(copies.n_pieces());
     for (unsigned int number = 0; number < box_.size(); ++number)
-      if (classes[number] != GridCellClass::inactive)
+      if (is_active(classes[number]))
         {
-          ++n_active;
-          const Kind kind =
-            classes[number] == GridCellClass::inner ? Kind::inner : Kind::outer;
-          box_.for_neighbors(box_.index(number),
-                             1,
-                             [&](const unsigned int spline, const auto &) {
-                               kinds[spline] = std::max(kinds[spline], kind);
-                             });
+          Extent              &extent = list[copies.piece(number)];
+          const GridIndex<dim> index  = box_.index(number);
+          const auto [lower, upper]   = occupancy_.bounds(number);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              extent.lower[d] = extent.n_cells == 0 ?
+                                  lower[d] :
+                                  std::min(extent.lower[d], lower[d]);
+              extent.upper[d] = extent.n_cells == 0 ?
+                                  upper[d] :
+                                  std::max(extent.upper[d], upper[d]);
+            }
+          extent.inner |= classes[number] == GridCellClass::inner;
+          extent.n_particles += occupancy_.n_particles(number);
+          extent.sum_of_centers += box_.center(index) - Point<dim>();
+          ++extent.n_cells;
         }
-    n_inner = std::count(kinds.begin(), kinds.end(), Kind::inner);
-    n_outer = std::count(kinds.begin(), kinds.end(), Kind::outer);
+    return list;
   }
 
   template <int dim>
   void
-  SplineSpace<dim>::find_pieces()
+  SplineSpace<dim>::find_small_pieces()
   {
-    DisjointSets sharing(box_.size()), touching(box_.size());
-    for (unsigned int spline = 0; spline < box_.size(); ++spline)
+    const std::vector<Extent> list = extents();
+    for (unsigned int piece = 0; piece < list.size(); ++piece)
       {
-        if (kinds[spline] == Kind::inactive)
-          continue;
-        const bool   center_active = classes[spline] != GridCellClass::inactive;
-        unsigned int first         = none;
-        box_.for_neighbors(box_.index(spline),
-                           1,
-                           [&](const unsigned int number, const auto &) {
-                             if (classes[number] == GridCellClass::inactive)
-                               return;
-                             if (first == none)
-                               first = number;
-                             sharing.unite(first, number);
-                             if (center_active)
-                               touching.unite(spline, number);
-                           });
+        const Extent &extent  = list[piece];
+        double        largest = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          largest = std::max(largest, extent.upper[d] - extent.lower[d]);
+        const bool few = extent.n_particles < BSpline<dim>::n;
+        if (!extent.inner || largest < (few ? 2. : 1.) * box_.spacing())
+          small_pieces[piece] = {Point<dim>(extent.sum_of_centers /
+                                            extent.n_cells),
+                                 !few && largest < box_.spacing(),
+                                 none};
       }
-    pieces.assign(box_.size(), none);
-    components.assign(box_.size(), none);
-    for (unsigned int number = 0; number < box_.size(); ++number)
-      if (classes[number] != GridCellClass::inactive)
-        {
-          const unsigned int root = sharing.find(number);
-          // The root is the smallest member, so it comes first.
-          pieces[number]     = root == number ? n_pieces_++ : pieces[root];
-          components[number] = touching.find(number);
-        }
   }
 
   template <int dim>
-  void
-  SplineSpace<dim>::find_affine_fields()
+  bool
+  SplineSpace<dim>::is_unknown(const SplineCopy &copy) const
   {
-    std::vector<char> has_inner(box_.size(), 0);
-    for (unsigned int number = 0; number < box_.size(); ++number)
-      if (classes[number] == GridCellClass::inner)
-        has_inner[components[number]] = 1;
-    std::map<unsigned int, unsigned int> sizes;
-    for (unsigned int number = 0; number < box_.size(); ++number)
-      if (classes[number] != GridCellClass::inactive &&
-          !has_inner[components[number]])
-        {
-          AffineField &field = affine_fields[components[number]];
-          field.lowest_cell  = components[number];
-          field.center += box_.center(box_.index(number)) - Point<dim>();
-          ++sizes[components[number]];
-        }
-    for (auto &[component, field] : affine_fields)
-      field.center /= sizes[component];
+    return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
   }
 
   template <int dim>
@@ -159,17 +127,14 @@ namespace Morula
       Utilities::MPI::n_mpi_processes(grid.communicator());
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
-    const auto is_unknown = [&](const unsigned int spline) {
-      return kinds[spline] == Kind::inner ||
-             (!extend && kinds[spline] == Kind::outer);
-    };
+    const auto &list = copies.list();
 
     std::vector<unsigned int> next(n_ranks + 1, 0);
-    for (unsigned int spline = 0; spline < box_.size(); ++spline)
-      if (is_unknown(spline))
-        ++next[grid.owner(spline) + 1];
-    for (const auto &[component, field] : affine_fields)
-      next[grid.owner(field.lowest_cell) + 1] += dim + 1;
+    for (const SplineCopy &copy : list)
+      if (is_unknown(copy))
+        ++next[grid.owner(copy.spline) + 1];
+    for (const auto &[piece, field] : small_pieces)
+      next[grid.owner(copies.lowest_cell(piece)) + 1] += field.n_unknowns();
     std::partial_sum(next.begin(), next.end(), next.begin());
 
     n_splines = next[n_ranks];
@@ -177,64 +142,65 @@ namespace Morula
     owned_.add_range(next[rank], next[rank + 1]);
     owned_dofs_ = times_dim(owned_, dim);
 
-    numbers.assign(box_.size(), none);
-    for (unsigned int spline = 0; spline < box_.size(); ++spline)
-      if (is_unknown(spline))
-        numbers[spline] = next[grid.owner(spline)]++;
-    for (auto &[component, field] : affine_fields)
-      {
-        unsigned int &first = next[grid.owner(field.lowest_cell)];
-        field.first_unknown = first;
-        first += dim + 1;
-      }
-
     pieces_of_unknowns_.resize(owned_.n_elements());
-    for (unsigned int spline = 0; spline < box_.size(); ++spline)
-      if (numbers[spline] != none && owned_.is_element(numbers[spline]))
-        pieces_of_unknowns_[owned_.index_within_set(numbers[spline])] =
-          piece_of_spline(spline);
-    for (const auto &[component, field] : affine_fields)
-      for (unsigned int k = 0; k <= dim; ++k)
-        if (owned_.is_element(field.first_unknown + k))
-          pieces_of_unknowns_[owned_.index_within_set(field.first_unknown +
-                                                      k)] = pieces[component];
+    const auto set_piece = [&](const unsigned int number,
+                               const unsigned int piece) {
+      if (owned_.is_element(number))
+        pieces_of_unknowns_[owned_.index_within_set(number)] = piece;
+    };
+    numbers.assign(list.size(), none);
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (is_unknown(list[c]))
+        {
+          numbers[c] = next[grid.owner(list[c].spline)]++;
+          set_piece(numbers[c], list[c].piece);
+        }
+    for (auto &[piece, field] : small_pieces)
+      {
+        unsigned int &first = next[grid.owner(copies.lowest_cell(piece))];
+        field.first_unknown = first;
+        for (unsigned int k = 0; k < field.n_unknowns(); ++k)
+          set_piece(first++, piece);
+      }
   }
 
   template <int dim>
-  std::vector<std::pair<unsigned int, double>>
-  SplineSpace<dim>::expression(const unsigned int    spline,
+  typename SplineSpace<dim>::Terms
+  SplineSpace<dim>::expression(const unsigned int    c,
                                ExtensionSearch<dim> &search) const
   {
-    if (numbers[spline] != none)
-      return {{numbers[spline], 1.}};
+    if (numbers[c] != none)
+      return {{numbers[c], 1.}};
 
-    std::vector<std::pair<unsigned int, double>> terms;
-    const GridIndex<dim>                         index = box_.index(spline);
-    if (const auto block = search.block(index))
+    const SplineCopy    &copy  = copies.list()[c];
+    const GridIndex<dim> index = box_.index(copy.spline);
+    Terms                terms;
+    if (const auto found = small_pieces.find(copy.piece);
+        found != small_pieces.end())
       {
-        const GridIndex<dim> inner   = box_.index(*block);
-        const auto           weights = extension_weights(index, inner);
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          {
-            GridIndex<dim> neighbor = inner;
-            for (unsigned int d = 0; d < dim; ++d)
-              neighbor[d] += BSpline<dim>::offset(a, d);
-            if (weights[a] != 0.)
-              terms.emplace_back(numbers[box_.number(neighbor)], weights[a]);
-          }
+        const PolynomialField &field = found->second;
+        const Tensor<1, dim>   xi =
+          (box_.center(index) - field.center) / box_.spacing();
+        unsigned int unknown = field.first_unknown;
+        terms.emplace_back(unknown++, 1.);
+        for (unsigned int d = 0; d < dim; ++d)
+          terms.emplace_back(unknown++, xi[d]);
+        // The splines' coefficients of ξ² are those of the centres less 1/4.
+        if (field.quadratic)
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = d; e < dim; ++e)
+              terms.emplace_back(unknown++,
+                                 xi[d] * xi[e] - (d == e ? 0.25 : 0.));
         return terms;
       }
-
-    unsigned int component = none;
-    box_.for_neighbors(index, 1, [&](const unsigned int number, const auto &) {
-      component = std::min(component, components[number]);
-    });
-    const AffineField   &field    = affine_fields.at(component);
-    const Tensor<1, dim> distance = box_.center(index) - field.center;
-    terms.emplace_back(field.first_unknown, 1.);
-    for (unsigned int d = 0; d < dim; ++d)
-      terms.emplace_back(field.first_unknown + 1 + d,
-                         distance[d] / box_.spacing());
+    const auto block = search.block(copy);
+    AssertThrow(block.has_value(), ExcInternalError());
+    const GridIndex<dim> inner   = box_.index(*block);
+    const auto           weights = extension_weights(index, inner);
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      if (weights[a] != 0.)
+        terms.emplace_back(numbers[copies.at(neighbor(inner, a), inner)],
+                           weights[a]);
     return terms;
   }
 
@@ -242,67 +208,71 @@ namespace Morula
   void
   SplineSpace<dim>::express_cells(const BackgroundGrid<dim> &grid)
   {
-    constexpr unsigned int n = BSpline<dim>::n;
-    const unsigned int     rank =
+    const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
-
-    using Terms = std::vector<std::pair<unsigned int, double>>;
     ExtensionSearch<dim>          search(box_, classes);
     std::map<unsigned int, Terms> outer; // many grid cells share a spline
-    const auto                    terms_of = [&](const unsigned int spline) {
-      if (numbers[spline] != none)
-        return Terms{{numbers[spline], 1.}};
-      auto found = outer.find(spline);
+    const auto                    terms_of = [&](const unsigned int copy) {
+      if (numbers[copy] != none)
+        return Terms{{numbers[copy], 1.}};
+      auto found = outer.find(copy);
       if (found == outer.end())
-        found = outer.emplace(spline, expression(spline, search)).first;
+        found = outer.emplace(copy, expression(copy, search)).first;
       return found->second;
     };
-
-    std::vector<types::global_dof_index>   used;
-    std::vector<std::vector<unsigned int>> unknowns; // global numbers
     for (unsigned int number = 0; number < box_.size(); ++number)
+      if (is_active(classes[number]) && grid.owner(number) == rank)
+        {
+          const GridIndex<dim> index = box_.index(number);
+          std::vector<Terms>   rows;
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            rows.push_back(terms_of(copies.at(neighbor(index, a), index)));
+          add_cell(number, rows);
+        }
+  }
+
+  template <int dim>
+  void
+  SplineSpace<dim>::add_cell(const unsigned int        number,
+                             const std::vector<Terms> &rows)
+  {
+    constexpr unsigned int    n = BSpline<dim>::n;
+    std::vector<unsigned int> columns;
+    bool                      plain = true;
+    for (unsigned int a = 0; a < n; ++a)
       {
-        if (classes[number] == GridCellClass::inactive ||
-            grid.owner(number) != rank)
-          continue;
-        std::vector<Terms> rows;
-        box_.for_neighbors(box_.index(number),
-                           1,
-                           [&](const unsigned int spline, const auto &) {
-                             rows.push_back(terms_of(spline));
-                           });
-        AssertDimension(rows.size(), n);
-
-        std::vector<unsigned int> columns;
-        bool                      plain = true;
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            for (const auto &[unknown, weight] : rows[a])
-              columns.push_back(unknown);
-            plain = plain && rows[a].size() == 1 &&
-                    (a == 0 || columns[a] > columns[a - 1]);
-          }
-        std::sort(columns.begin(), columns.end());
-        columns.erase(std::unique(columns.begin(), columns.end()),
-                      columns.end());
-
-        Cell cell;
-        cell.number = number;
-        if (!plain)
-          {
-            cell.weights.assign(n * columns.size(), 0.);
-            for (unsigned int a = 0; a < n; ++a)
-              for (const auto &[unknown, weight] : rows[a])
-                cell.weights[a * columns.size() +
-                             (std::lower_bound(
-                                columns.begin(), columns.end(), unknown) -
-                              columns.begin())] += weight;
-          }
-        used.insert(used.end(), columns.begin(), columns.end());
-        unknowns.push_back(std::move(columns));
-        cells_.push_back(std::move(cell));
+        for (const auto &[unknown, weight] : rows[a])
+          columns.push_back(unknown);
+        plain = plain && rows[a].size() == 1 &&
+                (a == 0 || columns[a] > columns[a - 1]);
       }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 
+    Cell cell;
+    cell.number = number;
+    if (!plain)
+      {
+        cell.weights.assign(n * columns.size(), 0.);
+        for (unsigned int a = 0; a < n; ++a)
+          for (const auto &[unknown, weight] : rows[a])
+            cell.weights[a * columns.size() + (std::lower_bound(columns.begin(),
+                                                                columns.end(),
+                                                                unknown) -
+                                               columns.begin())] += weight;
+      }
+    cell.unknowns = std::move(columns);
+    cells_.push_back(std::move(cell));
+  }
+
+  /** Makes positions in relevant() of the cells' global unknowns. */
+  template <int dim>
+  void
+  SplineSpace<dim>::find_relevant()
+  {
+    std::vector<types::global_dof_index> used;
+    for (const Cell &cell : cells_)
+      used.insert(used.end(), cell.unknowns.begin(), cell.unknowns.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     relevant_ = IndexSet(n_splines);
@@ -310,22 +280,9 @@ namespace Morula
     relevant_.add_indices(owned_);
     relevant_.compress();
     relevant_dofs_ = times_dim(relevant_, dim);
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      for (const unsigned int unknown : unknowns[c])
-        cells_[c].unknowns.push_back(relevant_.index_within_set(unknown));
-  }
-
-  template <int dim>
-  unsigned int
-  SplineSpace<dim>::piece_of_spline(const unsigned int spline) const
-  {
-    unsigned int piece = none;
-    box_.for_neighbors(box_.index(spline),
-                       1,
-                       [&](const unsigned int number, const auto &) {
-                         piece = std::min(piece, pieces[number]);
-                       });
-    return piece;
+    for (Cell &cell : cells_)
+      for (unsigned int &unknown : cell.unknowns)
+        unknown = relevant_.index_within_set(unknown);
   }
 
   template <int dim>
@@ -340,16 +297,18 @@ namespace Morula
       if (!owned_.is_element(unknown))
         return;
       const unsigned int local = owned_.index_within_set(unknown);
-      if (pieces_of_unknowns_[local] == piece)
-        for (unsigned int d = 0; d < dim; ++d)
-          coefficients[local * dim + d] = value[d];
+      for (unsigned int d = 0; d < dim; ++d)
+        coefficients[local * dim + d] = value[d];
     };
-    for (unsigned int spline = 0; spline < box_.size(); ++spline)
-      if (numbers[spline] != none)
-        set(numbers[spline],
-            a + A * (box_.center(box_.index(spline)) - Point<dim>()));
-    for (const auto &[component, field] : affine_fields)
+    for (unsigned int c = 0; c < numbers.size(); ++c)
+      if (numbers[c] != none && copies.list()[c].piece == piece)
+        set(numbers[c],
+            a + A * (box_.center(box_.index(copies.list()[c].spline)) -
+                     Point<dim>()));
+    if (const auto found = small_pieces.find(piece);
+        found != small_pieces.end())
       {
+        const PolynomialField &field = found->second;
         set(field.first_unknown, a + A * (field.center - Point<dim>()));
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -436,14 +395,14 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::piece(const unsigned int number) const
   {
-    return pieces[number];
+    return copies.piece(number);
   }
 
   template <int dim>
   unsigned int
   SplineSpace<dim>::n_pieces() const
   {
-    return n_pieces_;
+    return copies.n_pieces();
   }
 
   template <int dim>
@@ -451,6 +410,13 @@ namespace Morula
   SplineSpace<dim>::box() const
   {
     return box_;
+  }
+
+  template <int dim>
+  const Occupancy<dim> &
+  SplineSpace<dim>::occupancy() const
+  {
+    return occupancy_;
   }
 
   template class SplineSpace<2>;

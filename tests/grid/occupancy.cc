@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/occupancy.h>
+#include <morula/grid/classification.h>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,40 @@ namespace
     first.fill(-n / 2);
     size.fill(n);
     return GridBox<dim>(first, size, h, Point<dim>());
+  }
+
+  /** Positions and volumes (µm^dim). */
+  template <int dim>
+  using Particles = std::vector<std::pair<Point<dim>, double>>;
+
+  template <int dim>
+  Particles<dim>
+  of_volume(const std::vector<Point<dim>> &points, const double V)
+  {
+    Particles<dim> particles;
+    for (const Point<dim> &x : points)
+      particles.emplace_back(x, V);
+    return particles;
+  }
+
+  /** Both rounds, of what this rank adds. */
+  template <int dim>
+  Occupancy<dim>
+  occupancy_of(const GridBox<dim>            &box,
+               const Particles<dim>          &particles,
+               const std::vector<Point<dim>> &boundary = {},
+               const MPI_Comm                 comm     = MPI_COMM_SELF)
+  {
+    Occupancy<dim> occupancy(box);
+    for (const auto &[x, V] : particles)
+      occupancy.add_particle(x, V);
+    for (const Point<dim> &x : boundary)
+      occupancy.add_boundary_point(x);
+    occupancy.sum(comm);
+    for (const auto &[x, V] : particles)
+      occupancy.add_quadrature_points(x, V);
+    occupancy.sum_quadrature_points(comm);
+    return occupancy;
   }
 
   template <int dim>
@@ -85,19 +119,18 @@ namespace
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
     const GridBox<dim> box  = cube<dim>(8, 50.);
     std::mt19937       generator(4);
-    std::vector<std::pair<Point<dim>, double>> cells;
+    Particles<dim>     cells;
     for (unsigned int i = 0; i < 3000; ++i)
       {
         Point<dim> x(150. * random_tensor<1, dim>(generator));
         cells.emplace_back(x, std::pow(5. + generator() % 20, dim));
       }
-    Occupancy<dim> alone(box), together(box);
-    for (const auto &[x, V] : cells)
-      alone.add_particle(x, V);
+    const Occupancy<dim> alone = occupancy_of(box, cells);
     std::shuffle(cells.begin(), cells.end(), generator);
+    Particles<dim> mine;
     for (std::size_t i = rank; i < cells.size(); i += n_ranks)
-      together.add_particle(cells[i].first, cells[i].second);
-    together.sum(MPI_COMM_WORLD);
+      mine.push_back(cells[i]);
+    const Occupancy<dim> together = occupancy_of(box, mine, {}, MPI_COMM_WORLD);
     EXPECT_EQ(fills(alone), fills(together)); // bitwise
     EXPECT_EQ(classify(alone, 0.85), classify(together, 0.85));
     for (unsigned int number = 0; number < box.size(); ++number)
@@ -112,14 +145,14 @@ namespace
                const double        thickness,
                const double        C_C)
   {
-    const double   spacing = 5.;
-    Occupancy<dim> occupancy(box);
-    for (const auto &x :
-         lattice_points<dim>(Point<dim>(), 100., spacing, [&](const auto &x) {
-           return x[0] > 0. && x[0] < thickness;
-         }))
-      occupancy.add_particle(x, std::pow(spacing, dim));
-    return classify(occupancy, C_C);
+    const double spacing = 5.;
+    const auto   points =
+      lattice_points<dim>(Point<dim>(), 100., spacing, [&](const auto &x) {
+        return x[0] > 0. && x[0] < thickness;
+      });
+    return classify(occupancy_of(box,
+                                 of_volume(points, std::pow(spacing, dim))),
+                    C_C);
   }
 
   template <int dim>
@@ -137,7 +170,7 @@ namespace
         EXPECT_EQ(classes[box.number(full)], GridCellClass::inner);
         EXPECT_EQ(classes[box.number(part)],
                   fill > 0.85 ? GridCellClass::inner : GridCellClass::cut);
-        EXPECT_EQ(classes[box.number(empty)], GridCellClass::inactive);
+        EXPECT_EQ(classes[box.number(empty)], GridCellClass::empty);
       }
     // Exactly the threshold is inner.
     EXPECT_EQ(slab_classes<dim>(box, 50. * 1.8, 0.8)[box.number(part)],
@@ -147,32 +180,124 @@ namespace
               GridCellClass::inner);
   }
 
+  /** @p n particles of 20 µm along the diagonal of the grid. */
+  template <int dim>
+  Particles<dim>
+  diagonal(const unsigned int n, const double start)
+  {
+    Particles<dim> particles;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = start + i;
+        particles.emplace_back(x, std::pow(20., dim));
+      }
+    return particles;
+  }
+
   template <int dim>
   void
   check_few_points()
   {
-    const GridBox<dim> box = cube<dim>(8, 50.);
+    const GridBox<dim>   box = cube<dim>(10, 50.);
+    const GridIndex<dim> middle{};
+    Point<dim>           boundary_point;
+    for (unsigned int d = 0; d < dim; ++d)
+      boundary_point[d] = -180.;
+    const auto class_of_middle = [&](const Particles<dim> &particles) {
+      const auto occupancy = occupancy_of(box, particles, {boundary_point});
+      const auto classes   = classify(occupancy, 0.01);
+      const auto beside    = box.number(box.locate(boundary_point));
+      EXPECT_TRUE(occupancy.active(beside));
+      EXPECT_EQ(classes[beside], GridCellClass::cut);
+      return classes[box.number(middle)];
+    };
+    // 3^dim points in the grid cell and its neighbours ...
+    const unsigned int enough = Utilities::pow(3, dim);
+    EXPECT_EQ(class_of_middle(diagonal<dim>(enough, 15.)),
+              GridCellClass::inner);
+    EXPECT_EQ(class_of_middle(diagonal<dim>(enough - 1, 15.)),
+              GridCellClass::cut);
+    // ... of which it holds itself 2^dim, beside a large body.
+    const auto body =
+      lattice_points<dim>(Point<dim>(), 100., 20., [](const auto &x) {
+        return x[0] < 0.;
+      });
     const unsigned int few = Utilities::pow(2, dim);
     for (const unsigned int n : {few - 1, few})
       {
-        Occupancy<dim> occupancy(box);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            Point<dim> x;
-            for (unsigned int d = 0; d < dim; ++d)
-              x[d] = 25. + i;
-            occupancy.add_particle(x, std::pow(10., dim)); // one point each
-          }
-        Point<dim> boundary_point;
-        for (unsigned int d = 0; d < dim; ++d)
-          boundary_point[d] = -30.;
-        occupancy.add_boundary_point(boundary_point);
-        const auto classes = classify(occupancy, 0.5);
-        EXPECT_EQ(classes[box.number(GridIndex<dim>{})],
+        Particles<dim> particles = of_volume(body, std::pow(20., dim));
+        for (const auto &particle : diagonal<dim>(n, 30.))
+          particles.push_back(particle);
+        EXPECT_EQ(class_of_middle(particles),
                   n == few ? GridCellClass::inner : GridCellClass::cut);
-        const auto beside = box.number(box.locate(boundary_point));
-        EXPECT_TRUE(occupancy.active(beside));
-        EXPECT_EQ(classes[beside], GridCellClass::cut);
+      }
+  }
+
+  /** Thin sheets and small clusters have inner grid cells on one side only of
+   *  the grid line that they stand on. */
+  template <int dim>
+  void
+  check_thin()
+  {
+    const GridBox<dim> box = cube<dim>(8, 50.);
+    for (unsigned int n_thin = 1; n_thin <= dim; ++n_thin)
+      {
+        SCOPED_TRACE(std::to_string(n_thin) + " thin directions");
+        const auto points =
+          lattice_points<dim>(Point<dim>(), 150., 5., [&](const auto &x) {
+            for (unsigned int d = 0; d < dim; ++d)
+              if (std::abs(x[d]) > (d < n_thin ? 15. : 150.))
+                return false;
+            return true;
+          });
+        const auto occupancy =
+          occupancy_of(box, of_volume(points, std::pow(5., dim)));
+        const auto classes = classify(occupancy, 0.85);
+        for (unsigned int number = 0; number < box.size(); ++number)
+          {
+            const GridIndex<dim> index  = box.index(number);
+            bool                 tissue = true, first = true;
+            for (unsigned int d = 0; d < n_thin; ++d)
+              {
+                tissue = tissue && (index[d] == -1 || index[d] == 0);
+                first  = first && index[d] == -1;
+              }
+            for (unsigned int d = n_thin; d < dim; ++d)
+              tissue = tissue && index[d] >= -3 && index[d] < 3;
+            EXPECT_EQ(classes[number],
+                      !tissue ? GridCellClass::empty :
+                      first   ? GridCellClass::inner :
+                                GridCellClass::cut);
+            if (tissue)
+              {
+                EXPECT_NEAR(occupancy.thickness(number), 30., 1e-4);
+              }
+          }
+      }
+  }
+
+  /** A sheet of one layer of cells has two points per direction in each. */
+  template <int dim>
+  void
+  check_one_layer()
+  {
+    const GridBox<dim> box = cube<dim>(8, 50.);
+    for (const unsigned int n_layers : {1u, 2u})
+      {
+        const auto points =
+          lattice_points<dim>(Point<dim>(), 150., 10., [&](const auto &x) {
+            return x[0] > 0. && x[0] < 10. * n_layers &&
+                   std::abs(x[1]) < 150. && std::abs(x[dim - 1]) < 150.;
+          });
+        const double V         = std::pow(10., dim);
+        const auto   occupancy = occupancy_of(box, of_volume(points, V));
+        EXPECT_EQ(occupancy.n_points_per_direction(points.front(), V),
+                  n_layers == 1 ? 2u : 1u);
+        EXPECT_EQ(occupancy.n_quadrature_points(box.number(GridIndex<dim>{})),
+                  n_layers * Utilities::pow(5, dim - 1) *
+                    (n_layers == 1 ? Utilities::pow(2, dim) : 1));
       }
   }
 
@@ -185,13 +310,13 @@ namespace
     const GridBox<dim> box = cube<dim>(16, h);
     for (const double spacing : {60., 75., 110.})
       {
-        Occupancy<dim> occupancy(box);
-        for (const auto &x :
-             lattice_points<dim>(Point<dim>(), 220., spacing, [](const auto &) {
-               return true;
-             }))
-          occupancy.add_particle(x, std::pow(spacing, dim));
-        const auto classes = classify(occupancy, 0.85);
+        const auto points =
+          lattice_points<dim>(Point<dim>(), 220., spacing, [](const auto &) {
+            return true;
+          });
+        const auto classes =
+          classify(occupancy_of(box, of_volume(points, std::pow(spacing, dim))),
+                   0.85);
         for (unsigned int number = 0; number < box.size(); ++number)
           {
             bool interior = true;
@@ -223,7 +348,15 @@ TEST(Occupancy,
      InnerGridCellsAreFullEnough){MORULA_BOTH_DIMENSIONS(check_threshold)}
 
 
-TEST(Occupancy, InnerGridCellsHoldEnoughPoints)
+TEST(Occupancy,
+     InnerGridCellsHoldEnoughPoints){MORULA_BOTH_DIMENSIONS(check_few_points)}
+
+
+TEST(Occupancy, ThinTissueHasInnerGridCellsOnOneSideOfAGridLine){
+  MORULA_BOTH_DIMENSIONS(check_thin)}
+
+
+TEST(Occupancy, CellsOfASingleLayerHaveSeveralPoints)
 {
-  MORULA_BOTH_DIMENSIONS(check_few_points)
+  MORULA_BOTH_DIMENSIONS(check_one_layer)
 }

@@ -340,16 +340,18 @@ namespace
   }
 
   /** Two blocks of full grid cells with @p gap empty layers between them. */
-  unsigned int
-  pieces_with_gap(const int gap)
+  BodyOnGrid<2>
+  blocks_with_gap(const int gap, const bool joined = false)
   {
     const auto points =
-      lattice_points<2>(Point<2>(), 10. * h, h / 4., [&](const Point<2> &x) {
-        return x[1] > 0. && x[1] < 2. * h &&
-               ((x[0] > -3. * h && x[0] < 0.) ||
-                (x[0] > gap * h && x[0] < (gap + 3) * h));
+      lattice_points<2>(Point<2>(), 12. * h, h / 4., [&](const Point<2> &x) {
+        const bool between = x[0] > -3. * h && x[0] < (gap + 3) * h;
+        return (x[1] > 0. && x[1] < 3. * h &&
+                ((x[0] > -3. * h && x[0] < 0.) ||
+                 (x[0] > gap * h && x[0] < (gap + 3) * h))) ||
+               (joined && between && x[1] > -3. * h && x[1] < 0.);
       });
-    return BodyOnGrid<2>(points, h * h / 16.).space->n_pieces();
+    return BodyOnGrid<2>(points, h * h / 16.);
   }
 } // namespace
 
@@ -377,11 +379,37 @@ TEST(SplineSpace, WithoutExtensionEverySplineIsAnUnknown){
   MORULA_BOTH_DIMENSIONS(check_without_extension)}
 
 
-// Splines reach over one grid cell, and over two: the middles of both supports.
-TEST(SplineSpace, GridCellsThatShareASplineAreOnePiece)
+// One empty layer of grid cells, which both blocks' splines reach over, is
+// enough.
+TEST(SplineSpace, BodiesAcrossAnEmptyLayerDoNotShareSplines)
 {
-  EXPECT_EQ(pieces_with_gap(0), 1u);
-  EXPECT_EQ(pieces_with_gap(1), 1u);
-  EXPECT_EQ(pieces_with_gap(2), 2u);
-  EXPECT_EQ(pieces_with_gap(4), 2u);
+  EXPECT_EQ(blocks_with_gap(0).space->n_pieces(), 1u);
+  const unsigned int apart = blocks_with_gap(8).space->n_unknowns();
+  for (const int gap : {1, 2, 3})
+    {
+      SCOPED_TRACE("gap of " + std::to_string(gap));
+      const auto blocks = blocks_with_gap(gap);
+      EXPECT_EQ(blocks.space->n_pieces(), 2u);
+      EXPECT_EQ(blocks.space->n_unknowns(), apart);
+    }
+}
+
+
+// Two arms of one body: no part of one moves with a part of the other.
+TEST(SplineSpace, ArmsAcrossAnEmptyLayerDoNotShareSplines)
+{
+  const auto  body  = blocks_with_gap(1, true);
+  const auto &space = *body.space;
+  EXPECT_EQ(space.n_pieces(), 1u);
+  const auto sides_of = [&](const SplineSpace<2>::Cell &cell) {
+    return space.box().index(cell.number)[0] < 0 ? 1 : 2;
+  };
+  std::vector<unsigned int> sides(space.relevant().n_elements(), 0);
+  for (const auto &cell : space.cells())
+    if (space.box().index(cell.number)[1] >= 2)
+      for (const unsigned int unknown : cell.unknowns)
+        sides[unknown] |= sides_of(cell);
+  for (const unsigned int both : sides)
+    EXPECT_LT(both, 3u);
+  EXPECT_EQ(blocks_with_gap(8, true).space->n_pieces(), 1u);
 }

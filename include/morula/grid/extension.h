@@ -5,7 +5,7 @@
 #define morula_grid_extension_h
 
 #include <morula/grid/bspline.h>
-#include <morula/grid/occupancy.h>
+#include <morula/grid/spline_copies.h>
 
 #include <array>
 #include <optional>
@@ -42,17 +42,17 @@ namespace Morula
                     const std::vector<GridCellClass> &classes);
 
     /**
-     * Among the inner grid cells connected to the spline's support through
-     * active grid cells (bodies across a gap must not be coupled) the one with
+     * Among the inner grid cells connected to the copy's support through grid
+     * cells with tissue (bodies across a gap must not be coupled) the one with
      * the smallest Σ|e|; ties: the smallest number. None if no inner grid cell
      * is connected.
      */
     std::optional<unsigned int>
-    block(const GridIndex<dim> &spline);
+    block(const SplineCopy &copy);
 
   private:
     std::vector<unsigned int>
-    connected(const GridIndex<dim> &spline, const int radius);
+    connected(const SplineCopy &copy, const int radius);
 
     const GridBox<dim>               &box;
     const std::vector<GridCellClass> &classes;

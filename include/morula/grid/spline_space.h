@@ -7,7 +7,7 @@
 #include <morula/grid/background_grid.h>
 #include <morula/grid/bspline.h>
 #include <morula/grid/extension.h>
-#include <morula/grid/occupancy.h>
+#include <morula/grid/spline_copies.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -21,9 +21,13 @@ namespace Morula
    * unknowns, their numbers over all ranks, and how the 3^dim splines of each
    * of this rank's active grid cells are expressed by unknowns.
    *
-   * An inner spline is an unknown. An outer spline follows from the 3^dim
-   * unknowns of an inner grid cell; in a piece that has no inner grid cell,
-   * from the dim + 1 unknowns of one affine field. Each unknown is a vector:
+   * "Spline" here is one copy of a spline (see SplineCopies). An inner spline
+   * is an unknown. An outer spline follows from the 3^dim unknowns of an inner
+   * grid cell. The splines of a small piece follow from one polynomial: a
+   * quadratic one if the piece is smaller than a grid cell, an affine one if it
+   * is smaller than two and has fewer than 3^dim particles, or has no inner
+   * grid cell. (A tensor product of quadratics has monomials up to degree
+   * 2 dim, which nearly vanish on a small piece.) Each unknown is a vector:
    * unknown number s, component i is degree of freedom s dim + i, in µm.
    */
   template <int dim>
@@ -43,7 +47,7 @@ namespace Morula
 
     /** Collective, though without communication. */
     SplineSpace(const BackgroundGrid<dim> &grid,
-                const Occupancy<dim>      &occupancy,
+                Occupancy<dim>             occupancy,
                 const GridParameters      &parameters);
 
     /** This rank's active grid cells, by number. */
@@ -75,10 +79,7 @@ namespace Morula
     unsigned int
     n_outer_splines() const;
 
-    /**
-     * The piece that a grid cell belongs to: active grid cells that share a
-     * spline are one piece. Only for active grid cells.
-     */
+    /** The piece that an active grid cell belongs to; see SplineCopies. */
     unsigned int
     piece(const unsigned int number) const;
 
@@ -87,6 +88,9 @@ namespace Morula
 
     const GridBox<dim> &
     box() const;
+
+    const Occupancy<dim> &
+    occupancy() const;
 
     /**
      * Coefficients of the affine field a + A x (µm) in one piece, zero in the
@@ -104,51 +108,63 @@ namespace Morula
     pieces_of_unknowns() const;
 
   private:
-    enum class Kind : char
-    {
-      inactive,
-      outer,
-      inner
-    };
-
-    /** A piece without inner grid cells: its affine field's unknowns. */
-    struct AffineField
+    /** The polynomial of a small piece: Σ c_m m(ξ) over the monomials m of
+     *  ξ = (x - center)/h up to a degree; one unknown for each. */
+    struct PolynomialField
     {
       Point<dim>   center; // µm
+      bool         quadratic;
       unsigned int first_unknown;
-      unsigned int lowest_cell;
+
+      unsigned int
+      n_unknowns() const
+      {
+        return quadratic ? (dim + 1) * (dim + 2) / 2 : dim + 1;
+      }
     };
 
+    /** What the grid cells of a piece hold. */
+    struct Extent
+    {
+      bool           inner       = false;
+      std::uint64_t  n_particles = 0;
+      unsigned int   n_cells     = 0;
+      Point<dim>     lower, upper;   // of the tissue, µm
+      Tensor<1, dim> sum_of_centers; // of the grid cells, µm
+    };
+
+    using Terms = std::vector<std::pair<unsigned int, double>>;
+
+    std::vector<Extent>
+    extents() const;
     void
-    find_kinds();
-    void
-    find_pieces();
-    void
-    find_affine_fields();
+    find_small_pieces();
+    bool
+    is_unknown(const SplineCopy &copy) const;
     void
     number_unknowns(const BackgroundGrid<dim> &grid);
     void
     express_cells(const BackgroundGrid<dim> &grid);
-    unsigned int
-    piece_of_spline(const unsigned int spline) const;
+    void
+    add_cell(const unsigned int number, const std::vector<Terms> &rows);
+    void
+    find_relevant();
 
     /** Global unknowns and weights of one spline. */
-    std::vector<std::pair<unsigned int, double>>
-    expression(const unsigned int spline, ExtensionSearch<dim> &search) const;
+    Terms
+    expression(const unsigned int copy, ExtensionSearch<dim> &search) const;
 
-    GridBox<dim>                        box_;
-    bool                                extend;
-    std::vector<GridCellClass>          classes;
-    std::vector<Kind>                   kinds;   // by spline
-    std::vector<unsigned int>           numbers; // by spline: unknown's number
-    std::vector<unsigned int>           pieces;  // by grid cell
-    std::vector<unsigned int>           components; // by grid cell: connected
-    std::vector<unsigned int>           pieces_of_unknowns_;
-    std::map<unsigned int, AffineField> affine_fields; // by component
-    std::vector<Cell>                   cells_;
+    Occupancy<dim>             occupancy_;
+    GridBox<dim>               box_;
+    bool                       extend;
+    std::vector<GridCellClass> classes;
+    SplineCopies<dim>          copies;
+    std::vector<unsigned int>  numbers; // by copy: unknown's number
+    std::vector<unsigned int>  pieces_of_unknowns_;
+    std::map<unsigned int, PolynomialField> small_pieces;
+    std::vector<Cell>                       cells_;
     IndexSet     owned_, relevant_, owned_dofs_, relevant_dofs_;
     unsigned int n_splines = 0;
-    unsigned int n_pieces_ = 0;
     unsigned int n_active  = 0;
     unsigned int n_inner   = 0;
     unsigned int n_outer   = 0;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_grid_spline_copies_h
+#define morula_grid_spline_copies_h
+
+#include <morula/grid/bspline.h>
+#include <morula/grid/classification.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace Morula
+{
+  /** A spline as one part of the tissue in its support sees it. */
+  struct SplineCopy
+  {
+    unsigned int spline; // number of the grid cell it is centred on
+    /** The active grid cells of the part: bit a is the one at the spline's
+     *  centre + BSpline::offset(a). */
+    std::uint32_t support;
+    bool          inner; // an inner grid cell is among them
+    unsigned int  piece;
+  };
+
+  /**
+   * The splines around the tissue. A spline reaches over 3^dim grid cells; if
+   * the active ones among them fall into parts that do not touch each other
+   * (grid cells touch at a vertex), each part has a copy of the spline of its
+   * own. So bodies, and arms of one body, with an empty layer of grid cells
+   * between them do not feel each other (doc/theory.md, section 3.3).
+   *
+   * Grid cells that share a copy are one *piece*. The same on all ranks,
+   * without communication.
+   */
+  template <int dim>
+  class SplineCopies
+  {
+  public:
+    SplineCopies() = default;
+
+    SplineCopies(const GridBox<dim>               &box,
+                 const std::vector<GridCellClass> &classes);
+
+    /** By spline, copies of one spline by their lowest grid cell. */
+    const std::vector<SplineCopy> &
+    list() const;
+
+    /** Which copy of the spline centred on @p spline the active grid cell
+     *  @p cell of its support uses: a position in list(). */
+    unsigned int
+    at(const GridIndex<dim> &spline, const GridIndex<dim> &cell) const;
+
+    /** The piece of an active grid cell, 0, ..., n_pieces() - 1 in the order of
+     *  their lowest grid cells. */
+    unsigned int
+    piece(const unsigned int number) const;
+
+    unsigned int
+    n_pieces() const;
+
+    /** Lowest grid cell of a piece. */
+    unsigned int
+    lowest_cell(const unsigned int piece) const;
+
+  private:
+    void
+    add_copies(const unsigned int                spline,
+               const std::vector<GridCellClass> &classes);
+    void
+    find_pieces();
+
+    GridBox<dim>              box;
+    std::vector<SplineCopy>   copies;
+    std::vector<unsigned int> first;  // copy of each spline; one more
+    std::vector<unsigned int> pieces; // by grid cell
+    std::vector<unsigned int> lowest; // by piece
+  };
+} // namespace Morula
+
+#endif

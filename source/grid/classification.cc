@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/bspline.h>
+#include <morula/grid/classification.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Of an active grid cell. */
+    template <int dim>
+    bool
+    is_inner(const Occupancy<dim> &occupancy,
+             const unsigned int    number,
+             const double          occupation_parameter)
+    {
+      const GridBox<dim> &box  = occupancy.box();
+      const bool          thin = occupancy.is_thin(number);
+      if (thin && !occupancy.leads_thin_rows(number))
+        return false;
+      double       largest  = 0.;
+      unsigned int n_points = 0;
+      box.for_neighbors(box.index(number),
+                        1,
+                        [&](const unsigned int neighbor, const auto &) {
+                          if (!thin || occupancy.leads_thin_rows(neighbor))
+                            largest =
+                              std::max(largest, occupancy.fill(neighbor));
+                          n_points += occupancy.n_quadrature_points(neighbor);
+                        });
+      const double threshold = occupation_parameter * std::min(1., largest);
+      return occupancy.fill(number) >= threshold - 1e-9 &&
+             (thin || occupancy.n_quadrature_points(number) >= (1u << dim)) &&
+             n_points >= BSpline<dim>::n;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<GridCellClass>
+  classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
+  {
+    std::vector<GridCellClass> classes(occupancy.box().size(),
+                                       GridCellClass::empty);
+    for (unsigned int number = 0; number < classes.size(); ++number)
+      if (!occupancy.active(number))
+        {
+          if (occupancy.fill(number) > 0.)
+            classes[number] = GridCellClass::reached;
+        }
+      else
+        classes[number] = is_inner(occupancy, number, occupation_parameter) ?
+                            GridCellClass::inner :
+                            GridCellClass::cut;
+    return classes;
+  }
+
+  template std::vector<GridCellClass>
+  classify(const Occupancy<2> &, const double);
+  template std::vector<GridCellClass>
+  classify(const Occupancy<3> &, const double);
+} // namespace Morula

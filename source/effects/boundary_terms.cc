@@ -7,6 +7,7 @@
 #include <morula/effects/nitsche.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/nearest.h>
+#include <morula/particles/strays.h>
 
 #include <algorithm>
 
@@ -58,20 +59,28 @@ namespace Morula
       return points;
     }
 
-    /** F_g at t and t + dt, row by row, of the cells nearest to points. */
+    /** Of the cells nearest to points: position, reach of the surface and, if
+     *  there is growth, F_g at t and t + dt, row by row. */
     template <int dim>
     std::vector<double>
-    nearest_growth(const std::vector<Point<dim>> &queries,
-                   const Tissue<dim>             &tissue,
-                   const GrowthOfStep<dim>       &growth)
+    nearest_cells(const std::vector<Point<dim>> &queries,
+                  const Tissue<dim>             &tissue,
+                  const GrowthOfStep<dim>       &growth)
     {
       PointList<dim> cells;
-      cells.n_slots = 2 * dim * dim;
+      cells.n_slots = dim + 1 + (growth.present ? 2 * dim * dim : 0);
       for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
         {
           const auto &particle = tissue.cells().order()[i];
           cells.ids.push_back(particle->get_id());
           cells.positions.push_back(particle->get_location());
+          for (unsigned int d = 0; d < dim; ++d)
+            cells.properties.push_back(particle->get_location()[d]);
+          cells.properties.push_back(
+            surface_reach(tissue.cell(particle),
+                          tissue.grid().box().spacing()));
+          if (!growth.present)
+            continue;
           for (const auto *F_g : {&growth.previous[i], &growth.current[i]})
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
@@ -121,9 +130,7 @@ namespace Morula
     std::vector<Point<dim>> queries;
     for (const unsigned int p : groups.points)
       queries.push_back(store.order()[p]->get_location());
-    std::vector<double> F_g_nearest;
-    if (growth.present)
-      F_g_nearest = nearest_growth(queries, tissue, growth);
+    const std::vector<double> nearest = nearest_cells(queries, tissue, growth);
 
     std::vector<typename Nitsche<dim>::Condition> list;
     std::vector<ElasticState<dim>>                current, previous;
@@ -131,7 +138,7 @@ namespace Morula
       Tensor<2, dim> F_g;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
-          F_g[d][e] = F_g_nearest[first + d * dim + e];
+          F_g[d][e] = nearest[first + d * dim + e];
       return F_g;
     };
     for (std::size_t k = 0; k < groups.points.size(); ++k)
@@ -142,7 +149,11 @@ namespace Morula
         Point<dim>       target = X;
         if (point.condition() == SurfaceCondition::fixed)
           target += conditions.displacement(X, t);
-        const Tensor<1, dim> area = point.area_vector();
+        const Tensor<1, dim> area  = point.area_vector();
+        const std::size_t    slots = nearest.size() / queries.size();
+        Point<dim>           cell; // nearest to x
+        for (unsigned int d = 0; d < dim; ++d)
+          cell[d] = nearest[k * slots + d];
 
         typename Nitsche<dim>::Condition condition;
         condition.projection     = projection(point);
@@ -153,7 +164,13 @@ namespace Morula
         condition.lame           = material.lame_at(X);
         condition.penalty = conditions.penalty(material.youngs_modulus(X),
                                                condition.lame,
+                                               material.volumetric_form(),
                                                space.box().spacing());
+        // ln J_e of the point itself says nothing about the pressure there.
+        if (material.volumetric_form() == VolumetricStrain::projected)
+          condition.lame.lambda = 0.;
+        condition.trust =
+          trust_in_surface(x.distance(cell), nearest[k * slots + dim]);
         list.push_back(condition);
 
         const Tensor<2, dim> F = point.deformation();
@@ -163,7 +180,7 @@ namespace Morula
                                   material.per_grown_volume()));
         else
           {
-            const std::size_t row = k * 2 * dim * dim;
+            const std::size_t row = k * slots + dim + 1;
             previous.push_back(
               state(F, tensor(row), material.per_grown_volume()));
             current.push_back(
@@ -190,7 +207,9 @@ namespace Morula
       {
         const auto point = view<dim>(tissue.boundary_points().order()[p]);
         forces.push_back(point.initial_area() *
-                         conditions.traction(point.initial_position(), t));
+                         conditions.traction(point.seed_position(),
+                                             point.initial_position(),
+                                             t));
       }
     return std::make_unique<DeadLoad<dim>>(positions(tissue, space, groups),
                                            std::move(forces));
@@ -208,7 +227,9 @@ namespace Morula
     for (const unsigned int p : groups.points)
       {
         const auto point = view<dim>(tissue.boundary_points().order()[p]);
-        loads.push_back({conditions.pressure(point.initial_position(), t),
+        loads.push_back({conditions.pressure(point.seed_position(),
+                                             point.initial_position(),
+                                             t),
                          point.area_vector()});
       }
     return std::make_unique<FollowingPressure<dim>>(

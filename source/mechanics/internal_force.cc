@@ -2,43 +2,20 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/internal_force.h>
-#include <morula/mechanics/neo_hookean.h>
+#include <morula/mechanics/projected_points.h>
 
 namespace Morula
 {
   namespace
   {
-    /** Spatial gradients g_a = f⁻ᵀ ∇N_a, by direction. */
-    template <int dim>
-    struct SpatialGradients
-    {
-      static constexpr unsigned int n = BSpline<dim>::n;
-
-      double g[dim][n];
-
-      SpatialGradients(const SplineValues<dim> &splines,
-                       const Tensor<2, dim>    &f_inverse)
-      {
-        for (unsigned int j = 0; j < dim; ++j)
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              double sum = 0.;
-              for (unsigned int k = 0; k < dim; ++k)
-                sum += f_inverse[k][j] * splines.gradient[k][a];
-              g[j][a] = sum;
-            }
-      }
-    };
-
+    /** @param tau W τ */
     template <int dim>
     void
-    add_residual(const SpatialGradients<dim> &gradients,
-                 const NeoHookean<dim>       &material,
-                 const double                 W,
-                 LocalSystem<dim>            &system)
+    add_stress(const SpatialGradients<dim>   &gradients,
+               const SymmetricTensor<2, dim> &tau,
+               LocalSystem<dim>              &system)
     {
-      constexpr unsigned int        n   = BSpline<dim>::n;
-      const SymmetricTensor<2, dim> tau = W * material.kirchhoff_stress();
+      constexpr unsigned int n = BSpline<dim>::n;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           {
@@ -47,7 +24,6 @@ namespace Morula
               force += tau[i][j] * gradients.g[j][a];
             system.residual[i * n + a] += force;
           }
-      system.add_energy(W * material.energy(), W * material.energy_magnitude());
       if (system.wanted == LocalSystem<dim>::rounding)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < n; ++a)
@@ -57,23 +33,22 @@ namespace Morula
     }
 
     /**
-     * Adds the blocks (i, j), i <= j, of the tangent. The inner loops run over
-     * contiguous columns, so that the compiler vectorises them.
+     * Adds the blocks (i, j), i <= j, of the tangent c1 g_a^i g_b^j + c2 g_a^j
+     * g_b^i + c3 (g_a · b g_b) δ^ij. The inner loops run over contiguous
+     * columns, so that the compiler vectorises them.
      */
     template <int dim>
     void
-    add_tangent(const SpatialGradients<dim> &gradients,
-                const NeoHookean<dim>       &material,
-                const double                 W,
-                double                      *matrix)
+    add_tangent(const SpatialGradients<dim>   &gradients,
+                const SymmetricTensor<2, dim> &b,
+                const double                   c1,
+                const double                   c2,
+                const double                   c3,
+                double                        *matrix)
     {
-      constexpr unsigned int         n      = BSpline<dim>::n;
-      constexpr unsigned int         n_dofs = LocalSystem<dim>::n_dofs;
-      const auto                    &g      = gradients.g;
-      const double                   c1     = W * material.lambda();
-      const double                   c2 = W * material.mu_minus_lambda_log_J();
-      const double                   c3 = W * material.mu();
-      const SymmetricTensor<2, dim> &b  = material.left_cauchy_green();
+      constexpr unsigned int n      = BSpline<dim>::n;
+      constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
+      const auto            &g      = gradients.g;
 
       for (unsigned int a = 0; a < n; ++a)
         {
@@ -130,9 +105,175 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points)
+  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points,
+                                    const VolumetricStrain     form,
+                                    const bool                 foresee)
     : points(points)
+    , form(form)
+    , foresee(foresee)
   {}
+
+  template <int dim>
+  double
+  InternalForce<dim>::Linearisation::at(const LocalField<dim> &other) const
+  {
+    double theta = value;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        theta += derivative.coefficient[i][a] *
+                 (other.coefficient[i][a] - field.coefficient[i][a]);
+    return theta;
+  }
+
+  template <int dim>
+  template <typename Visit>
+  bool
+  InternalForce<dim>::for_each_point(const unsigned int     cell,
+                                     const LocalField<dim> &field,
+                                     const GrowthAt         growth,
+                                     LocalSystem<dim>      &system,
+                                     const Visit           &visit) const
+  {
+    const auto &states = points.states(growth);
+    for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
+         ++p)
+      {
+        const SplineValues<dim> splines(points.xi[p], points.h);
+        const Tensor<2, dim>    f   = field.step_deformation(splines);
+        const Tensor<2, dim>    F_e = f * states[p].A;
+        if (!system.admits(determinant(f), determinant(F_e), points.xi[p]))
+          return false;
+        visit(SpatialGradients<dim>(splines, invert(f)),
+              NeoHookean<dim>(F_e, points.lame_of(p)),
+              states[p].W);
+      }
+    return true;
+  }
+
+  template <int dim>
+  bool
+  InternalForce<dim>::add_pointwise(const unsigned int     cell,
+                                    const LocalField<dim> &field,
+                                    const GrowthAt         growth,
+                                    double                *tangent,
+                                    LocalSystem<dim>      &system) const
+  {
+    return for_each_point(
+      cell,
+      field,
+      growth,
+      system,
+      [&](const SpatialGradients<dim> &gradients,
+          const NeoHookean<dim>       &material,
+          const double                 W) {
+        if (tangent != nullptr)
+          {
+            add_tangent(gradients,
+                        material.left_cauchy_green(),
+                        W * material.lambda(),
+                        W * material.mu_minus_lambda_log_J(),
+                        W * material.mu(),
+                        tangent);
+            return;
+          }
+        add_stress(gradients, W * material.kirchhoff_stress(), system);
+        system.add_energy(W * material.energy(),
+                          W * material.energy_magnitude());
+      });
+  }
+
+  template <int dim>
+  bool
+  InternalForce<dim>::project(const unsigned int     cell,
+                              const LocalField<dim> &field,
+                              const GrowthAt         growth,
+                              LocalSystem<dim>      &system,
+                              ProjectedPoints<dim>  &projected) const
+  {
+    const bool valid =
+      for_each_point(cell,
+                     field,
+                     growth,
+                     system,
+                     [&](const SpatialGradients<dim> &gradients,
+                         const NeoHookean<dim>       &material,
+                         const double                 W) {
+                       projected.add(gradients, material, W);
+                     });
+    projected.finish();
+    return valid;
+  }
+
+  template <int dim>
+  double
+  InternalForce<dim>::foreseen(const unsigned int          cell,
+                               const LocalField<dim>      &field,
+                               const GrowthAt              growth,
+                               const ProjectedPoints<dim> &projected) const
+  {
+    if (!foresee)
+      return projected.mean_log_J;
+    if (linearised.empty())
+      {
+        linearised.resize(points.offsets.size() - 1, false);
+        linearisations.resize(points.offsets.size() - 1);
+      }
+    Linearisation &last = linearisations[cell];
+    const double   theta =
+      linearised[cell] ? last.at(field) : projected.mean_log_J;
+
+    // What the next residual is of: the growth at t + dt.
+    last.field       = field;
+    last.value       = growth == GrowthAt::current ?
+                         projected.mean_log_J :
+                         mean_log_volume_ratio(cell, field);
+    linearised[cell] = true;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        last.derivative.coefficient[i][a] =
+          projected.stiffness == 0. ? 0. :
+                                      projected.sum[i][a] / projected.stiffness;
+    return theta;
+  }
+
+  template <int dim>
+  bool
+  InternalForce<dim>::add_projected(const unsigned int     cell,
+                                    const LocalField<dim> &field,
+                                    const GrowthAt         growth,
+                                    double                *tangent,
+                                    LocalSystem<dim>      &system) const
+  {
+    ProjectedPoints<dim> projected;
+    if (!project(cell, field, growth, system, projected))
+      return false;
+    const double theta =
+      tangent == nullptr ? 0. : foreseen(cell, field, growth, projected);
+    for (unsigned int k = 0; k < projected.materials.size(); ++k)
+      {
+        const SpatialGradients<dim> &gradients = projected.gradients[k];
+        const NeoHookean<dim>       &material  = projected.materials[k];
+        const double                 W         = projected.weights[k];
+        if (tangent != nullptr)
+          {
+            add_tangent(gradients,
+                        material.left_cauchy_green(),
+                        0.,
+                        W * (material.mu() - material.lambda() * theta),
+                        W * material.mu(),
+                        tangent);
+            continue;
+          }
+        add_stress(gradients, W * material.shear_stress(), system);
+        system.add_energy(W * material.shear_energy(),
+                          W * material.shear_energy_magnitude());
+      }
+    if (tangent != nullptr)
+      projected.add_mean_tangent(tangent);
+    else
+      projected.add_mean_force(system);
+    return true;
+  }
 
   template <int dim>
   void
@@ -141,29 +282,25 @@ namespace Morula
                           const GrowthAt         growth,
                           LocalSystem<dim>      &system) const
   {
-    const bool          tangent = system.wanted == LocalSystem<dim>::tangent;
-    const auto         &states  = points.states(growth);
-    std::vector<double> upper(tangent ? system.matrix.size() : 0, 0.);
-    for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
-         ++p)
-      {
-        const SplineValues<dim> splines(points.xi[p], points.h);
-        const Tensor<2, dim>    f   = field.step_deformation(splines);
-        const Tensor<2, dim>    F_e = f * states[p].A;
-        if (determinant(f) <= 0. || determinant(F_e) <= 0.)
-          {
-            system.inverted = true;
-            return;
-          }
-        const NeoHookean<dim>       material(F_e, points.lame_of(p));
-        const SpatialGradients<dim> gradients(splines, invert(f));
-        if (tangent)
-          add_tangent(gradients, material, states[p].W, upper.data());
-        else
-          add_residual(gradients, material, states[p].W, system);
-      }
-    if (tangent)
+    const bool wants_tangent = system.wanted == LocalSystem<dim>::tangent;
+    std::vector<double> upper(wants_tangent ? system.matrix.size() : 0, 0.);
+    double *const       tangent = wants_tangent ? upper.data() : nullptr;
+    const bool          valid   = form == VolumetricStrain::pointwise ?
+                                    add_pointwise(cell, field, growth, tangent, system) :
+                                    add_projected(cell, field, growth, tangent, system);
+    if (valid && wants_tangent)
       add_lower_blocks<dim>(upper, system.matrix);
+  }
+
+  template <int dim>
+  double
+  InternalForce<dim>::mean_log_volume_ratio(const unsigned int     cell,
+                                            const LocalField<dim> &field) const
+  {
+    ProjectedPoints<dim> projected;
+    LocalSystem<dim>     unused(LocalSystem<dim>::energy_and_residual);
+    project(cell, field, GrowthAt::current, unused, projected);
+    return projected.mean_log_J;
   }
 
   template class InternalForce<2>;

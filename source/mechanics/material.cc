@@ -24,6 +24,13 @@ namespace Morula
                       "initial volume, halved at every division, or the volume "
                       "grown without stress.",
                       Patterns::Selection("initial volume|grown volume"));
+    prm.add_parameter(
+      "Volumetric strain",
+      volumetric_strain,
+      "The elastic volume change in the terms with lambda: each cell's own, or "
+      "its mean over the cells of a grid cell. Projected, tissue does not lock "
+      "as Poisson's ratio approaches 0.5; choose it above about 0.47.",
+      Patterns::Selection("pointwise|projected"));
   }
 
 
@@ -31,5 +38,13 @@ namespace Morula
   MaterialParameters::per_grown_volume() const
   {
     return energy_per == "grown volume";
+  }
+
+
+  VolumetricStrain
+  MaterialParameters::volumetric_form() const
+  {
+    return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
+                                              VolumetricStrain::projected;
   }
 } // namespace Morula

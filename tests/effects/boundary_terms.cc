@@ -20,12 +20,17 @@ namespace
   constexpr double area = 30.; // a⁰
 
   TissueMaterial
-  material(const std::string &E, const double nu, const bool grown = false)
+  material(const std::string &E,
+           const double       nu,
+           const bool         grown     = false,
+           const bool         projected = false)
   {
     MaterialParameters parameters;
     parameters.youngs_modulus = E;
     parameters.poissons_ratio = nu;
     parameters.energy_per     = grown ? "grown volume" : "initial volume";
+    if (projected)
+      parameters.volumetric_strain = "projected";
     return TissueMaterial(parameters);
   }
 
@@ -146,6 +151,33 @@ namespace
       }
   }
 
+  /** Projected, the traction of a volume change alone is left to the penalty,
+   *  which counts in λ + 2μ. */
+  template <int dim>
+  void
+  check_projected()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where   = at_top;
+    const Lame     constants = lame(1., 0.4999);
+    const double   b         = 1.01 * 1.01 - 1.;
+    const double   penalty = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
+    Tensor<1, dim> moved;
+    moved[0] = 1e-3;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               moved,
+                               1.01 * unit_tensor<dim>());
+    const double       a_t      = area * std::pow(1.01, dim - 1);
+    const double       traction = constants.mu * b / std::pow(1.01, dim);
+    const double       energy =
+      problem.sums(*problem.nitsche(material("1", 0.4999, false, true), 1.))
+        .energy;
+    EXPECT_NEAR(energy,
+                a_t * (0.5 * penalty * 1e-6 - traction * 1e-3),
+                1e-9 * energy);
+  }
+
   /** The total position counts, not the increment. */
   template <int dim>
   void
@@ -263,6 +295,10 @@ namespace
 
 TEST(BoundaryTerms,
      PenaltyFollowsStiffnessAndSpacing){MORULA_BOTH_DIMENSIONS(check_penalty)}
+
+
+TEST(BoundaryTerms, ProjectedTractionHasNoVolumetricPart){
+  MORULA_BOTH_DIMENSIONS(check_projected)}
 
 
 TEST(BoundaryTerms,

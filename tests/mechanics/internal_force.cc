@@ -15,6 +15,9 @@ using namespace Morula;
 
 namespace
 {
+  const std::vector<VolumetricStrain> both_forms = {
+    VolumetricStrain::pointwise, VolumetricStrain::projected};
+
   template <int dim>
   MaterialPoints<dim>
   random_material_points(std::mt19937      &generator,
@@ -43,10 +46,130 @@ namespace
         {
           const auto points =
             random_material_points<dim>(generator, 4, growing, uniform);
-          const InternalForce<dim> term(points);
-          EXPECT_TRUE(term.is_conservative());
-          expect_derivatives(term, random_field<dim>(generator, 0.15));
+          for (const VolumetricStrain form : both_forms)
+            {
+              const InternalForce<dim> term(points, form, false);
+              EXPECT_TRUE(term.is_conservative());
+              expect_derivatives(term, random_field<dim>(generator, 0.15));
+            }
         }
+  }
+
+  /** Where all points have the same ln J_e, it is its own mean. */
+  template <int dim>
+  void
+  check_uniform_volume_ratio()
+  {
+    std::mt19937 generator(5);
+    auto points = random_material_points<dim>(generator, 4, false, false);
+    for (auto &state : points.current)
+      state.A *= std::pow(0.9 / determinant(state.A), 1. / dim);
+    const auto field = affine_field(random_tensor<1, dim>(generator),
+                                    0.2 * random_tensor<2, dim>(generator),
+                                    points.h);
+    const InternalForce<dim> plain(points);
+    const InternalForce<dim> projected(points, VolumetricStrain::projected);
+    const TermOnOneCell<dim> expected(plain, GrowthAt::current);
+    const TermOnOneCell<dim> found(projected, GrowthAt::current);
+    expect_near(found.residual(field), expected.residual(field), 1e-12);
+    EXPECT_NEAR(found.energy(field),
+                expected.energy(field),
+                1e-12 * expected.energy(field));
+    const double J = 0.9 * determinant(field.step_deformation(
+                             SplineValues<dim>(points.xi[0], points.h)));
+    EXPECT_NEAR(projected.mean_log_volume_ratio(0, field), std::log(J), 1e-12);
+  }
+
+  /** A rotation of the deformed state leaves the energy and turns the forces.
+   */
+  template <int dim>
+  void
+  check_frame_indifference()
+  {
+    std::mt19937 generator(6);
+    const auto points = random_material_points<dim>(generator, 5, false, false);
+    Tensor<2, dim> Q  = unit_tensor<dim>();
+    Q[0][0] = Q[1][1] = std::cos(0.7);
+    Q[1][0]           = std::sin(0.7);
+    Q[0][1]           = -Q[1][0];
+    const auto field  = random_field<dim>(generator, 0.15);
+    // Q (x + u) - x
+    LocalField<dim> rotated =
+      affine_field(Tensor<1, dim>(), Q - unit_tensor<dim>(), points.h);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          rotated.coefficient[i][a] += Q[i][j] * field.coefficient[j][a];
+    for (const VolumetricStrain form : both_forms)
+      {
+        const InternalForce<dim> term(points, form);
+        const TermOnOneCell<dim> at(term, GrowthAt::current);
+        EXPECT_NEAR(at.energy(rotated),
+                    at.energy(field),
+                    1e-12 * at.energy(field));
+        const auto             forces = at.residual(field);
+        std::vector<double>    expected(forces.size(), 0.);
+        constexpr unsigned int n = BSpline<dim>::n;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            for (unsigned int a = 0; a < n; ++a)
+              expected[i * n + a] += Q[i][j] * forces[j * n + a];
+        expect_near(at.residual(rotated), expected, 1e-12);
+      }
+  }
+
+  /** Without shear stiffness and stress, the projected tangent is that of one
+   *  constraint a grid cell: of rank one, however many points it holds. */
+  template <int dim>
+  void
+  check_one_constraint()
+  {
+    std::mt19937 generator(7);
+    auto points = random_material_points<dim>(generator, 6, false, true);
+    points.lame = {{1., 0.}};
+    for (auto &state : points.current)
+      state.A = unit_tensor<dim>();
+    const InternalForce<dim> term(points, VolumetricStrain::projected);
+    const auto               K =
+      TermOnOneCell<dim>(term, GrowthAt::current).tangent(LocalField<dim>{});
+    constexpr unsigned int N     = LocalSystem<dim>::n_dofs;
+    unsigned int           pivot = 0;
+    for (unsigned int i = 0; i < N; ++i)
+      if (K[i * N + i] > K[pivot * N + pivot])
+        pivot = i;
+    std::vector<double> product(N * N);
+    for (unsigned int i = 0; i < N; ++i)
+      for (unsigned int j = 0; j < N; ++j)
+        product[i * N + j] =
+          K[i * N + pivot] * K[pivot * N + j] / K[pivot * N + pivot];
+    expect_near(K, product, 1e-12);
+  }
+
+  /** The tangent takes the volume change that the one before foresaw: its own
+   *  at the same place, and it forgets nothing on the way there. */
+  template <int dim>
+  void
+  check_foreseen()
+  {
+    std::mt19937 generator(8);
+    const auto   points = random_material_points<dim>(generator, 4, true, true);
+    const auto   first  = random_field<dim>(generator, 0.1);
+    const InternalForce<dim> exact(points, VolumetricStrain::projected, false);
+    const InternalForce<dim> term(points, VolumetricStrain::projected);
+    const auto               expected =
+      TermOnOneCell<dim>(exact, GrowthAt::current).tangent(first);
+    const TermOnOneCell<dim> at(term, GrowthAt::current);
+    expect_near(at.tangent(first), expected, 0.);
+    expect_near(at.tangent(first), expected, 1e-14);
+    const auto second   = random_field<dim>(generator, 0.1);
+    const auto foreseen = at.tangent(second);
+    const auto own =
+      TermOnOneCell<dim>(exact, GrowthAt::current).tangent(second);
+    double largest = 0.;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      largest = std::max(largest, std::abs(own[i] - foreseen[i]));
+    EXPECT_GT(largest, 0.); // here they differ
+    expect_near(at.tangent(second), own, 1e-14);
   }
 
   /** Energy and stress of a homogeneous deformation. */
@@ -81,17 +204,20 @@ namespace
   {
     std::mt19937 generator(3);
     const auto points = random_material_points<dim>(generator, 5, false, true);
-    const InternalForce<dim> term(points);
-    const auto               field = random_field<dim>(generator, 0.1);
-    const auto system              = TermOnOneCell<dim>(term, GrowthAt::current)
-                          .added(field, LocalSystem<dim>::rounding);
-    expect_near({system.residual.begin(), system.residual.end()},
-                TermOnOneCell<dim>(term, GrowthAt::current).residual(field),
-                0.);
-    for (unsigned int dof = 0; dof < system.residual.size(); ++dof)
-      EXPECT_GE(system.magnitude[dof],
-                std::abs(system.residual[dof]) * (1. - 1e-12));
-    EXPECT_GE(system.energy_magnitude, system.energy);
+    const auto field  = random_field<dim>(generator, 0.1);
+    for (const VolumetricStrain form : both_forms)
+      {
+        const InternalForce<dim> term(points, form);
+        const auto system = TermOnOneCell<dim>(term, GrowthAt::current)
+                              .added(field, LocalSystem<dim>::rounding);
+        expect_near({system.residual.begin(), system.residual.end()},
+                    TermOnOneCell<dim>(term, GrowthAt::current).residual(field),
+                    0.);
+        for (unsigned int dof = 0; dof < system.residual.size(); ++dof)
+          EXPECT_GE(system.magnitude[dof],
+                    std::abs(system.residual[dof]) * (1. - 1e-12));
+        EXPECT_GE(system.energy_magnitude, system.energy);
+      }
   }
 
   template <int dim>
@@ -124,6 +250,22 @@ namespace
 
 TEST(InternalForce, ResidualAndTangentAreDerivatives){
   MORULA_BOTH_DIMENSIONS(check_derivatives)}
+
+
+TEST(InternalForce, UniformVolumeRatioIsItsOwnMean){
+  MORULA_BOTH_DIMENSIONS(check_uniform_volume_ratio)}
+
+
+TEST(InternalForce,
+     IsFrameIndifferent){MORULA_BOTH_DIMENSIONS(check_frame_indifference)}
+
+
+TEST(InternalForce, ProjectedIsOneConstraintAGridCell){
+  MORULA_BOTH_DIMENSIONS(check_one_constraint)}
+
+
+TEST(InternalForce,
+     ForeseesTheVolumeChange){MORULA_BOTH_DIMENSIONS(check_foreseen)}
 
 
 TEST(InternalForce,

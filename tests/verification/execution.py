@@ -1,28 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Runs of the program for the rungs of a ladder, each in its own directory."""
-import hashlib
 import inspect
 import json
-import os
-import re
 import shlex
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy
-from ladder import ROOT, SCENES, Measured
+from ladder import SCENES, Measured
+from processes import (call, digest, files_of_scene, overrides,
+                       program_stamp)
 from results import Results
 
 HERE = Path(__file__).resolve().parent
-
-# One rank and one thread, by any user. MPI's search for graphics cards would
-# connect to every X server, and end the run if that server goes away meanwhile.
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1",
-               "HWLOC_COMPONENTS": "-gl",
-               "OMPI_ALLOW_RUN_AS_ROOT": "1",
-               "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 class RunFailed(Exception):
@@ -32,16 +23,10 @@ class RunFailed(Exception):
 def run(morula, scene, keys, output):
     """Runs a scene of prm/verification, from where prm/ is."""
     command = [str(morula), str(SCENES / scene),
-               "-s", f"Output directory={output}"]
-    for key, value in keys.items():
-        command += ["-s", f"{key}={value}"]
-    result = subprocess.run(command, cwd=ROOT, text=True,
-                            env={**ENVIRONMENT, **os.environ},
-                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, check=False)
-    if result.returncode != 0:
-        raise RunFailed(f"+ {shlex.join(command)}\n{result.stdout}"
-                        f"exit code {result.returncode}")
+               *overrides({"Output directory": output, **keys})]
+    code, text = call(command)
+    if code != 0:
+        raise RunFailed(f"+ {shlex.join(command)}\n{text}exit code {code}")
     return Results(output)
 
 
@@ -57,20 +42,14 @@ def write_cells(file, layout):
 def origin(case, ladder, rung, morula):
     """What the errors of a rung depend on: scenes, keys, the program, and the
     code that judges it."""
-    program = os.stat(morula)
-    digest = hashlib.sha256()
-    texts = [(SCENES / scene).read_text() for scene in ladder.scenes]
-    meshes = [ROOT / name for text in texts
-              for name in re.findall(r"set Surface mesh *= *(\S+)", text)]
-    files = meshes + [file for file in sorted(HERE.glob("*.py"))
-             if file.name not in ("report.py", "plots.py")]
+    scenes = [SCENES / scene for scene in ladder.scenes]
+    files = [file for scene in scenes for file in files_of_scene(scene)]
+    files += [file for file in sorted(HERE.glob("*.py"))
+              if file.name not in ("report.py", "plots.py")]
     files += [Path(inspect.getsourcefile(judge))
-              for judge in (case.errors, Results)]
-    for file in files:
-        digest.update(file.read_bytes())
-    return {"scenes": texts,
-            "keys": rung.keys, "judges": digest.hexdigest(),
-            "program": [program.st_size, program.st_mtime]}
+              for judge in (case.errors, Results, call)]
+    return {"keys": rung.keys, "files": digest(files),
+            "program": program_stamp(morula)}
 
 
 def remove_large_files(results):

@@ -39,6 +39,8 @@ class GrowingBall:
         ends = [layer.theta(R) for layer in layers
                 for R in (layer.begin, layer.end)]
         largest = 1e-3 + numpy.log(max(ends) / min(ends))
+        if self.lame_lambda > 0:  # a pressure of some mu compresses no more
+            largest = min(largest, 10 * self.mu / self.lame_lambda)
         centre = brentq(self._outer_stress, -largest, largest, xtol=1e-15,
                         rtol=1e-14)
         self.solutions = self._integrate(centre)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Tables of errors and orders, for the terminal and for the documentation."""
-import re
-
 import numpy
+import tables
+from tables import aligned, number
 
 
 def table(measured):
@@ -36,22 +36,9 @@ def print_ladder(measured):
     scenes = ", ".join(ladder.scenes)
     print(f"\n  {ladder.name}: {scenes}, {ladder.fixed}")
     header, rows = table(measured)
-    widths = [max(len(row[i]) for row in [header, *rows])
-              for i in range(len(header))]
-    for row in [header, *rows]:
-        print("    " + "  ".join(word.rjust(width)
-                                 for word, width in zip(row, widths)))
+    for line in aligned(header, rows):
+        print("    " + line)
     print(flush=True)
-
-
-def number(value):
-    """Two digits in Markdown: 3.1·10⁻³; zero and ordinary numbers plain."""
-    if value == 0 or 0.01 <= abs(value) < 1000:
-        return f"{value:.2g}"
-    digits, power = f"{value:.1e}".split("e")
-    superscript = str(int(power)).translate(
-        str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{digits}·10{superscript}"
 
 
 def summary(measured, name):
@@ -74,8 +61,7 @@ def markdown(ladders):
     others = [name for measured in ladders for name in measured.errors
               if name not in ("displacement", "stress")]
     names = ["displacement", "stress", *dict.fromkeys(others)]
-    lines = ["| ladder | varied | fixed | " + " | ".join(names) + " |",
-             "| --- | --- | --- | " + " | ".join("---" for _ in names) + " |"]
+    rows = []
     for measured in ladders:
         ladder = measured.ladder
         symbol, unit = ladder.varied.split(" [")
@@ -84,19 +70,5 @@ def markdown(ladders):
                  + unit.rstrip("]"), ladder.fixed]
         cells += [summary(measured, name) if name in measured.errors else ""
                   for name in names]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
-
-
-def renew(document, measured_by_case):
-    """Writes the tables of these cases between their markers."""
-    text = document.read_text()
-    for name, ladders in measured_by_case.items():
-        begin, end = f"<!-- table {name} -->\n", "<!-- end -->"
-        pattern = re.escape(begin) + ".*?" + re.escape(end)
-        if not re.search(pattern, text, re.DOTALL):
-            raise RuntimeError(f"{document} has no place for the table of "
-                               f"{name}: {begin.strip()} ... {end}")
-        new = begin + markdown(ladders) + "\n" + end
-        text = re.sub(pattern, lambda _: new, text, flags=re.DOTALL)
-    document.write_text(text)
+        rows.append(cells)
+    return tables.markdown(["ladder", "varied", "fixed", *names], rows)

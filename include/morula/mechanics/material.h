@@ -12,12 +12,22 @@ namespace Morula
 {
   using namespace dealii;
 
+  /** What stands for ln J_e in the terms with λ (doc/theory.md, section 2). */
+  enum class VolumetricStrain
+  {
+    /** ln J_e of the point itself. */
+    pointwise,
+    /** Its mean over the points of the grid cell. */
+    projected
+  };
+
   /** Section "Material". */
   struct MaterialParameters
   {
-    std::string youngs_modulus = "1.0";
-    double      poissons_ratio = 0.4;
-    std::string energy_per     = "initial volume";
+    std::string youngs_modulus    = "1.0";
+    double      poissons_ratio    = 0.4;
+    std::string energy_per        = "initial volume";
+    std::string volumetric_strain = "pointwise";
 
     void
     declare(ParameterHandler &prm);
@@ -25,6 +35,9 @@ namespace Morula
     /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
     bool
     per_grown_volume() const;
+
+    VolumetricStrain
+    volumetric_form() const;
   };
 
   /** Lamé's constants, kPa. */

@@ -49,20 +49,39 @@ namespace Morula
       return b;
     }
 
+    /** ln J_e. */
+    double
+    log_J() const
+    {
+      return log_J_;
+    }
+
     /** Ψ, kPa. */
     double
     energy() const
     {
-      return 0.5 * lame.lambda * log_J_ * log_J_ +
-             0.5 * lame.mu * (trace(b) - dim - 2. * log_J_);
+      return 0.5 * lame.lambda * log_J_ * log_J_ + shear_energy();
+    }
+
+    /** The part of Ψ with μ, kPa. */
+    double
+    shear_energy() const
+    {
+      return 0.5 * lame.mu * (trace(b) - dim - 2. * log_J_);
     }
 
     /** Size of what Ψ is a difference of, for its rounding error, kPa. */
     double
     energy_magnitude() const
     {
-      return 0.5 * lame.lambda * log_J_ * log_J_ +
-             0.5 * lame.mu * (trace(b) + dim + 2. * std::abs(log_J_));
+      return 0.5 * lame.lambda * log_J_ * log_J_ + shear_energy_magnitude();
+    }
+
+    /** The same for the part of Ψ with μ, kPa. */
+    double
+    shear_energy_magnitude() const
+    {
+      return 0.5 * lame.mu * (trace(b) + dim + 2. * std::abs(log_J_));
     }
 
     /** The part of the Kirchhoff stress τ in the plane (3-D: all of it), kPa.
@@ -70,8 +89,15 @@ namespace Morula
     SymmetricTensor<2, dim>
     kirchhoff_stress() const
     {
-      return lame.mu * (b - unit_symmetric_tensor<dim>()) +
+      return shear_stress() +
              lame.lambda * log_J_ * unit_symmetric_tensor<dim>();
+    }
+
+    /** The part of τ with μ, kPa. */
+    SymmetricTensor<2, dim>
+    shear_stress() const
+    {
+      return lame.mu * (b - unit_symmetric_tensor<dim>());
     }
 
     /** τ_zz, also in plane strain, kPa. */

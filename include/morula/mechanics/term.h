@@ -9,6 +9,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace Morula
@@ -89,6 +90,8 @@ namespace Morula
       magnitude.fill(0.);
       std::fill(matrix.begin(), matrix.end(), 0.);
       energy = energy_magnitude = 0.;
+      smallest_J                = {std::numeric_limits<double>::infinity(), {}};
+      largest_gap               = {-1., {}};
     }
 
     /** @param magnitude of what @p e is a sum of, for its rounding error */
@@ -103,6 +106,29 @@ namespace Morula
     add_energy(const double e)
     {
       add_energy(e, std::abs(e));
+    }
+
+    /**
+     * Takes the volume ratios of the step and of the elastic part at a point at
+     * @p xi in the grid cell into account.
+     * @return false where the body is inverted: there is no energy
+     */
+    bool
+    admits(const double det_f, const double J_e, const Point<dim> &xi)
+    {
+      const double J = det_f > 0. ? J_e : std::min(det_f, J_e);
+      if (J < smallest_J.value)
+        smallest_J = {J, xi};
+      inverted = inverted || !(J > 0.);
+      return J > 0.;
+    }
+
+    /** Takes the gap of a held point into account, µm. */
+    void
+    note_gap(const double gap, const Point<dim> &xi)
+    {
+      if (gap > largest_gap.value)
+        largest_gap = {gap, xi};
     }
 
     /** Adds to a residual entry. */
@@ -122,6 +148,15 @@ namespace Morula
 
     /** Set where det f <= 0 or J_e <= 0: there is no energy. */
     bool inverted = false;
+
+    /** A value and the place in the grid cell where it is extreme. */
+    struct Extreme
+    {
+      double     value;
+      Point<dim> xi;
+    };
+    Extreme smallest_J;  // J_e; det f where that is not positive
+    Extreme largest_gap; // µm; negative: nothing is held here
   };
 
   /**

@@ -18,6 +18,7 @@ namespace Morula
       : E("Material/Young's modulus", parameters.youngs_modulus)
       , nu(parameters.poissons_ratio)
       , per_grown_volume_(parameters.per_grown_volume())
+      , volumetric_form_(parameters.volumetric_form())
     {}
 
     /** Whether it is the same everywhere. */
@@ -50,10 +51,17 @@ namespace Morula
       return per_grown_volume_;
     }
 
+    VolumetricStrain
+    volumetric_form() const
+    {
+      return volumetric_form_;
+    }
+
   private:
-    Expression E;
-    double     nu;
-    bool       per_grown_volume_;
+    Expression       E;
+    double           nu;
+    bool             per_grown_volume_;
+    VolumetricStrain volumetric_form_;
   };
 } // namespace Morula
 

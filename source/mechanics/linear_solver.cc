@@ -3,10 +3,13 @@
 
 #include <morula/mechanics/linear_solver.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_solver.h>
+#include <deal.II/lac/vector.h>
 
 #include <Amesos.h>
 #include <EpetraExt_MatrixMatrix.h>
@@ -28,10 +31,17 @@ namespace Morula
      *  depending on where the ranks' border falls. */
     constexpr unsigned int overlap = 1;
 
-    /** Shifts tried on negative curvature: σ = first, first * factor, ... */
-    constexpr double first_shift  = 1e-3;
-    constexpr double shift_factor = 4.;
-    constexpr double last_shift   = 300.;
+    /** Shifts tried on negative curvature: each at least shift_factor times the
+     *  one before, and curvature_factor times what the curvature asks for (the
+     *  direct solver knows no curvature and begins with first_shift). Where a
+     *  body buckles the curvature is tiny, and a shift much larger than it
+     * would let Newton's method leave the straight state by a thousandth an
+     *  iteration. */
+    constexpr double first_shift      = 1e-3;
+    constexpr double least_shift      = 1e-9;
+    constexpr double shift_factor     = 4.;
+    constexpr double curvature_factor = 2.;
+    constexpr double last_shift       = 300.;
 
     enum class Outcome
     {
@@ -47,6 +57,8 @@ namespace Morula
      * and Belos do not look at the curvature: they iterate on for thousands of
      * steps on an indefinite tangent, or return a direction that is none of
      * descent.
+     * @param needed on negative curvature the shift, on all of K, with which
+     *        that direction would have had none
      */
     template <typename Preconditioner, typename Projection>
     Outcome
@@ -58,7 +70,8 @@ namespace Morula
                         Vector               &x,
                         const Vector         &b,
                         const double          tolerance,
-                        unsigned int         &iterations)
+                        unsigned int         &iterations,
+                        double               &needed)
     {
       Vector r(b), z(b), p(b), Kp(b), shifted(b);
       x = 0.;
@@ -83,7 +96,12 @@ namespace Morula
           ++iterations;
           const double curvature = p * Kp;
           if (!(curvature > 0.))
-            return Outcome::negative_curvature;
+            {
+              shifted = p;
+              shifted.scale(diagonal);
+              needed = shift - curvature / (p * shifted);
+              return Outcome::negative_curvature;
+            }
           const double alpha = rz / curvature;
           x.add(alpha, p);
           r.add(-alpha, Kp);
@@ -163,6 +181,12 @@ namespace Morula
 
   LinearSolver::~LinearSolver() = default;
 
+  double
+  LinearSolver::largest_shift() const
+  {
+    return largest_shift_;
+  }
+
   void
   LinearSolver::project(Vector &x) const
   {
@@ -180,14 +204,19 @@ namespace Morula
     auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
     const TrilinosWrappers::PreconditionIC::AdditionalData data(
       0, 2e-5 * problem.stiffness_scale(), 1.02, overlap);
-    if (symmetric)
-      ic->initialize(K, data);
-    else
+    if (!symmetric)
+      symmetrize(K, symmetric_part);
+    bool failed = false;
+    try
       {
-        symmetrize(K, symmetric_part);
-        ic->initialize(symmetric_part, data);
+        ic->initialize(symmetric ? K : symmetric_part, data);
       }
-    preconditioner = std::move(ic);
+    catch (const ExceptionBase &)
+      {
+        failed = true; // a zero pivot; perhaps on this rank alone
+      }
+    if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
+      preconditioner = std::move(ic);
   }
 
   void
@@ -228,12 +257,10 @@ namespace Morula
                                 const double  tolerance,
                                 unsigned int &iterations)
   {
-    Vector magnitude;
-    double shift = 0.;
+    const Vector magnitude = diagonal_magnitude(K, b);
+    double       shift = 0., needed = 0.;
     while (shift < last_shift)
       {
-        if (magnitude.size() == 0 && (shift > 0. || !preconditioner))
-          magnitude = diagonal_magnitude(K, b);
         const auto iterate = [&](const auto &P) {
           return conjugate_gradients(
             K,
@@ -244,15 +271,18 @@ namespace Morula
             x,
             b,
             tolerance,
-            iterations);
+            iterations,
+            needed);
         };
         const Outcome outcome =
           preconditioner ? iterate(*preconditioner) :
                            iterate(jacobi_preconditioner(magnitude, shift));
+        largest_shift_ = std::max(largest_shift_, shift);
         if (outcome == Outcome::converged)
           return;
         if (outcome == Outcome::negative_curvature)
-          shift = shift == 0. ? first_shift : shift * shift_factor;
+          shift = std::max(
+            {least_shift, curvature_factor * needed, shift_factor * shift});
         else if (preconditioner)
           preconditioner.reset(); // not positive, or of no use: Jacobi
         else
@@ -280,9 +310,15 @@ namespace Morula
       {
         const auto remove = [this](Vector &y) { project(y); };
         const Projected<Matrix, decltype(remove)> A{K, remove};
-        const Projected<TrilinosWrappers::PreconditionBase, decltype(remove)> P{
-          *preconditioner, remove};
-        gmres.solve(A, x, balanced, P);
+        const auto                                solve = [&](const auto &P) {
+          const Projected<std::decay_t<decltype(P)>, decltype(remove)>
+            projected{P, remove};
+          gmres.solve(A, x, balanced, projected);
+        };
+        if (preconditioner)
+          solve(*preconditioner);
+        else
+          solve(jacobi_preconditioner(diagonal_magnitude(K, b), 0.));
         project(x);
       }
     catch (const SolverControl::NoConvergence &)
@@ -324,18 +360,62 @@ namespace Morula
                ++iterations;
                try
           {
-                   solver.initialize(shift > 0. ? shifted : K);
-                   solver.solve(x, balanced);
+                   const Matrix &A = shift > 0. ? shifted : K;
+                   solver.initialize(A);
+                   solve_bordered(A, solver, x, balanced);
           }
                catch (const ExceptionBase &)
           {
                    continue; // singular
           }
-        project(x);
-               // Not a direction of descent: the tangent is indefinite there.
+        // Not a direction of descent: the tangent is indefinite there.
                if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
           return;
+        if (shift > least)
+          largest_shift_ = std::max(largest_shift_, shift);
       }
     throw StepFailed("the direct solver found no direction of descent");
+  }
+
+  void
+  LinearSolver::solve_bordered(const Matrix                   &A,
+                               TrilinosWrappers::SolverDirect &solver,
+                               Vector                         &x,
+                               const Vector                   &b) const
+  {
+    const std::vector<Vector> &N = problem.null_space();
+    if (N.empty())
+      {
+        solver.solve(x, b);
+        return;
+      }
+    std::vector<Vector>      W;
+    LAPACKFullMatrix<double> schur(N.size());
+    for (unsigned int l = 0; l < N.size(); ++l)
+      {
+        W.emplace_back(b);
+        solver.solve(W[l], N[l]);
+        for (unsigned int k = 0; k < N.size(); ++k)
+          schur(k, l) = N[k] * W[l];
+      }
+    schur.compute_lu_factorization();
+
+    // The parts along the unsupported motions are huge and cancel: refine.
+    x = 0.;
+    Vector r(b), y(b);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        solver.solve(y, r);
+        dealii::Vector<double> multipliers(N.size());
+        for (unsigned int k = 0; k < N.size(); ++k)
+          multipliers[k] = N[k] * y;
+        schur.solve(multipliers);
+        for (unsigned int l = 0; l < N.size(); ++l)
+          y.add(-multipliers[l], W[l]);
+        x += y;
+        project(x);
+        A.residual(r, x, b);
+        project(r);
+      }
   }
 } // namespace Morula

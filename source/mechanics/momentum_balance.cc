@@ -7,21 +7,48 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <functional>
 #include <limits>
+#include <sstream>
 
 namespace Morula
 {
+  namespace
+  {
+    /** The value for which better(value, others') holds, and its place, over
+     *  all ranks; the first rank's of equal ones. */
+    template <int dim, typename Better>
+    void
+    find_best(double        &value,
+              Point<dim>    &place,
+              const Better  &better,
+              const MPI_Comm comm)
+    {
+      std::vector<double> own = {value};
+      for (unsigned int d = 0; d < dim; ++d)
+        own.push_back(place[d]);
+      const auto  all  = Utilities::MPI::all_gather(comm, own);
+      const auto *best = &all[0];
+      for (const std::vector<double> &other : all)
+        if (better(other[0], (*best)[0]))
+          best = &other;
+      value = (*best)[0];
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = (*best)[1 + d];
+    }
+  } // namespace
+
   template <int dim>
   MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim> &space,
                                         const TermList         &terms,
                                         const double            youngs_modulus,
-                                        const RigidModes<dim>  &rigid_modes,
+                                        std::vector<Vector>     null_space,
                                         TimerOutput            &timer,
                                         const MPI_Comm          comm)
     : space(space)
     , terms(terms)
     , youngs_modulus(youngs_modulus)
-    , null_space_(rigid_modes.null_space())
+    , null_space_(std::move(null_space))
     , timer(timer)
     , comm(comm)
   {}
@@ -46,12 +73,14 @@ namespace Morula
     LocalSystem<dim>             system(wanted);
     std::vector<double>          sums(space.relevant_dofs().n_elements(), 0.);
     double                       energies[3] = {0., 0., 0.};
+    extremes_of_rank = {std::numeric_limits<double>::infinity(), {}, -1., {}};
     for (unsigned int c = 0; c < space.cells().size() && !system.inverted; ++c)
       {
         const LocalField<dim> field = displacement.on_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, GrowthAt::current, system);
+        update_extremes(system, space.cells()[c].number);
         energies[0] += system.energy;
         energies[1] += system.energy_magnitude;
 
@@ -88,6 +117,86 @@ namespace Morula
     if (std::isfinite(evaluation.energy))
       R = sum;
     return evaluation;
+  }
+
+  template <int dim>
+  void
+  MomentumBalance<dim>::update_extremes(const LocalSystem<dim> &system,
+                                        const unsigned int      number) const
+  {
+    const auto place = [&](const Point<dim> &xi) {
+      return space.box().corner(space.box().index(number)) +
+             space.box().spacing() * Tensor<1, dim>(xi);
+    };
+    Extremes<dim> &all = extremes_of_rank;
+    if (system.smallest_J.value < all.smallest_J)
+      {
+        all.smallest_J = system.smallest_J.value;
+        all.place_of_J = place(system.smallest_J.xi);
+      }
+    if (system.largest_gap.value > all.largest_gap)
+      {
+        all.largest_gap  = system.largest_gap.value;
+        all.place_of_gap = place(system.largest_gap.xi);
+      }
+  }
+
+  template <int dim>
+  Extremes<dim>
+  MomentumBalance<dim>::extremes() const
+  {
+    Extremes<dim> all = extremes_of_rank;
+    find_best(all.smallest_J, all.place_of_J, std::less<double>(), comm);
+    find_best(all.largest_gap, all.place_of_gap, std::greater<double>(), comm);
+    return all;
+  }
+
+  template <int dim>
+  Point<dim>
+  MomentumBalance<dim>::place_of_largest(const Vector &R) const
+  {
+    double     largest = -1.;
+    Point<dim> place;
+    // An unknown belongs to the place that is its coefficient in the field x.
+    std::vector<std::vector<double>> places(space.n_pieces());
+    unsigned int                     k = 0;
+    for (const auto row : R.locally_owned_elements())
+      {
+        const unsigned int unknown = k++ / dim;
+        if (!(std::abs(R(row)) > largest))
+          continue;
+        const unsigned int piece = space.pieces_of_unknowns()[unknown];
+        if (places[piece].empty())
+          places[piece] =
+            space.affine_coefficients(piece,
+                                      Tensor<1, dim>(),
+                                      Tensor<2, dim>(
+                                        unit_symmetric_tensor<dim>()));
+        largest = std::abs(R(row));
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] = places[piece][unknown * dim + d];
+      }
+    find_best(largest, place, std::greater<double>(), comm);
+    return place;
+  }
+
+  template <int dim>
+  std::string
+  MomentumBalance<dim>::describe(const Vector &R) const
+  {
+    const Extremes<dim> all = extremes();
+    std::ostringstream  text;
+    if (all.smallest_J > 0.)
+      text << "The smallest J_e is " << all.smallest_J << ", at ("
+           << all.place_of_J << ") um";
+    else
+      text << "The tissue is inverted at (" << all.place_of_J << ") um";
+    text << ", the largest unbalanced force acts near (" << place_of_largest(R)
+         << ") um";
+    if (all.largest_gap >= 0.)
+      text << ", and the largest gap of a held point is " << all.largest_gap
+           << " um, at (" << all.place_of_gap << ") um";
+    return text.str();
   }
 
   template <int dim>

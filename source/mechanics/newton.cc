@@ -13,6 +13,8 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace Morula
 {
@@ -38,8 +40,7 @@ namespace Morula
       const Equilibrium &problem;
     };
 
-    /** Converged below a bound; failed after too many iterations or where the
-     *  residual is no number. */
+    /** Converged below a bound; failed where there is no hope of it. */
     class ResidualTest : public NOX::StatusTest::Generic
     {
     public:
@@ -51,15 +52,26 @@ namespace Morula
       checkStatus(const NOX::Solver::Generic &solver,
                   NOX::StatusTest::CheckType) override
       {
-        const double norm = solver.getSolutionGroup().getNormF();
+        const double norm      = solver.getSolutionGroup().getNormF();
+        const int    iteration = solver.getNumIterations();
+        status                 = NOX::StatusTest::Failed;
         if (norm <= bound)
           status = NOX::StatusTest::Converged;
-        else if (!std::isfinite(norm) ||
-                 solver.getNumIterations() >= max_iterations)
-          status = NOX::StatusTest::Failed;
+        else if (!std::isfinite(norm))
+          reason = "the unbalanced forces are infinite";
+        else if (iteration >= max_iterations)
+          reason = "they have not converged in " +
+                   std::to_string(max_iterations) + " iterations";
         else
           status = NOX::StatusTest::Unconverged;
         return status;
+      }
+
+      /** Why it has failed; also where the line search has. */
+      const std::string &
+      reason_of_failure() const
+      {
+        return reason;
       }
 
       NOX::StatusTest::StatusType
@@ -75,9 +87,28 @@ namespace Morula
       }
 
     private:
-      const double                bound;
+      const double bound;
+      std::string  reason = "no part of Newton's step has a lower energy";
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
     };
+
+    /** The failure of an attempt that has come as far as @p u, with what the
+     *  user should know of it. */
+    StepFailed
+    failure(std::string                reason,
+            const Equilibrium         &problem,
+            const Equilibrium::Vector &u,
+            const double               largest_shift)
+    {
+      if (largest_shift > 0.)
+        reason += ". The tangent was indefinite: the body is unstable (it "
+                  "buckles or folds, or its material is stretched so far that "
+                  "it has lost its ellipticity)";
+      Equilibrium::Vector R(u);
+      problem.residual(u, R);
+      const std::string state = problem.describe(R);
+      return StepFailed(state.empty() ? reason : reason + ". " + state);
+    }
 
     Teuchos::RCP<Teuchos::ParameterList>
     nox_parameters(const Equilibrium &problem, const double linear_tolerance)
@@ -85,7 +116,7 @@ namespace Morula
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
       parameters->sublist("Printing")
-        .set("Output Information", int(NOX::Utils::Error));
+        .set("Output Information", 0); // StepFailed says what has failed
 
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");
@@ -121,7 +152,7 @@ namespace Morula
       Teuchos::rcp(new NoxGroup(problem, linear_solver, report, u));
     group->computeF();
     if (!std::isfinite(group->evaluation().energy))
-      throw StepFailed("the tissue is inverted at the start of the step");
+      throw failure("there is no state to start from", problem, u, 0.);
     const double first = group->getNormF();
     const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, problem.small_force()),
@@ -130,21 +161,27 @@ namespace Morula
     if (first <= bound)
       return;
 
-    const auto                  test   = Teuchos::rcp(new ResidualTest(bound));
-    NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
+    const auto  test   = Teuchos::rcp(new ResidualTest(bound));
+    std::string reason = "Newton's method has not converged: ";
     try
       {
         const auto solver = NOX::Solver::buildSolver(
           group, test, nox_parameters(problem, parameters.linear_tolerance));
-        status          = solver->solve();
-        u               = values_of(solver->getSolutionGroup().getX());
-        report.residual = solver->getSolutionGroup().getNormF() / first;
+        const auto status = solver->solve();
+        u                 = values_of(solver->getSolutionGroup().getX());
+        report.residual   = solver->getSolutionGroup().getNormF() / first;
+        if (status == NOX::StatusTest::Converged)
+          return;
+        reason += test->reason_of_failure();
+      }
+    catch (const StepFailed &error)
+      {
+        reason += error.what();
       }
     catch (const char *message)
       {
-        throw StepFailed(message);
+        reason += message;
       }
-    if (status != NOX::StatusTest::Converged)
-      throw StepFailed("Newton's method did not converge");
+    throw failure(reason, problem, u, linear_solver.largest_shift());
   }
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/mechanics/condensation.h>
 #include <morula/mechanics/rigid_modes.h>
 
 #include <deal.II/base/mpi.h>
@@ -43,6 +44,24 @@ namespace Morula
     rotation(const Tensor<2, dim> &B)
     {
       return invert(identity<dim>() - 0.5 * B) * (identity<dim>() + 0.5 * B);
+    }
+
+    /** Appends what of @p vector is orthogonal to @p basis, at unit length;
+     *  false if that is not longer than @p least. */
+    bool
+    add_orthonormal(Equilibrium::Vector               vector,
+                    std::vector<Equilibrium::Vector> &basis,
+                    const double                      least = 0.)
+    {
+      for (unsigned int i = 0; i < 2; ++i) // once more, for the rounding
+        for (const Equilibrium::Vector &other : basis)
+          vector.add(-(vector * other), other);
+      const double length = vector.l2_norm();
+      if (!(length > least))
+        return false;
+      vector /= length;
+      basis.push_back(std::move(vector));
+      return true;
     }
   } // namespace
 
@@ -173,10 +192,74 @@ namespace Morula
           Equilibrium::Vector vector(space.owned_dofs(), comm);
           std::copy(coefficients.begin(), coefficients.end(), vector.begin());
           vector.compress(VectorOperation::insert);
-          for (const Equilibrium::Vector &other : basis)
-            vector.add(-(vector * other), other);
-          vector /= vector.l2_norm();
-          basis.push_back(std::move(vector));
+          add_orthonormal(std::move(vector), basis);
+        }
+    return basis;
+  }
+
+  template <int dim>
+  std::vector<Equilibrium::Vector>
+  RigidModes<dim>::inertia(const std::vector<Mass> &masses) const
+  {
+    std::vector<unsigned int> first(1, 0); // vector of each piece
+    for (const Piece &piece : pieces)
+      first.push_back(first.back() + piece.free.size());
+    std::vector<std::vector<double>> sums(
+      first.back(),
+      std::vector<double>(space.relevant_dofs().n_elements(), 0.));
+    const auto &cells = space.cells();
+    for (const Mass &mass : masses)
+      {
+        const Piece &piece = pieces[mass.piece];
+        if (piece.free.empty())
+          continue;
+        const GridIndex<dim> index = space.box().locate(mass.x);
+        const auto           cell =
+          std::lower_bound(cells.begin(),
+                           cells.end(),
+                           space.box().number(index),
+                           [](const auto &c, const unsigned int number) {
+                             return c.number < number;
+                           });
+        const SplineValues<dim> splines(space.box().unit_position(mass.x,
+                                                                  index),
+                                        space.box().spacing());
+        const Condensation<dim> condensation(*cell);
+        for (unsigned int k = 0; k < piece.free.size(); ++k)
+          {
+            const Mode          &mode = piece.free[k];
+            const Tensor<1, dim> force =
+              mass.V0 * (mode.a + mode.B * (mass.x - piece.center));
+            std::array<double, LocalSystem<dim>::n_dofs> forces;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+                forces[i * BSpline<dim>::n + a] = force[i] * splines.value[a];
+            const std::vector<double> condensed = condensation.condense(forces);
+            const unsigned int        m         = cell->unknowns.size();
+            for (unsigned int s = 0; s < m; ++s)
+              for (unsigned int i = 0; i < dim; ++i)
+                sums[first[mass.piece] + k][cell->unknowns[s] * dim + i] +=
+                  condensed[i * m + s];
+          }
+      }
+
+    std::vector<types::global_dof_index> dofs;
+    space.relevant_dofs().fill_index_vector(dofs);
+    const std::vector<Equilibrium::Vector> motions = null_space();
+    std::vector<Equilibrium::Vector>       basis;
+    for (unsigned int p = 0; p < pieces.size(); ++p)
+      for (unsigned int k = first[p]; k < first[p + 1]; ++k)
+        {
+          Equilibrium::Vector sum, vector(space.owned_dofs(), comm);
+          sum.reinit(space.owned_dofs(), space.relevant_dofs(), comm, true);
+          sum.add(dofs, sums[k]);
+          sum.compress(VectorOperation::add);
+          vector = sum;
+          // Rotations of a single particle have no inertia.
+          if (!add_orthonormal(std::move(vector),
+                               basis,
+                               inertia_tolerance * pieces[p].volume))
+            add_orthonormal(motions[k], basis);
         }
     return basis;
   }

@@ -28,5 +28,11 @@ namespace Morula
       "Solver of Newton's linear systems. Automatic: iterative, "
       "direct where that fails.",
       Patterns::Selection("automatic|iterative|direct"));
+    prm.add_parameter("Largest gap",
+                      largest_gap,
+                      "Distance of a fixed or slip point from where it is held "
+                      "at which a step counts as failed, in grid spacings; 0: "
+                      "any is allowed.",
+                      Patterns::Double(0.));
   }
 } // namespace Morula

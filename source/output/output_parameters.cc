@@ -26,5 +26,11 @@ namespace Morula
                       "Time between two snapshots for --resume, day; 0: at the "
                       "end only.",
                       Patterns::Double(0.));
+    prm.add_parameter(
+      "Condition estimate",
+      condition_estimate,
+      "Whether condition.csv is to hold the extreme eigenvalues "
+      "of each step's first tangent, scaled to a unit "
+      "diagonal. Takes longer than the step itself.");
   }
 } // namespace Morula

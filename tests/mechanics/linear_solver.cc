@@ -193,6 +193,61 @@ TEST(LinearSolver, LeavesTheNullSpaceAlone)
 }
 
 
+// Rows without any entry, as of splines that nothing fills: no factorisation
+// has a pivot there.
+TEST(LinearSolver, SolvesWithEmptyRows)
+{
+  for (const std::string solver : {"automatic", "iterative"})
+    for (const double skew : {0., 3.})
+      {
+        SCOPED_TRACE(solver + (skew == 0. ? "" : ", unsymmetric"));
+        unsigned int ignored = 0;
+        QuietTimer   timer;
+        ChainProblem problem = chain(0.5, skew);
+        const auto   full    = problem.stiffness;
+        const auto   empty   = [](const unsigned int i) { return i % 7 == 3; };
+        problem.stiffness =
+          [=](const unsigned int i, const unsigned int j, const auto &u) {
+            return empty(i) || empty(j) ? 0. : full(i, j, u);
+          };
+        LinearSolver        linear_solver(parameters(solver), problem, timer);
+        Equilibrium::Vector x, b;
+        problem.initialize(x);
+        const auto &K      = problem.tangent(x, GrowthAt::current);
+        auto        values = random_values(4);
+        for (unsigned int i = 0; i < n; ++i)
+          if (empty(i))
+            values[i] = 0.;
+        b = problem.vector_of(values);
+        linear_solver.solve(K, x, b, 1e-8, ignored);
+        EXPECT_LE(defect(K, x, b), 1e-7);
+      }
+}
+
+
+// A matrix whose incomplete factorisation is not positive though it is.
+TEST(LinearSolver, DoesWithoutAFactorisation)
+{
+  unsigned int ignored = 0;
+  QuietTimer   timer;
+  ChainProblem problem(n);
+  // The foundation is stiff, but weakened next to every fifth unknown until the
+  // pivot is negative; the diagonal alone is a good preconditioner.
+  problem.stiffness =
+    [](const unsigned int i, const unsigned int j, const auto &) {
+      return i == j ? (i % 5 == 0 ? 1e-12 : 1.) : (i / 5 == j / 5 ? 1e-7 : 0.);
+    };
+  LinearSolver        linear_solver(parameters("iterative"), problem, timer);
+  Equilibrium::Vector x;
+  problem.initialize(x);
+  const auto &K = problem.tangent(x, GrowthAt::current);
+  const auto  b = problem.vector_of(random_values(5));
+  linear_solver.solve(K, x, b, 1e-6, ignored);
+  EXPECT_TRUE(std::isfinite(x.l2_norm()));
+  EXPECT_GT(x * b, 0.);
+}
+
+
 TEST(LinearSolver, FailsTogetherWhereNothingHelps)
 {
   unsigned int ignored = 0;

@@ -151,7 +151,7 @@ namespace
         *body.space,
         terms,
         1.,
-        RigidModes<dim>(*body.space, {}, {}, comm),
+        std::vector<Equilibrium::Vector>(),
         timer,
         comm);
     }
@@ -383,7 +383,7 @@ namespace
       *body.space,
       terms,
       1.,
-      RigidModes<dim>(*body.space, masses, {}, MPI_COMM_WORLD),
+      RigidModes<dim>(*body.space, masses, {}, MPI_COMM_WORLD).null_space(),
       timer,
       MPI_COMM_WORLD);
     Equilibrium::Vector u, R;

@@ -264,6 +264,28 @@ TEST(Newton, EndsWithASearchThatFindsNothing)
 }
 
 
+// Downhill without end.
+TEST(Newton, SaysThatTheTangentIsIndefinite)
+{
+  ChainProblem        problem = alike([](double u) { return -std::exp(u); },
+                               [](double u) { return -std::exp(u); },
+                               [](double u) { return -std::exp(u); });
+  QuietTimer          timer;
+  NewtonReport        report;
+  Equilibrium::Vector u;
+  try
+    {
+      solve(problem, SolverParameters(), timer, u, report);
+      FAIL() << "it must fail";
+    }
+  catch (const StepFailed &failure)
+    {
+      const std::string message = failure.what();
+      EXPECT_NE(message.find("indefinite"), std::string::npos) << message;
+    }
+}
+
+
 TEST(Newton, ReportsAddUp)
 {
   QuietTimer          timer;

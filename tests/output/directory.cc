@@ -52,6 +52,7 @@ TEST(Directory, LosesTheOldRunAndNothingElse)
                                       "cells-0001.csv.tmp",
                                       "surface-0001.vtu",
                                       "surface-0001.csv",
+                                      "condition.csv",
                                       "lineage.csv",
                                       "statistics.csv",
                                       "timings.csv",

@@ -10,6 +10,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -61,6 +62,17 @@ namespace Morula
     virtual double
     rounding(const Vector &u) const = 0;
 
+    /**
+     * What a user should know of the last state that residual() was called
+     * for, where Newton's method fails there: extreme values and their places.
+     * @param R its residual
+     */
+    virtual std::string
+    describe(const Vector & /*R*/) const
+    {
+      return "";
+    }
+
     /** The tangent K(u). The matrix belongs to the problem. */
     virtual const Matrix &
     tangent(const Vector &u, const GrowthAt growth) = 0;
@@ -70,7 +82,8 @@ namespace Morula
     is_conservative() const = 0;
 
     /**
-     * Orthonormal vectors along which the problem does not determine u: the
+     * Orthonormal vectors along which forces are left out, as if inertia
+     * balanced them, since nothing else does: the
      * solution is sought orthogonal to them.
      */
     virtual const std::vector<Vector> &

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
 
 #include <memory>
 
@@ -55,6 +56,10 @@ namespace Morula
           const double  tolerance,
           unsigned int &iterations);
 
+    /** The largest σ that was needed; 0 where no tangent was indefinite. */
+    double
+    largest_shift() const;
+
   private:
     void
     solve_symmetric(const Matrix &K,
@@ -76,6 +81,19 @@ namespace Morula
                  const Vector &b,
                  unsigned int &iterations);
 
+    /**
+     * Solves A x = b in the space orthogonal to the problem's null space,
+     * where A, factored by @p solver, is nearly singular. The motions that A
+     * gives no stiffness are those of the deformed body, and not quite
+     * orthogonal to that space: projecting A⁻¹b onto it would leave a large
+     * rotation. Solves A x + N μ = b, Nᵀx = 0 with the null space N instead.
+     */
+    void
+    solve_bordered(const Matrix                   &A,
+                   TrilinosWrappers::SolverDirect &solver,
+                   Vector                         &x,
+                   const Vector                   &b) const;
+
     void
     make_preconditioner(const Matrix &K);
 
@@ -90,6 +108,7 @@ namespace Morula
     TimerOutput       &timer;
     Matrix symmetric_part; // of an unsymmetric tangent; the preconditioner's
     std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
+    double                                              largest_shift_ = 0.;
     bool prepared = false; // a preconditioner was made; none now: Jacobi
   };
 } // namespace Morula

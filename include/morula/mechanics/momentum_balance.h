@@ -18,6 +18,19 @@
 
 namespace Morula
 {
+  /** Where a state of the tissue is at its worst. */
+  template <int dim>
+  struct Extremes
+  {
+    /** Smallest J_e of any point, or det f where the step inverts it. */
+    double     smallest_J;
+    Point<dim> place_of_J; // µm, in the configuration at t
+    /** Largest distance of a held point from where it is held, µm; negative:
+     *  none is held. */
+    double     largest_gap;
+    Point<dim> place_of_gap;
+  };
+
   /**
    * The momentum balance of one step: the sum of the scene's terms over the
    * active grid cells, condensed to the unknown splines inside each grid cell
@@ -32,12 +45,14 @@ namespace Morula
     /**
      * Keeps references to the space and the terms.
      * @param youngs_modulus a typical one, kPa
-     * @param rigid_modes    unsupported rigid motions: the null space
+     * @param null_space     orthonormal; forces along them are left out, and
+     *                       u is sought orthogonal to them: as in
+     *                       RigidModes::inertia()
      */
     MomentumBalance(const SplineSpace<dim> &space,
                     const TermList         &terms,
                     const double            youngs_modulus,
-                    const RigidModes<dim>  &rigid_modes,
+                    std::vector<Vector>     null_space,
                     TimerOutput            &timer,
                     const MPI_Comm          comm);
 
@@ -49,6 +64,13 @@ namespace Morula
 
     double
     rounding(const Vector &u) const override;
+
+    /** Of the state that residual() was last called for. Collective. */
+    Extremes<dim>
+    extremes() const;
+
+    std::string
+    describe(const Vector &R) const override;
 
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
@@ -71,6 +93,15 @@ namespace Morula
                       const typename LocalSystem<dim>::Wanted wanted,
                       Vector                                 &sum) const;
 
+    /** Takes a grid cell's extremes into account. */
+    void
+    update_extremes(const LocalSystem<dim> &system,
+                    const unsigned int      number) const;
+
+    /** Near which place the largest entry of @p R acts. */
+    Point<dim>
+    place_of_largest(const Vector &R) const;
+
     const SplineSpace<dim>           &space;
     const TermList                   &terms;
     const double                      youngs_modulus;
@@ -78,6 +109,7 @@ namespace Morula
     TimerOutput                      &timer;
     const MPI_Comm                    comm;
     Matrix                            matrix;
+    mutable Extremes<dim>             extremes_of_rank; // last evaluation's
     std::optional<MatrixScatter<dim>> scatter; // made with the first tangent
   };
 } // namespace Morula

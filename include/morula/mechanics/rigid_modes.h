@@ -61,6 +61,17 @@ namespace Morula
     null_space() const;
 
     /**
+     * Orthonormal vectors that span the forces Σ V⁰ N_a m(x) of all
+     * unsupported rigid motions m of all pieces (@p masses as in the
+     * constructor). An increment u orthogonal to them has Σ V⁰ m·u = 0, and a
+     * load that has no part in them but is not balanced acts together with
+     * forces of inertia: V⁰ m(x) on every particle, whatever the grid.
+     * Collective.
+     */
+    std::vector<Equilibrium::Vector>
+    inertia(const std::vector<Mass> &masses) const;
+
+    /**
      * Superposes rigid motions on the increment @p u so that it has no part in
      * the unsupported motions: a finite rotation and translation of each free
      * piece.

@@ -16,9 +16,10 @@ namespace Morula
   /** Section "Output". */
   struct OutputParameters
   {
-    double                   interval          = 0.25;
-    std::vector<std::string> formats           = {"vtu"};
-    double                   snapshot_interval = 0.;
+    double                   interval           = 0.25;
+    std::vector<std::string> formats            = {"vtu"};
+    double                   snapshot_interval  = 0.;
+    bool                     condition_estimate = false;
 
     void
     declare(ParameterHandler &prm);

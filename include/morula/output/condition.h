@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_output_condition_h
+#define morula_output_condition_h
+
+#include <morula/mechanics/condition_estimate.h>
+#include <morula/output/appended_csv.h>
+
+namespace Morula
+{
+  /**
+   * condition.csv: `step,time,unknowns,smallest,largest,condition`, a row a
+   * step, with the time at its beginning (day), where the tangent is taken. All
+   * members are collective; errors as in AppendedCsv.
+   */
+  class ConditionFile
+  {
+  public:
+    /** A new file. */
+    ConditionFile(const std::string &path, const MPI_Comm comm);
+
+    /** Continues the file behind its first @p n_rows rows. */
+    ConditionFile(const std::string  &path,
+                  const std::uint64_t n_rows,
+                  const MPI_Comm      comm);
+
+    void
+    append(const unsigned int       step,
+           const double             time,
+           const ConditionEstimate &estimate);
+
+    /** See AppendedCsv. */
+    void
+    sync()
+    {
+      file.sync();
+    }
+
+    std::uint64_t
+    n_rows() const
+    {
+      return file.n_rows();
+    }
+
+  private:
+    AppendedCsv file;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/condition.h>
+#include <morula/output/csv_rows.h>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::vector<std::string> names = {
+      "step", "time", "unknowns", "smallest", "largest", "condition"};
+  }
+
+  ConditionFile::ConditionFile(const std::string &path, const MPI_Comm comm)
+    : file(path, names, comm)
+  {}
+
+  ConditionFile::ConditionFile(const std::string  &path,
+                               const std::uint64_t n_rows,
+                               const MPI_Comm      comm)
+    : file(path, names, n_rows, comm)
+  {}
+
+  void
+  ConditionFile::append(const unsigned int       step,
+                        const double             time,
+                        const ConditionEstimate &estimate)
+  {
+    const std::vector<double> values = {double(step),
+                                        time,
+                                        double(estimate.unknowns),
+                                        estimate.smallest,
+                                        estimate.largest,
+                                        estimate.condition()};
+    CsvRows                   rows;
+    rows.add(step, values.data(), values.size());
+    file.append(rows.text);
+  }
+} // namespace Morula

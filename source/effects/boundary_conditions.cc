@@ -78,16 +78,21 @@ namespace Morula
 
   template <int dim>
   Tensor<1, dim>
-  BoundaryConditions<dim>::traction(const Point<dim> &X, const double t) const
+  BoundaryConditions<dim>::traction(const Point<dim> &X_seed,
+                                    const Point<dim> &X,
+                                    const double      t) const
   {
-    return holds(traction_where, X) ? traction_.vector(X, t) : Tensor<1, dim>();
+    return holds(traction_where, X_seed) ? traction_.vector(X, t) :
+                                           Tensor<1, dim>();
   }
 
   template <int dim>
   double
-  BoundaryConditions<dim>::pressure(const Point<dim> &X, const double t) const
+  BoundaryConditions<dim>::pressure(const Point<dim> &X_seed,
+                                    const Point<dim> &X,
+                                    const double      t) const
   {
-    return holds(pressure_where, X) ? pressure_.value(X, t) : 0.;
+    return holds(pressure_where, X_seed) ? pressure_.value(X, t) : 0.;
   }
 
   template <int dim>
@@ -113,10 +118,13 @@ namespace Morula
 
   template <int dim>
   double
-  BoundaryConditions<dim>::penalty(const double E,
-                                   const Lame  &lame,
-                                   const double h) const
+  BoundaryConditions<dim>::penalty(const double           E,
+                                   const Lame            &lame,
+                                   const VolumetricStrain volumetric_form,
+                                   const double           h) const
   {
+    if (volumetric_form == VolumetricStrain::projected)
+      return relative_penalty * (lame.lambda + 2. * lame.mu) / h;
     const double least = form == NitscheForm::symmetric ?
                            least_penalty * (lame.lambda + 2. * lame.mu) :
                            0.;

@@ -174,19 +174,24 @@ namespace Morula
          ++p)
       {
         const SplineValues<dim> splines(points.xi[p], points.h);
-        const Tensor<2, dim>    f   = field.step_deformation(splines);
-        const Tensor<2, dim>    F_e = f * states[p].A;
-        if (determinant(f) <= 0. || determinant(F_e) <= 0.)
-          {
-            system.inverted = true;
-            return;
-          }
-        const Condition           &condition = conditions[p];
+        const Condition        &condition = conditions[p];
+        // An extrapolated deformation may be anything, also inverted.
+        const bool           trusted = condition.trust > 0.;
+        const Tensor<2, dim> I       = unit_symmetric_tensor<dim>();
+        const Tensor<2, dim> f = trusted ? field.step_deformation(splines) : I;
+        const Tensor<2, dim> F_e = trusted ? f * states[p].A : I;
+        if (trusted &&
+            !system.admits(determinant(f), determinant(F_e), points.xi[p]))
+          return;
         const NeoHookean<dim>      material(F_e, condition.lame);
-        const NominalTraction<dim> T(
-          splines, invert(f), material, states[p].W, condition);
-        const Tensor<1, dim> gap =
+        const NominalTraction<dim> T(splines,
+                                     invert(f),
+                                     material,
+                                     condition.trust * states[p].W,
+                                     condition);
+        const Tensor<1, dim>       gap =
           condition.gap + condition.projection * field.value(splines);
+        system.note_gap(gap.norm(), points.xi[p]);
         if (system.wanted == LocalSystem<dim>::tangent)
           add_tangent(splines, T, gap, condition, sign_of(form), system);
         else

@@ -7,11 +7,16 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/array.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace Morula
 {
@@ -124,44 +129,113 @@ namespace Morula
       return Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : below;
     }
 
+    /** Cells nearer than this fraction of their length coincide: division
+     *  could not tell their regions apart (daughter_distances()). */
+    constexpr double contact = 1e-3;
+
+    /** A cell of the file in a bin of space. */
+    template <int dim>
+    struct BinEntry
+    {
+      std::array<double, dim> bin, position;
+      std::uint64_t           line;
+      double                  length; // V^(1/dim), µm
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &bin &position &line &length;
+      }
+    };
+
     /**
-     * The first line that repeats the place of a line before it. Places are
-     * spread over the ranks by their hash; @p rows has global line numbers.
+     * This rank's bins of space with the cells in them, each sorted by line.
+     * Bins are spread over the ranks by their hash; a cell near the rim of a
+     * bin is in those beside it as well.
+     */
+    template <int dim>
+    std::vector<BinEntry<dim>>
+    bins(const PointRows<dim> &rows, const MPI_Comm comm)
+    {
+      double longest = 0.;
+      for (const double volume : rows.volumes)
+        longest = std::max(longest, std::pow(volume, 1. / dim));
+      const double reach = contact * Utilities::MPI::max(longest, comm);
+      const double width = 4. * reach;
+
+      std::map<unsigned int, std::vector<BinEntry<dim>>> outgoing;
+      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      for (std::size_t i = 0; i < rows.positions.size(); ++i)
+        {
+          std::set<std::array<double, dim>> around;
+          for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+            {
+              std::array<double, dim> bin;
+              for (unsigned int d = 0; d < dim; ++d)
+                bin[d] = std::floor((rows.positions[i][d] +
+                                     ((corner >> d) & 1 ? reach : -reach)) /
+                                    width);
+              around.insert(bin);
+            }
+          BinEntry<dim> entry;
+          entry.line   = rows.lines[i];
+          entry.length = std::pow(rows.volumes[i], 1. / dim);
+          for (unsigned int d = 0; d < dim; ++d)
+            entry.position[d] = rows.positions[i][d];
+          for (const auto &bin : around)
+            {
+              std::size_t hash = 0;
+              for (const double index : bin)
+                hash = hash * 1000003 + std::hash<double>()(index);
+              entry.bin = bin;
+              outgoing[(hash >> 8) % n_ranks].push_back(entry);
+            }
+        }
+      std::vector<BinEntry<dim>> mine;
+      for (const auto &from : Utilities::MPI::some_to_some(comm, outgoing))
+        mine.insert(mine.end(), from.second.begin(), from.second.end());
+      std::sort(mine.begin(), mine.end(), [](const auto &a, const auto &b) {
+        return std::tie(a.bin, a.line) < std::tie(b.bin, b.line);
+      });
+      return mine;
+    }
+
+    /**
+     * The first line whose cell coincides with that of a line before it.
+     * @p rows has global line numbers.
      */
     template <int dim>
     LineProblem
     find_repeated(const PointRows<dim> &rows, const MPI_Comm comm)
     {
-      using Place = std::pair<std::array<double, dim>, std::uint64_t>;
-      std::map<unsigned int, std::vector<Place>> outgoing;
-      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      for (std::size_t i = 0; i < rows.positions.size(); ++i)
-        {
-          Place       place;
-          std::size_t hash = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              place.first[d] = rows.positions[i][d];
-              hash = hash * 1000003 + std::hash<double>()(place.first[d]);
-            }
-          place.second = rows.lines[i];
-          outgoing[(hash >> 8) % n_ranks].push_back(place);
-        }
-      std::vector<Place> places;
-      for (const auto &from : Utilities::MPI::some_to_some(comm, outgoing))
-        places.insert(places.end(), from.second.begin(), from.second.end());
-      std::sort(places.begin(), places.end());
-
+      const std::vector<BinEntry<dim>> entries = bins(rows, comm);
+      const auto coincide = [](const auto &a, const auto &b) {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += Utilities::fixed_power<2>(a.position[d] - b.position[d]);
+        return std::sqrt(square) < contact * std::min(a.length, b.length);
+      };
       LineProblem problem;
-      for (std::size_t i = 1; i < places.size(); ++i)
-        if (places[i].first == places[i - 1].first &&
-            places[i].second < problem.line)
-          problem = {places[i].second,
-                     Patterns::Tools::to_string(places[i].first),
-                     "one cell at each place, and line " +
-                       std::to_string(places[i - 1].second) +
-                       " has one there already",
-                     "Drop one of the two cells."};
+      for (std::size_t begin = 0, i = 0; i < entries.size(); ++i)
+        {
+          if (entries[i].bin != entries[begin].bin)
+            begin = i;
+          if (entries[i].line >= problem.line)
+            continue;
+          for (std::size_t k = begin; k < i; ++k)
+            if (coincide(entries[k], entries[i]))
+              {
+                problem = {entries[i].line,
+                           Patterns::Tools::to_string(entries[i].position),
+                           "one cell at each place, and line " +
+                             std::to_string(entries[k].line) +
+                             " has one there already, nearer than 1e-3 of a "
+                             "cell's length",
+                           "Drop one of the two cells."};
+                break;
+              }
+        }
       return problem;
     }
   } // namespace

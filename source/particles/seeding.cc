@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace Morula
@@ -65,11 +66,49 @@ namespace Morula
       return shape;
     }
 
+    /** Refuses a surface that holds no cell or too many, whose file then most
+     *  likely has another unit of length. */
+    template <int dim>
+    [[noreturn]] void
+    throw_wrong_size(const TissueParameters &parameters,
+                     const BoundingBox<dim> &box,
+                     const bool              too_large)
+    {
+      std::ostringstream remedy;
+      remedy << "It reaches from (" << box.get_boundary_points().first
+             << ") to (" << box.get_boundary_points().second
+             << ") um, and a cell takes " << parameters.cell_spacing
+             << " um (Tissue/Cell spacing). If the file is in another unit, "
+             << "scale it to um"
+             << (too_large ? "" : ", such as by 1000 from mm or 1e6 from m")
+             << "; else choose another Cell spacing or Lattice offset.";
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       too_large ? "a surface in um with fewer than 4e9 cells" :
+                                   "a surface in um with at least one cell's "
+                                   "centre inside",
+                       remedy.str());
+    }
+
+    /** Refuses a mesh whose bounding box has too many places for cells. */
+    template <int dim>
+    void
+    check_extent(const TissueParameters &parameters,
+                 const BoundingBox<dim> &box)
+    {
+      double n = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        n *= box.side_length(d) / parameters.cell_spacing + 1.;
+      if (!(n < most_ids))
+        throw_wrong_size(parameters, box, true);
+    }
+
     /** Numbers this rank's founders after those of the lower ranks. */
     template <int dim>
     void
     number_founders(Founders<dim>          &founders,
                     const TissueParameters &parameters,
+                    const BoundingBox<dim> &box,
                     const MPI_Comm          comm)
     {
       const std::uint64_t n_mine = founders.positions.size();
@@ -81,6 +120,8 @@ namespace Morula
         below = 0; // left undefined by MPI
 
       const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
+      if (n == 0 && parameters.shape == "mesh")
+        throw_wrong_size(parameters, box, false);
       if (n == 0)
         throw_no_cell_fits(parameters);
       founders.first_id = static_cast<types::particle_index>(below);
@@ -98,6 +139,8 @@ namespace Morula
 
     const std::unique_ptr<Shape<dim>> shape =
       make_shape_everywhere<dim>(parameters, comm);
+    if (parameters.shape == "mesh")
+      check_extent(parameters, shape->bounding_box());
     const Lattice<dim> lattice(parameters, shape->bounding_box());
     const auto [begin, end] = share(lattice.n_sites(), comm);
 
@@ -119,7 +162,7 @@ namespace Morula
                        parameters.surface_cells,
                        "'whole' where the tissue is much thinner than a cell",
                        "Choose 'whole' or a smaller Cell spacing.");
-    number_founders(founders, parameters, comm);
+    number_founders(founders, parameters, shape->bounding_box(), comm);
     return founders;
   }
 

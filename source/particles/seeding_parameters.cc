@@ -73,6 +73,12 @@ namespace Morula
                       boundary_points,
                       "Number of points on the surface, met as nearly as the "
                       "shape allows; 0: one per L_p^2 of surface (2-D: L_p).");
+    prm.add_parameter(
+      "Refine surface",
+      refine_surface,
+      "Split boundary points whose patch has become longer than half a grid "
+      "cell, for tissue that grows to several times its size. Area and normal "
+      "are kept; false is the paper's method.");
   }
 
   namespace
@@ -214,6 +220,13 @@ namespace Morula
                        Patterns::Tools::to_string(boundary_points),
                        "0, as Tissue/Shape = points has no surface",
                        "Set Boundary points = 0, or describe the tissue by "
+                       "another Shape.");
+
+    if (shape == "points" && refine_surface)
+      throw InputError("Tissue/Refine surface",
+                       "true",
+                       "false, as Tissue/Shape = points has no surface",
+                       "Set Refine surface = false, or describe the tissue by "
                        "another Shape.");
 
     if (shape == "mesh" || shape == "points")

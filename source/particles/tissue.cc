@@ -19,12 +19,13 @@ namespace Morula
   template <int dim>
   Tissue<dim>::Tissue(const GridParameters &parameters,
                       const CellSlots<dim> &slots,
-                      const MPI_Comm        comm)
+                      const MPI_Comm        comm,
+                      const unsigned int    n_boundary_slots)
     : parameters(parameters)
     , slots_(slots)
     , grid_(parameters, comm)
     , cells_(slots.n_slots)
-    , boundary_points_(BoundarySlots<dim>::n_slots)
+    , boundary_points_(n_boundary_slots)
   {}
 
   template <int dim>
@@ -143,6 +144,20 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  Tissue<dim>::replace_surface(const PointList<dim> &boundary_points)
+  {
+    const auto [first, last] = extent<dim>({&boundary_points.positions}, grid_);
+    if (!grid_.covers(first, last))
+      {
+        place(cells_.copy(), boundary_points);
+        return;
+      }
+    boundary_points_.take();
+    boundary_points_.insert(boundary_points, grid_);
+  }
+
+  template <int dim>
   SplineSpace<dim>
   Tissue<dim>::splines() const
   {
@@ -152,7 +167,11 @@ namespace Morula
     for (const auto &point : boundary_points_.order())
       occupancy.add_boundary_point(point->get_location());
     occupancy.sum(grid_.communicator());
-    return SplineSpace<dim>(grid_, occupancy, parameters);
+    for (const auto &particle : cells_.order())
+      occupancy.add_quadrature_points(particle->get_location(),
+                                      volume(cell(particle)));
+    occupancy.sum_quadrature_points(grid_.communicator());
+    return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
   }
 
   template <int dim>
@@ -160,14 +179,6 @@ namespace Morula
   Tissue<dim>::grid() const
   {
     return grid_;
-  }
-
-  template <int dim>
-  unsigned int
-  Tissue<dim>::n_quadrature_points(const ParticleDomain<dim> &domain) const
-  {
-    return domain.n_per_direction(grid_.box().spacing(),
-                                  parameters.points_per_cell);
   }
 
   template <int dim>

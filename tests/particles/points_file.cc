@@ -160,6 +160,30 @@ TEST(PointsFile, RefusesTwoCellsAtOnePlace)
   EXPECT_TRUE(contains(message, "line 2 "));
 }
 
+TEST(PointsFile, RefusesCellsThatNearlyCoincide)
+{
+  // lengths are 10 um: what is nearer than 0.01 um coincides
+  std::string content = "x,y,z\n";
+  for (unsigned int i = 0; i < 50; ++i)
+    content += std::to_string(i) + ",0,0\n";
+  for (const std::string &near :
+       std::vector<std::string>{"20.000000000001,0,0",
+                                "20,0,-1e-12",
+                                "20.0099,0,0",
+                                "19.9931,0.007,0",
+                                "20.0057,-0.0057,0.0057"})
+    {
+      const std::string message = refusal<3>(content + near + "\n");
+      EXPECT_TRUE(contains(message, "line 52)")) << near;
+      EXPECT_TRUE(contains(message, "line 22 ")) << near;
+    }
+  EXPECT_EQ(refusal<3>(content + "20.0101,0,0\n19.9929,0.0072,0\n"), "");
+  // as the cells' own volumes say
+  const std::string small = "x,y,z,volume\n0,0,0,1e-3\n0.0002,0,0,1e-3\n";
+  EXPECT_EQ(refusal<3>(small + "9,9,9,1000\n"), "");
+  EXPECT_NE(refusal<3>(small + "0.00025,0,0,1e-3\n"), "");
+}
+
 TEST(PointsFile, IsSeededWithoutSurface)
 {
   const TemporaryFile file(".csv", "x,y,z\n0,0,0\n9,0,0\n");

@@ -333,24 +333,55 @@ TEST(SurfaceMesh, RefusesWhatHasNoInside)
   wall.append(next);
   EXPECT_TRUE(contains(refusal(wall.off()), "non-manifold: 4 edges"));
 
-  Polygons crossing = cube({}, 2.);
-  crossing.append(cube(Point<3>(1., 1., 1.), 2.));
-  EXPECT_TRUE(contains(refusal(crossing.off()), "intersects"));
-
   Polygons touching = cube({}, 2.);
   touching.append(cube(Point<3>(2., 2., 2.), 2.));
   EXPECT_TRUE(contains(refusal(touching.off()), "touches itself"));
+}
 
-  Polygons needle = cube({}, 2.); // an edge's middle in one face only
-  needle.points.push_back(Point<3>(1., 0., 0.));
-  needle.faces[0] = {0, 2, 3, 1, 8};
-  needle.faces.push_back({0, 8, 1});
-  EXPECT_NE(refusal(needle.off()), "");
+TEST(SurfaceMesh, SaysWhereADefectIs)
+{
+  Polygons open = cube({}, 2.);
+  open.faces.erase(open.faces.begin()); // the bottom
+  EXPECT_TRUE(contains(refusal(open.off()), "from (0, 0, 0) to (2, 0, 0) um"));
+
+  Polygons crossing = cube({}, 2.);
+  crossing.append(cube(Point<3>(1., 1., 1.), 2.));
+  EXPECT_TRUE(contains(refusal(crossing.off()), "intersects"));
+  EXPECT_TRUE(contains(refusal(crossing.off()), "(1, 1, 1)"));
+
+  Polygons sliver = cube({}, 2.);
+  sliver.points.push_back(Point<3>(1., 0., 0.));
+  sliver.faces[0] = {0, 2, 3, 1, 8};
+  sliver.faces.push_back({1, 0, 8});
+  EXPECT_TRUE(contains(refusal(sliver.off()), "(1, 0, 0) um has no area"));
+
+  const Polygons far = cube({}, 2e200);
+  EXPECT_TRUE(contains(refusal(far.off()), "(2e+200, 0, 0) um"));
+}
+
+TEST(SurfaceMesh, TellsOfAnotherUnit)
+{
+  for (const double scale : {1e-3, 1e5})
+    {
+      const TemporaryFile file(".off", cube({}, 60. * scale).off());
+      TissueParameters    parameters;
+      parameters.shape        = "mesh";
+      parameters.surface_mesh = file.path;
+      try
+        {
+          seed_founders<3>(parameters, MPI_COMM_WORLD);
+          FAIL() << scale;
+        }
+      catch (const InputError &error)
+        {
+          EXPECT_TRUE(contains(error.what(), "scale it to um"));
+        }
+    }
 }
 
 TEST(SurfaceMesh, RefusesWhatIsNoMesh)
 {
-  EXPECT_TRUE(contains(refusal(""), "cannot be read"));
+  EXPECT_TRUE(contains(refusal(""), "empty"));
   EXPECT_TRUE(contains(refusal("no mesh at all\n"), "cannot be read"));
   EXPECT_NE(refusal("OFF\n0 0 0\n"), "");
   EXPECT_NE(refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "");

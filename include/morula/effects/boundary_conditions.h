@@ -55,13 +55,19 @@ namespace Morula
     Tensor<1, dim>
     displacement(const Point<dim> &X, const double t) const;
 
-    /** Dead traction on a loaded point, kPa per initial area. */
+    /** Dead traction on a loaded point, kPa per initial area. Whether there is
+     *  one was decided at @p X_seed, the initial position of the point of t = 0
+     *  that this one is a part of. */
     Tensor<1, dim>
-    traction(const Point<dim> &X, const double t) const;
+    traction(const Point<dim> &X_seed,
+             const Point<dim> &X,
+             const double      t) const;
 
     /** Following pressure on a loaded point, kPa; positive pushes inward. */
     double
-    pressure(const Point<dim> &X, const double t) const;
+    pressure(const Point<dim> &X_seed,
+             const Point<dim> &X,
+             const double      t) const;
 
     /** Whether the scene has such conditions at all. */
     bool
@@ -74,7 +80,10 @@ namespace Morula
     /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E and
      *  Lamé constants @p lame (kPa) on a grid of spacing @p h (µm). */
     double
-    penalty(const double E, const Lame &lame, const double h) const;
+    penalty(const double           E,
+            const Lame            &lame,
+            const VolumetricStrain volumetric_form,
+            const double           h) const;
 
     NitscheForm
     nitsche_form() const;

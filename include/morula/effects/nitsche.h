@@ -27,9 +27,10 @@ namespace Morula
    *
    *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
    *
-   * with M = I at fixed points and N⊗N at slip points, and the nominal traction
-   * of the step's configuration T = (W/V_t) τ f⁻ᵀ n_t. The upper sign is that
-   * of the symmetric form, which has the energy Π = Σ a_t (β/2 g·g - T·g).
+   * with T multiplied by the point's trust; M = I at fixed points and N⊗N at
+   * slip points, and the nominal traction of the step's configuration T =
+   * (W/V_t) τ f⁻ᵀ n_t. The upper sign is that of the symmetric form, which has
+   * the energy Π = Σ a_t (β/2 g·g - T·g).
    */
   template <int dim>
   class Nitsche : public Term<dim>
@@ -49,6 +50,9 @@ namespace Morula
       double area;
       /** β, kPa/µm. */
       double penalty;
+      /** Part of the traction that counts, 0 to 1: less than 1 where the point
+       *  has no cell near, so that its traction is extrapolated. */
+      double trust = 1.;
       Lame   lame;
     };
 

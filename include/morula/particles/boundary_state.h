@@ -8,6 +8,8 @@
 
 #include <deal.II/particles/particle_iterator.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace Morula
@@ -58,6 +60,51 @@ namespace Morula
         for (unsigned int j = 0; j < dim; ++j)
           F[i][j] = data[BoundarySlots<dim>::deformation + i * dim + j];
       return F;
+    }
+
+    /** Whether the patch's edges are known: only where the scene refines the
+     *  surface. */
+    bool
+    has_patch() const
+    {
+      return data.size() > BoundarySlots<dim>::n_slots;
+    }
+
+    /** Initial position of the point of t = 0 that this one is a part of, µm:
+     *  its own unless the surface was refined. */
+    Point<dim>
+    seed_position() const
+    {
+      return Point<dim>(vector(has_patch() ?
+                                 BoundarySlots<dim>::seed_position :
+                                 BoundarySlots<dim>::initial_position));
+    }
+
+    /** Edge @p k of the patch in the initial configuration, µm. Only with
+     *  has_patch(). */
+    Tensor<1, dim>
+    initial_edge(const unsigned int k) const
+    {
+      return vector(BoundarySlots<dim>::edges + k * dim);
+    }
+
+    /**
+     * The point's distance to its neighbours, µm: the side of a square as large
+     * as the patch; where the patch is known, that of the square around the
+     * circle which encloses it.
+     */
+    double
+    spacing() const
+    {
+      const Tensor<2, dim> F = deformation();
+      if (!has_patch())
+        return std::pow(area_vector().norm(), 1. / (dim - 1));
+      const Tensor<1, dim> first = F * initial_edge(0);
+      if (dim == 2)
+        return first.norm();
+      const Tensor<1, dim> second = F * initial_edge(dim - 2);
+      return std::max((first + second).norm(), (first - second).norm()) /
+             std::sqrt(2.);
     }
 
     /** a n = det F F⁻ᵀ a⁰ N, equation (11) of the paper. */

@@ -226,7 +226,8 @@ namespace Morula
   }
 
   /**
-   * The property array of a boundary point: the same for every scene.
+   * The property array of a boundary point: the same for every scene, followed
+   * by those of its patch where the scene refines the surface.
    */
   template <int dim>
   struct BoundarySlots
@@ -242,6 +243,16 @@ namespace Morula
     /** F, row by row. */
     static constexpr unsigned int deformation = 2 * dim + 2;
     static constexpr unsigned int n_slots     = 2 * dim + 2 + dim * dim;
+
+    // Only where the scene refines the surface:
+    /** Initial position of the point of t = 0 that this one is a part of, µm.
+     */
+    static constexpr unsigned int seed_position = n_slots;
+    /** The patch's dim-1 tangential edges in the initial configuration, one
+     *  after the other, µm. They span a⁰. */
+    static constexpr unsigned int edges = n_slots + dim;
+    static constexpr unsigned int n_slots_with_patch =
+      n_slots + dim + (dim - 1) * dim;
   };
 
   /** What holds or loads a boundary point; numbers as in surface-NNNN.csv. */

@@ -31,6 +31,7 @@ namespace Morula
     std::vector<double> lattice_offset  = {0., 0., 0.};
     std::string         surface_cells   = "whole";
     unsigned int        boundary_points = 0;
+    bool                refine_surface  = false;
 
     /** Declares the section's keys, bound to the members. */
     void

@@ -36,8 +36,9 @@ namespace Morula
      * Reads STL, OFF, PLY or OBJ (by the name's ending), in µm. Coinciding
      * vertices are merged, polygons cut into triangles, and orientations made
      * outward; the surface of a cavity is turned towards the cavity.
-     * @throws InputError if the file cannot be read, or if the surface is
-     * empty, open, non-manifold, or intersects or touches itself
+     * @throws InputError if the file cannot be read or is cut off, or if the
+     * surface is empty, open, non-manifold, has a triangle without area, or
+     * intersects or touches itself; it says where
      */
     explicit SurfaceMesh(const std::string &file);
 

@@ -22,9 +22,11 @@ namespace Morula
   class Tissue
   {
   public:
+    /** @param n_boundary_slots properties of a boundary point */
     Tissue(const GridParameters &parameters,
            const CellSlots<dim> &slots,
-           const MPI_Comm        comm);
+           const MPI_Comm        comm,
+           const unsigned int n_boundary_slots = BoundarySlots<dim>::n_slots);
 
     /**
      * Takes these points as the tissue, wherever they are; this rank gives any
@@ -50,17 +52,16 @@ namespace Morula
     replace(const std::vector<typename PointStore<dim>::Iterator> &mothers,
             const PointList<dim>                                  &daughters);
 
+    /** Takes these boundary points in place of the present ones. Collective. */
+    void
+    replace_surface(const PointList<dim> &boundary_points);
+
     /** The extended B-splines around the tissue as it is now. Collective. */
     SplineSpace<dim>
     splines() const;
 
     const BackgroundGrid<dim> &
     grid() const;
-
-    /** Quadrature points per direction in a cell's domain: as many as the scene
-     *  asks for, more where the domain is large on the grid. */
-    unsigned int
-    n_quadrature_points(const ParticleDomain<dim> &domain) const;
 
     const PointStore<dim> &
     cells() const;

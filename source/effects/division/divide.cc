@@ -66,8 +66,8 @@ namespace Morula
     walls(const Tissue<dim> &tissue, const double longest)
     {
       PointList<dim> points;
-      double         largest_area = 0.;
-      points.n_slots              = dim;
+      double         largest_spacing = 0.;
+      points.n_slots                 = dim + 1;
       for (const auto &particle : tissue.boundary_points().order())
         {
           const BoundaryView<dim> point(boundary_properties<dim>(particle));
@@ -77,26 +77,25 @@ namespace Morula
           points.ids.push_back(particle->get_id());
           points.positions.push_back(particle->get_location());
           const Tensor<1, dim> area = point.area_vector();
-          largest_area              = std::max(largest_area, area.norm());
           for (unsigned int d = 0; d < dim; ++d)
-            points.properties.push_back(area[d]);
+            points.properties.push_back(area[d] / area.norm());
+          points.properties.push_back(point.spacing());
+          largest_spacing = std::max(largest_spacing, points.properties.back());
         }
       std::vector<WallPoint<dim>> list;
-      largest_area = Utilities::MPI::max(largest_area, tissue.communicator());
+      largest_spacing =
+        Utilities::MPI::max(largest_spacing, tissue.communicator());
       const PointList<dim> others =
-        halo(points,
-             tissue.grid(),
-             longest + std::pow(largest_area, 1. / (dim - 1)));
+        halo(points, tissue.grid(), longest + largest_spacing);
       for (const PointList<dim> *from :
            std::array<const PointList<dim> *, 2>{{&points, &others}})
         for (std::size_t i = 0; i < from->size(); ++i)
           {
-            Tensor<1, dim> area;
+            const double  *slots = &from->properties[i * from->n_slots];
+            Tensor<1, dim> normal;
             for (unsigned int d = 0; d < dim; ++d)
-              area[d] = from->properties[i * dim + d];
-            list.push_back({from->positions[i],
-                            area / area.norm(),
-                            std::pow(area.norm(), 1. / (dim - 1))});
+              normal[d] = slots[d];
+            list.push_back({from->positions[i], normal, slots[dim]});
           }
       return list;
     }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_surface_refinement_h
+#define morula_particles_surface_refinement_h
+
+#include <morula/particles/point_list.h>
+
+#include <mpi.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace Morula
+{
+  /** A boundary point was carried away so far that its patch cannot be split.
+   */
+  class SurfaceTorn : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * The properties of a boundary point (initial_boundary_slots()) followed by
+   * those of its patch, which is square: doc/theory.md, section 4.5. Its edges
+   * are parallel to the axes where the normal is.
+   */
+  template <int dim>
+  std::vector<double>
+  with_patch(std::vector<double> slots);
+
+  /**
+   * Splits every boundary point whose patch has an edge F E longer than
+   * @p longest_edge (µm) in two along its longest edge, again and again until
+   * none is left: each takes half of the area and stands in the middle of its
+   * half, X ∓ E/4 and x ∓ F E/4, with the same N, F and condition. So Σ a n,
+   * Σ a n·x and Σ a⁰ do not change, and tangential displacement is the only
+   * one.
+   *
+   * The point on the -E side keeps its id, the other one gets a new id: those
+   * of one round of splitting are in the order of the split points' ids, for
+   * any number of ranks.
+   *
+   * @param points  this rank's boundary points, with patches
+   * @param next_id first free id, the same on all ranks; advanced
+   * @return whether any rank has split a point. Collective.
+   * @throws SurfaceTorn on all ranks, before anything is split, if an edge is
+   *         longer than 64 @p longest_edge
+   */
+  template <int dim>
+  bool
+  refine_surface(PointList<dim>        &points,
+                 const double           longest_edge,
+                 types::particle_index &next_id,
+                 const MPI_Comm         comm);
+} // namespace Morula
+
+#endif

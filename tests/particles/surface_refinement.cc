@@ -1,0 +1,322 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/surface_refinement.h>
+#include <morula/particles/tissue.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "random_points.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  ArrayView<double>
+  slots_of(PointList<dim> &points, const std::size_t i)
+  {
+    return ArrayView<double>(&points.properties[i * points.n_slots],
+                             points.n_slots);
+  }
+
+  template <int dim>
+  BoundaryView<dim>
+  view(const PointList<dim> &points, const std::size_t i)
+  {
+    return BoundaryView<dim>(
+      ArrayView<const double>(&points.properties[i * points.n_slots],
+                              points.n_slots));
+  }
+
+  /** A point with a square patch at x = X, deformed by F. */
+  template <int dim>
+  void
+  add_point(PointList<dim>             &points,
+            const types::particle_index id,
+            const Point<dim>           &X,
+            const Tensor<1, dim>       &N,
+            const double                area,
+            const Tensor<2, dim>       &F,
+            const SurfaceCondition      condition = SurfaceCondition::free)
+  {
+    points.n_slots = BoundarySlots<dim>::n_slots_with_patch;
+    const auto slots =
+      with_patch<dim>(initial_boundary_slots<dim>(X, N, area, condition));
+    points.ids.push_back(id);
+    points.positions.push_back(X);
+    points.properties.insert(points.properties.end(),
+                             slots.begin(),
+                             slots.end());
+    deform_boundary_point<dim>(slots_of(points, points.size() - 1), F);
+  }
+
+  /** Patches of all sizes and directions, strongly deformed. */
+  template <int dim>
+  PointList<dim>
+  random_patches(const unsigned int n)
+  {
+    std::mt19937   generator(3);
+    PointList<dim> points;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Tensor<1, dim> N = random_tensor<1, dim>(generator);
+        N /= N.norm();
+        Tensor<2, dim> F = 4. * unit_tensor<dim>();
+        F += 3. * random_tensor<2, dim>(generator);
+        add_point<dim>(points,
+                       (7 * i + 3) % n,
+                       Point<dim>(100. * random_tensor<1, dim>(generator)),
+                       N,
+                       std::pow(4. + i % 5, dim - 1),
+                       F,
+                       static_cast<SurfaceCondition>(i % 4));
+      }
+    return points;
+  }
+
+  template <int dim>
+  struct Sums
+  {
+    double         initial_area = 0., volume = 0., conditions = 0.;
+    Tensor<1, dim> initial_vector, vector, moment;
+
+    explicit Sums(const PointList<dim> &points)
+    {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const auto point = view(points, i);
+          initial_area += point.initial_area();
+          initial_vector += point.initial_area() * point.initial_normal();
+          vector += point.area_vector();
+          volume += point.area_vector() * points.positions[i] / dim;
+          moment += point.area_vector().norm() * points.positions[i];
+          conditions +=
+            point.initial_area() * static_cast<int>(point.condition());
+        }
+    }
+  };
+
+  template <int dim>
+  double
+  linfty(const Tensor<1, dim> &v)
+  {
+    double largest = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      largest = std::max(largest, std::abs(v[d]));
+    return largest;
+  }
+
+  template <int dim>
+  void
+  check_patch()
+  {
+    std::mt19937 generator(5);
+    for (unsigned int i = 0; i < 30; ++i)
+      {
+        Tensor<1, dim> N;
+        if (i < 2 * dim)
+          N[i / 2] = i % 2 ? -1. : 1.;
+        else
+          N = random_tensor<1, dim>(generator);
+        N /= N.norm();
+        PointList<dim>   points;
+        const Point<dim> X(7. * random_tensor<1, dim>(generator));
+        const double     area = 13.;
+        add_point<dim>(points, 0, X, N, area, unit_tensor<dim>());
+        const auto point = view(points, 0);
+        ASSERT_TRUE(point.has_patch());
+        EXPECT_EQ(point.seed_position(), X);
+        Tensor<1, dim> span;
+        if constexpr (dim == 2)
+          span = cross_product_2d(point.initial_edge(0));
+        else
+          span = cross_product_3d(point.initial_edge(0), point.initial_edge(1));
+        EXPECT_NEAR(std::abs(span * N), area, 1e-12);
+        EXPECT_NEAR(span.norm(), area, 1e-12);
+        EXPECT_NEAR(point.spacing(), std::pow(area, 1. / (dim - 1)), 1e-12);
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          {
+            EXPECT_NEAR(point.initial_edge(k) * N, 0., 1e-14 * area);
+            if (i < 2 * dim) // edges along the axes
+              {
+                EXPECT_NEAR(point.initial_edge(k).norm(),
+                            linfty(point.initial_edge(k)),
+                            1e-14);
+              }
+          }
+      }
+  }
+
+  /** A patch of side 10 stretched by 8 along its edge is four. */
+  template <int dim>
+  void
+  check_regular()
+  {
+    Tensor<1, dim> N;
+    N[dim - 1]       = 1.;
+    Tensor<2, dim> F = unit_tensor<dim>();
+    F[0][0]          = 8.;
+    F[dim - 1][0]    = 6.; // shear: the edge now points along (0.8, 0.6)
+    PointList<dim> all;
+    add_point<dim>(all, 5, Point<dim>(), N, std::pow(10., dim - 1), F);
+    PointList<dim> points      = dealt(all);
+    points.n_slots             = all.n_slots;
+    types::particle_index next = 9;
+    EXPECT_TRUE(refine_surface(points, 25., next, MPI_COMM_WORLD));
+    EXPECT_EQ(next, 12u);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+
+    ASSERT_EQ(points.size(), 4u);
+    // first 5 | 9, then 5 | 10 and 9 | 11
+    const std::map<types::particle_index, double> place = {{5, -3.75},
+                                                           {10, -1.25},
+                                                           {9, 1.25},
+                                                           {11, 3.75}};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const double   X = place.at(points.ids[i]);
+        Tensor<1, dim> expected;
+        expected[0] = X;
+        EXPECT_LT(
+          (view(points, i).initial_position() - Point<dim>(expected)).norm(),
+          1e-13);
+        EXPECT_LT((points.positions[i] - Point<dim>(F * expected)).norm(),
+                  1e-12);
+        EXPECT_EQ(view(points, i).seed_position(), Point<dim>());
+        EXPECT_DOUBLE_EQ(view(points, i).initial_area(),
+                         0.25 * std::pow(10., dim - 1));
+        EXPECT_LT((view(points, i).initial_normal() - N).norm(), 1e-15);
+      }
+    const auto before = points.ids.size();
+    EXPECT_FALSE(refine_surface(points, 25., next, MPI_COMM_SELF));
+    EXPECT_EQ(points.ids.size(), before);
+  }
+
+  template <int dim>
+  void
+  check_conservation()
+  {
+    PointList<dim>        points = random_patches<dim>(60);
+    const Sums<dim>       before(points);
+    types::particle_index next = 60;
+    EXPECT_TRUE(refine_surface(points, 6., next, MPI_COMM_SELF));
+    EXPECT_EQ(points.size(), next);
+    EXPECT_GT(points.size(), 200u);
+    const Sums<dim> after(points);
+    EXPECT_NEAR(after.initial_area, before.initial_area, 1e-10);
+    EXPECT_NEAR(after.conditions, before.conditions, 1e-10);
+    EXPECT_NEAR(after.volume / before.volume, 1., 1e-11);
+    EXPECT_LT((after.initial_vector - before.initial_vector).norm(), 1e-10);
+    EXPECT_LT((after.vector - before.vector).norm(), 1e-9);
+    EXPECT_LT((after.moment - before.moment).norm() / before.moment.norm(),
+              1e-11);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        EXPECT_LE((view(points, i).deformation() *
+                   view(points, i).initial_edge(k))
+                    .norm(),
+                  6.);
+  }
+
+  template <int dim>
+  void
+  check_ranks()
+  {
+    const PointList<dim>  all   = random_patches<dim>(60);
+    PointList<dim>        alone = all, mine = dealt(all);
+    types::particle_index next_alone = 60, next = 60;
+    refine_surface(alone, 6., next_alone, MPI_COMM_SELF);
+    EXPECT_TRUE(refine_surface(mine, 6., next, MPI_COMM_WORLD));
+    EXPECT_EQ(next, next_alone);
+    const PointList<dim> expected = selected(alone, [&](const std::size_t i) {
+      return std::find(mine.ids.begin(), mine.ids.end(), alone.ids[i]) !=
+             mine.ids.end();
+    });
+    expect_same_points(mine, expected);
+    EXPECT_EQ(Utilities::MPI::sum(mine.size(), MPI_COMM_WORLD), alone.size());
+  }
+
+  /** The circle that spacing() stands for reaches over the whole patch. */
+  template <int dim>
+  void
+  check_spacing()
+  {
+    const PointList<dim> points = random_patches<dim>(60);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const auto point = view(points, i);
+        for (unsigned int corner = 0; corner < (1u << (dim - 1)); ++corner)
+          {
+            Tensor<1, dim> to_corner;
+            for (unsigned int k = 0; k < dim - 1; ++k)
+              to_corner += ((corner >> k) & 1 ? 0.5 : -0.5) *
+                           (point.deformation() * point.initial_edge(k));
+            EXPECT_LE(to_corner.norm(), point.spacing() * (1. + 1e-12));
+          }
+      }
+  }
+
+  /** A tissue takes points in place of others, also beyond its grid. */
+  template <int dim>
+  void
+  check_tissue()
+  {
+    const unsigned int   n_slots = BoundarySlots<dim>::n_slots_with_patch;
+    Tissue<dim>          tissue(GridParameters(),
+                       CellSlots<dim>(false, false),
+                       MPI_COMM_WORLD,
+                       n_slots);
+    PointList<dim>       none;
+    const PointList<dim> all = random_patches<dim>(60);
+    none.n_slots             = CellSlots<dim>(false, false).n_slots;
+    tissue.place(none, dealt(all));
+    EXPECT_EQ(tissue.boundary_points().n_slots(), n_slots);
+
+    PointList<dim>        alone = all, mine = tissue.boundary_points().copy();
+    types::particle_index next_alone = 60, next = 60;
+    refine_surface(alone, 6., next_alone, MPI_COMM_SELF);
+    refine_surface(mine, 6., next, MPI_COMM_WORLD);
+    tissue.replace_surface(mine);
+    expect_same_points(tissue.boundary_points().copy(),
+                       owned(alone, tissue.grid()));
+
+    for (auto *list : {&alone, &mine})
+      for (Point<dim> &x : list->positions)
+        x[0] += 5000.;
+    tissue.replace_surface(mine);
+    expect_same_points(tissue.boundary_points().copy(),
+                       owned(alone, tissue.grid()));
+  }
+} // namespace
+
+
+TEST(SurfaceRefinement, PatchesAreSquares){MORULA_BOTH_DIMENSIONS(check_patch)}
+
+
+TEST(SurfaceRefinement,
+     HalvesAgainAndAgain){MORULA_BOTH_DIMENSIONS(check_regular)}
+
+
+TEST(SurfaceRefinement,
+     ConservesAreaNormalAndMoments){MORULA_BOTH_DIMENSIONS(check_conservation)}
+
+
+TEST(SurfaceRefinement,
+     IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
+
+
+TEST(SurfaceRefinement,
+     SpacingCoversThePatch){MORULA_BOTH_DIMENSIONS(check_spacing)}
+
+
+TEST(SurfaceRefinement, TissueTakesTheNewPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_tissue)
+}

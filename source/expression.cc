@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <regex>
 #include <sstream>
 
 namespace Morula
@@ -66,20 +65,29 @@ namespace Morula
     std::string
     diagnosis(const std::string &component, const std::string &report)
     {
-      std::smatch match;
-      std::string text;
-      if (std::regex_search(report, match, std::regex("Position: <([0-9]+)>")))
-        text =
-          "character " +
-          std::to_string(1 + std::min<std::size_t>(std::stoi(match[1].str()),
-                                                   component.size())) +
-          ": ";
-      if (std::regex_search(report, match, std::regex("Message: *<(.*)>")))
-        text += std::regex_replace(match[1].str(),
-                                   std::regex("( found)? at position.*"),
-                                   "");
-      else
-        text += "it cannot be parsed";
+      // What stands in <> behind a name, on its line. Regular expressions would
+      // recurse once for each character of a long line.
+      const auto behind = [&report](const std::string &name) -> std::string {
+        const auto at    = report.find(name);
+        const auto begin = report.find('<', at);
+        if (at == std::string::npos || begin == std::string::npos)
+          return "";
+        const auto end = report.rfind('>', report.find('\n', begin));
+        return end > begin && end != std::string::npos ?
+                 report.substr(begin + 1, end - begin - 1) :
+                 "";
+      };
+      std::string       text;
+      std::size_t       position = 0;
+      const std::string place    = behind("Position:");
+      if (boost::conversion::try_lexical_convert(place, position))
+        text = "character " +
+               std::to_string(1 + std::min(position, component.size())) + ": ";
+      std::string message = behind("Message:");
+      message             = message.substr(0, message.find(" at position"));
+      if (boost::ends_with(message, " found"))
+        message.erase(message.size() - std::string(" found").size());
+      text += message.empty() ? "it cannot be parsed" : message;
       return text + ".";
     }
 

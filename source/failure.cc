@@ -35,9 +35,16 @@ namespace Morula
         }
     }
 
+    /** Messages repeat what the user wrote, which may be long; the end says
+     *  what to do. */
+    constexpr std::size_t longest_message = 2500;
+
     void
-    print(const std::string &message)
+    print(std::string message)
     {
+      if (message.size() > longest_message)
+        message = message.substr(0, longest_message / 2) + " [...] " +
+                  message.substr(message.size() - longest_message / 2);
       // one piece, so that ranks do not mix their lines
       std::cerr << "morula: " + message + "\n" << std::flush;
     }

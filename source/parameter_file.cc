@@ -6,6 +6,7 @@
 
 #include <boost/algorithm/string.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -15,6 +16,41 @@ namespace Morula
   {
     /** Files that include files that ...; more is taken for a circle. */
     constexpr unsigned int max_includes = 20;
+
+    /** Sections in sections in ...; no scene has more than three. */
+    constexpr unsigned int max_sections = 20;
+
+    /** Characters of a line, also with its continuations. */
+    constexpr std::size_t max_line = 10000;
+
+    /** How much of a line messages show, characters. */
+    constexpr std::size_t max_shown = 200;
+
+    const std::string byte_order_mark = "\xEF\xBB\xBF";
+
+    std::string
+    too_long()
+    {
+      return "at most " + std::to_string(max_line) + " characters";
+    }
+
+    /** The beginning of a long text, without the second half of a character
+     *  of several bytes. */
+    std::string
+    shortened(const std::string &text)
+    {
+      std::size_t end = std::min(text.size(), max_shown);
+      while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80)
+        --end;
+      return end < text.size() ? text.substr(0, end) + "..." : text;
+    }
+
+    bool
+    is_control(const char c)
+    {
+      return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') ||
+             c == 0x7F;
+    }
 
     /** Reads one file line by line and keeps track of the open sections. */
     class Reader
@@ -37,14 +73,19 @@ namespace Morula
       {
         const std::size_t n_outer = sections.size();
         std::string       line, part;
-        while (std::getline(input, part))
+        while (get_line(part))
           {
             ++line_number;
+            if (line_number == 1 && part.rfind(byte_order_mark, 0) == 0)
+              part.erase(0, byte_order_mark.size());
+            refuse_control_characters(part);
             boost::trim(part);
             const bool goes_on = !part.empty() && part.back() == '\\';
             if (goes_on)
               part.pop_back();
             line += part;
+            if (std::min(line.find('#'), line.size()) > max_line)
+              refuse_long_line(line);
             if (goes_on)
               continue;
             read_line(line, n_outer);
@@ -58,6 +99,48 @@ namespace Morula
       }
 
     private:
+      /**
+       * The next line, of which no more is read than a line may have: the file
+       * may be anything. Comments may be longer.
+       */
+      bool
+      get_line(std::string &line)
+      {
+        line.clear();
+        bool comment = false;
+        int  c;
+        while ((c = input.get()) != std::char_traits<char>::eof() && c != '\n')
+          {
+            comment = comment || c == '#';
+            if (line.size() <= max_line)
+              line += static_cast<char>(c);
+            else if (!comment)
+              {
+                ++line_number;
+                refuse_control_characters(line);
+                refuse_long_line(line);
+              }
+          }
+        return c == '\n' || !line.empty();
+      }
+
+      [[noreturn]] void
+      refuse_long_line(const std::string &line) const
+      {
+        fail(shortened(line), too_long(), "Shorten the line. Is this a scene?");
+      }
+
+      void
+      refuse_control_characters(const std::string &line) const
+      {
+        const auto bad = std::find_if(line.begin(), line.end(), is_control);
+        if (bad != line.end())
+          fail(shortened(std::string(line.begin(), bad)),
+               "text",
+               "Character " + std::to_string(bad - line.begin() + 1) +
+                 " cannot be printed: remove it. Is this a scene?");
+      }
+
       void
       read_line(std::string line, const std::size_t n_outer)
       {
@@ -78,6 +161,11 @@ namespace Morula
                  !rest.empty())
           {
             sections.push_back(rest);
+            if (sections.size() > max_sections)
+              fail(shortened(line),
+                   "at most " + std::to_string(max_sections) +
+                     " subsections in each other",
+                   "Is an 'end' missing?");
             add(Statement::section, boost::join(sections, "/"), "");
           }
         else if ((word == "include" || word == "INCLUDE") && !rest.empty())
@@ -91,7 +179,7 @@ namespace Morula
             sections.pop_back();
           }
         else
-          fail(line,
+          fail(shortened(line),
                "'set Key = value', 'subsection Name', 'end' or 'include file'",
                "Correct the line, or begin it with '#' if it is a comment.");
       }
@@ -101,7 +189,7 @@ namespace Morula
       {
         const auto equals = assignment.find('=');
         if (equals == std::string::npos)
-          fail("set " + assignment,
+          fail("set " + shortened(assignment),
                "'set Key = value'",
                "Put '=' between the key and its value.");
         std::vector<std::string> path = sections;
@@ -115,15 +203,16 @@ namespace Morula
       read_include(const std::string &file)
       {
         if (depth >= max_includes)
-          fail("include " + file,
+          fail("include " + shortened(file),
                "files that do not include themselves",
                "Break the circle.");
         const auto sibling = std::filesystem::path(name).parent_path() / file;
-        const bool here    = std::filesystem::exists(file);
-        const auto found   = here ? file : sibling.string();
-        std::ifstream stream(found);
-        if (!stream || std::filesystem::is_directory(found))
-          fail("include " + file,
+        std::error_code error; // the name may be longer than any file's
+        const bool      here  = std::filesystem::exists(file, error);
+        const auto      found = here ? file : sibling.string();
+        std::ifstream   stream(found);
+        if (!stream || std::filesystem::is_directory(found, error))
+          fail("include " + shortened(file),
                "a file that can be read",
                "Correct the name; it counts from the working directory or from "
                "this file.");
@@ -188,10 +277,18 @@ namespace Morula
   Statement
   read_override(const std::string &text)
   {
+    if (text.size() > max_line)
+      throw InputError("-s", shortened(text), too_long(), "Shorten it.");
+    const auto control = std::find_if(text.begin(), text.end(), is_control);
+    if (control != text.end())
+      throw InputError("-s",
+                       std::string(text.begin(), control),
+                       "text",
+                       "The next character cannot be printed: remove it.");
     const auto equals = text.find('=');
     if (equals == std::string::npos)
       throw InputError("-s",
-                       text,
+                       shortened(text),
                        "\"Section/Key=value\"",
                        "Put '=' between the key and its value, and quote the "
                        "whole for the shell.");

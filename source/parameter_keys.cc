@@ -15,6 +15,8 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <ostream>
 #include <regex>
@@ -63,16 +65,29 @@ namespace Morula
     {
       for (const auto &[name, child] : tree)
         if (child.count("pattern_description") > 0)
-          keys.push_back(
-            {prefix + name,
-             child.get<std::string>("default_value"),
-             child.get<std::string>("documentation"),
-             noun_phrase(child.get<std::string>("pattern_description"))});
+          {
+            const auto pattern = child.get<std::string>("pattern_description");
+            keys.push_back({prefix + name,
+                            child.get<std::string>("default_value"),
+                            child.get<std::string>("documentation"),
+                            noun_phrase(pattern),
+                            pattern.find("[Double") != std::string::npos});
+          }
         else
           {
             sections.push_back(prefix + name);
             collect(child, prefix + name + "/", keys, sections);
           }
+    }
+
+    /** deal.II's patterns of numbers match "inf" and "nan" as well. */
+    bool
+    all_finite(const std::string &numbers)
+    {
+      const auto list = Utilities::split_string_list(numbers);
+      return std::all_of(list.begin(), list.end(), [](const std::string &text) {
+        return std::isfinite(std::strtod(text.c_str(), nullptr));
+      });
     }
 
     std::vector<std::string>
@@ -124,7 +139,7 @@ namespace Morula
     did_you_mean(const std::string              &wanted,
                  const std::vector<std::string> &candidates)
     {
-      if (candidates.empty())
+      if (candidates.empty() || wanted.size() > 200)
         return "";
       const auto best =
         std::min_element(candidates.begin(),
@@ -208,6 +223,17 @@ namespace Morula
     if (key == keys.end())
       refuse_unknown(statement);
 
+    const auto refuse = [&] {
+      throw InputError(statement.place + key->path,
+                       statement.value,
+                       key->allowed,
+                       "It is: " + key->documentation +
+                         " Correct the value or remove the line; the default "
+                         "is '" +
+                         key->default_value + "'.");
+    };
+    if (key->is_of_numbers && !all_finite(statement.value))
+      refuse();
     const std::vector<std::string> names = split_path(key->path);
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       prm.enter_subsection(names[i]);
@@ -217,13 +243,7 @@ namespace Morula
       }
     catch (const std::exception &)
       {
-        throw InputError(statement.place + key->path,
-                         statement.value,
-                         key->allowed,
-                         "It is: " + key->documentation +
-                           " Correct the value or remove the line; the default "
-                           "is '" +
-                           key->default_value + "'.");
+        refuse();
       }
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       prm.leave_subsection();

@@ -83,11 +83,27 @@ namespace Morula
         statistics.emplace(path("statistics.csv"), comm);
         lineage.emplace(path("lineage.csv"), comm);
       }
+    if (scene.output.condition_estimate)
+      open_conditions(resumed_from);
     progress.emplace(path("log.txt"),
                      resumed_from.has_value(),
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::open_conditions(
+    const std::optional<SnapshotData<dim>> &resumed_from)
+  {
+    // A run may be resumed with estimates that was begun without.
+    if (resumed_from && resumed_from->numbers.count("condition_rows") > 0)
+      conditions.emplace(path("condition.csv"),
+                         resumed_from->numbers.at("condition_rows"),
+                         comm);
+    else
+      conditions.emplace(path("condition.csv"), comm);
   }
 
   template <int dim>
@@ -126,6 +142,15 @@ namespace Morula
                     row.cells,
                     row.newton_iterations,
                     timer.wall_time()});
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::condition(const unsigned int       step,
+                           const double             time,
+                           const ConditionEstimate &estimate)
+  {
+    conditions->append(step, time, estimate);
   }
 
   template <int dim>
@@ -195,6 +220,11 @@ namespace Morula
     // What the snapshot counts must be on the disk before it.
     statistics->sync();
     lineage->sync();
+    if (conditions)
+      {
+        conditions->sync();
+        data.numbers["condition_rows"] = conditions->n_rows();
+      }
     data.parameters                 = scene.parameters();
     data.numbers["wall_seconds"]    = wall_seconds();
     data.numbers["statistics_rows"] = statistics->n_rows();

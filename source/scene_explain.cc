@@ -59,6 +59,9 @@ namespace Morula
       const bool pulls =
         !Refusals::same_value(scene.body_force.force_density, "0; 0; 0");
 
+      std::ostringstream half_a_grid_cell;
+      half_a_grid_cell << 0.5 * scene.grid.spacing;
+
       out << "Effects\n";
       print_effect(out,
                    "growth",
@@ -112,6 +115,16 @@ namespace Morula
                                scene.material.youngs_modulus)
                       .is_constant(),
                    "E = " + scene.material.youngs_modulus + " kPa");
+      print_effect(out,
+                   "surface refinement",
+                   scene.tissue.refine_surface,
+                   "patches longer than " + half_a_grid_cell.str() +
+                     " um are split");
+      print_effect(out,
+                   "projected volume",
+                   scene.material.volumetric_form() ==
+                     VolumetricStrain::projected,
+                   "one mean of ln J_e a grid cell");
     }
 
     template <int dim>

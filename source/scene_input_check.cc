@@ -11,6 +11,7 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace Morula
@@ -19,6 +20,26 @@ namespace Morula
 
   namespace
   {
+    /** Steps are counted by integers. */
+    constexpr double max_steps = 1e9;
+
+    /** Farther from the origin, in units of h, there are no grid cells: they
+     *  are counted by integers, too, and positions lose their digits. */
+    constexpr double farthest = 1e8;
+
+    void
+    refuse_far_away(const std::string         &key,
+                    const std::vector<double> &place,
+                    const double               h)
+    {
+      for (const double x : place)
+        if (!(std::abs(x) <= farthest * h))
+          throw InputError(key,
+                           Patterns::Tools::to_string(place),
+                           "at most " + as_text(farthest) + " grid spacings",
+                           "Move the scene nearer to the origin.");
+    }
+
     void
     check_time(const TimeParameters &time)
     {
@@ -32,6 +53,12 @@ namespace Morula
                     time.step,
                     "a number of days > 0",
                     "Choose a positive step.");
+      refuse_unless(time.end_time <= max_steps * time.step,
+                    "Time/Step",
+                    time.step,
+                    "at least Time/End time = " + as_text(time.end_time) +
+                      " / " + as_text(max_steps),
+                    "Raise it, or choose an earlier end.");
       refuse_unless(time.smallest_step > 0. && time.smallest_step <= time.step,
                     "Time/Smallest step",
                     time.smallest_step,
@@ -54,6 +81,7 @@ namespace Morula
                     grid.occupation_parameter,
                     "a share > 0 and <= 1",
                     "0.85 is a good choice.");
+      refuse_far_away("Grid/Offset", grid.offset, grid.spacing);
       if (grid.offset.size() < dim)
         throw InputError("Grid/Offset",
                          Patterns::Tools::to_string(grid.offset),
@@ -107,6 +135,7 @@ namespace Morula
       check_time(scene.time);
       scene.tissue.check(dim);
       check_grid(scene.grid, dim);
+      refuse_far_away("Tissue/Center", scene.tissue.center, scene.grid.spacing);
       check_material(scene.material);
       check_effects<dim>(scene);
       refuse_unless(scene.solver.newton_tolerance > 0. &&

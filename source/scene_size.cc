@@ -89,7 +89,11 @@ namespace Morula
       // a matrix row couples with 5^dim splines, 12 bytes an entry; matrix,
       // preconditioner and positions of the entries
       const double row_bytes = 3. * 12. * dim * std::pow(5., dim);
-      double bytes = size.cells * cell_bytes + n_splines * dim * row_bytes;
+      // boundary points hold less than cells; without a wished number they are
+      // fewer, too
+      double bytes =
+        (size.cells + 1. * scene.tissue.boundary_points) * cell_bytes +
+        n_splines * dim * row_bytes;
 
       // nested dissection: the top separator is two layers of splines, a dense
       // block, and all others together need about three times as much
@@ -201,9 +205,9 @@ namespace Morula
                          value.str() + ", about " + gigabytes(needed),
                          "at most the " + gigabytes(available) +
                            " of memory here",
-                         "Raise Tissue/Cell spacing or Grid/Spacing, shorten "
-                         "Time/End time, set Time/Stop at cells, or use more "
-                         "machines.");
+                         "Raise Tissue/Cell spacing or Grid/Spacing, lower "
+                         "Tissue/Boundary points, shorten Time/End time, set "
+                         "Time/Stop at cells, or use more machines.");
       }
   }
 

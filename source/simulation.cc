@@ -3,10 +3,15 @@
 
 #include <morula/effects/dead_load.h>
 #include <morula/effects/division/divide.h>
+#include <morula/input_error.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
+#include <morula/output/agreement.h>
 #include <morula/particles/boundary_state.h>
+#include <morula/particles/strays.h>
+#include <morula/particles/surface_refinement.h>
 #include <morula/simulation.h>
+#include <morula/step_checks.h>
 #include <morula/step_points.h>
 
 #include <deal.II/base/mpi.h>
@@ -43,6 +48,7 @@ namespace Morula
           {
             step();
             files->step(row, births);
+            write_condition();
             output(must_stop());
           }
       }
@@ -86,6 +92,7 @@ namespace Morula
     row           = StatisticsRow();
     newton_report = NewtonReport();
     births.clear();
+    condition.reset();
     ++n_steps;
 
     const SplineSpace<dim> space = splines();
@@ -94,10 +101,26 @@ namespace Morula
     solve_step(space, modes, u);
     remove_rigid_motion(space, modes, u);
     commit(space, u);
+    {
+      const TimerOutput::Scope section(timer, "strays");
+      take_back_strays(tissue);
+    }
 
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
+    try
+      {
+        refine_surface();
+      }
+    catch (const SurfaceTorn &error)
+      {
+        // This step is done; the next one could not be.
+        complete_row(space);
+        files->step(row, births);
+        ++n_steps;
+        give_up(error.what() + std::string("."));
+      }
     complete_row(space);
   }
 
@@ -126,7 +149,11 @@ namespace Morula
           ++row.rejected_steps;
           ++n_rejected;
           if (!time_steps.reject())
-            give_up(failure.what());
+            give_up_step(failure.what());
+        }
+      catch (const InputError &error)
+        {
+          give_up(error.what()); // an expression without a value at this time
         }
   }
 
@@ -139,8 +166,10 @@ namespace Morula
     if (growth.present())
       {
         const TimerOutput::Scope section(timer, "growth");
-        growth_of_step =
-          growth.of_step(tissue, time_steps.time(), time_steps.next());
+        everywhere(comm, [&]() {
+          growth_of_step =
+            growth.of_step(tissue, time_steps.time(), time_steps.next());
+        });
       }
     MaterialPoints<dim> points;
     {
@@ -148,9 +177,59 @@ namespace Morula
       points = material_points(tissue, space, growth_of_step, material);
     }
     const auto           list = terms(points, space);
-    MomentumBalance<dim> balance(
-      space, list, typical_stiffness, rigid_modes, timer, comm);
+    MomentumBalance<dim> balance(space,
+                                 list,
+                                 typical_stiffness,
+                                 rigid_modes.any() ?
+                                   rigid_modes.inertia(masses(space)) :
+                                   std::vector<Equilibrium::Vector>(),
+                                 timer,
+                                 comm);
+    estimate_condition(balance);
     solve(balance, scene.solver, timer, u, newton_report);
+    if (boundary_conditions.has_dirichlet())
+      check_gap(balance.extremes());
+
+    // A large cell is several quadrature points, but deforms as the field does
+    // at its own position: no energy has kept that from turning inside out.
+    if (inverts(
+          DisplacementField<dim>(space, u, comm), space, tissue.cells(), comm))
+      throw StepFailed("a cell is turned inside out");
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance)
+  {
+    // Once a step, in its first attempt.
+    if (!scene.output.condition_estimate || condition)
+      return;
+    const TimerOutput::Scope section(timer, "condition estimate");
+    condition = Morula::estimate_condition(balance);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_condition()
+  {
+    if (condition)
+      files->condition(n_steps, row.time - row.dt, *condition);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_gap(const Extremes<dim> &extremes) const
+  {
+    const double limit = scene.solver.largest_gap * scene.grid.spacing;
+    if (limit == 0. || extremes.largest_gap <= limit)
+      return;
+    std::ostringstream text;
+    text << "The tissue slips through its clamp: a held point at ("
+         << extremes.place_of_gap << ") um is " << extremes.largest_gap
+         << " um from where it is held, more than Solver/Largest gap = "
+         << scene.solver.largest_gap << " grid spacings. A higher Boundary "
+         << "conditions/Nitsche penalty holds it";
+    throw StepFailed(text.str());
   }
 
   template <int dim>
@@ -160,10 +239,15 @@ namespace Morula
   {
     const double                            t = time_steps.next();
     typename MomentumBalance<dim>::TermList list;
-    list.push_back(std::make_unique<InternalForce<dim>>(points));
+    list.push_back(
+      std::make_unique<InternalForce<dim>>(points, material.volumetric_form()));
+    // Expressions may have no value at this time: then all ranks must know.
+    const auto add = [&](const std::string &name, const auto &make) {
+      const TimerOutput::Scope section(timer, name);
+      everywhere(comm, [&]() { list.push_back(make()); });
+    };
     if (body_force)
-      {
-        const TimerOutput::Scope    section(timer, "body force");
+      add("body force", [&]() {
         std::vector<Tensor<1, dim>> forces;
         for (const auto &particle : tissue.cells().order())
           {
@@ -171,26 +255,22 @@ namespace Morula
             forces.push_back(cell.initial_volume() *
                              body_force->vector(cell.founder_position(), t));
           }
-        list.push_back(
-          std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
-                                          std::move(forces)));
-      }
+        return std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
+                                               std::move(forces));
+      });
     if (boundary_conditions.has_dirichlet())
-      {
-        const TimerOutput::Scope section(timer, "nitsche");
-        list.push_back(nitsche_term(
-          boundary_conditions, material, tissue, space, growth_of_step, t));
-      }
+      add("nitsche", [&]() {
+        return nitsche_term(
+          boundary_conditions, material, tissue, space, growth_of_step, t);
+      });
     if (boundary_conditions.has_traction())
-      {
-        const TimerOutput::Scope section(timer, "traction");
-        list.push_back(traction_term(boundary_conditions, tissue, space, t));
-      }
+      add("traction", [&]() {
+        return traction_term(boundary_conditions, tissue, space, t);
+      });
     if (boundary_conditions.has_pressure())
-      {
-        const TimerOutput::Scope section(timer, "pressure");
-        list.push_back(pressure_term(boundary_conditions, tissue, space, t));
-      }
+      add("pressure", [&]() {
+        return pressure_term(boundary_conditions, tissue, space, t);
+      });
     return list;
   }
 
@@ -248,59 +328,42 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  Simulation<dim>::commit(const SplineSpace<dim>    &space,
-                          const Equilibrium::Vector &u)
+  std::vector<double>
+  Simulation<dim>::elastic_volumes(
+    const SplineSpace<dim>       &space,
+    const DisplacementField<dim> &displacement) const
   {
-    const TimerOutput::Scope     section(timer, "commit");
-    const DisplacementField<dim> displacement(space, u, comm);
-    PointList<dim>               cells = tissue.cells().copy();
-    PointList<dim> boundary_points     = tissue.boundary_points().copy();
-    // Moves the points of one store, calling update(i, f) for each before.
-    const auto move = [&](const PointStore<dim> &store,
-                          PointList<dim>        &points,
-                          const auto            &update) {
-      unsigned int c = 0;
-      for (const auto &cell : store.cells())
-        {
-          while (space.cells()[c].number != cell.number)
-            ++c;
-          const LocalField<dim> field = displacement.on_cell(c);
-          const GridIndex<dim>  index = space.box().index(cell.number);
-          for (unsigned int p = cell.begin; p < cell.end; ++p)
-            {
-              const SplineValues<dim> splines(
-                space.box().unit_position(points.positions[p], index),
-                space.box().spacing());
-              update(p, field.step_deformation(splines));
-              points.positions[p] += field.value(splines);
-            }
-        }
-    };
-    move(tissue.cells(),
-         cells,
-         [&](const unsigned int p, const Tensor<2, dim> &f) {
-           const CellView<dim, double> cell(
-             ArrayView<double>(&cells.properties[p * cells.n_slots],
-                               cells.n_slots),
-             tissue.slots());
-           if (growth.present())
-             growth.commit(cell,
-                           time_steps.time(),
-                           time_steps.next(),
-                           growth_of_step.current[p]);
-           cell.set_tensor(tissue.slots().deformation, f * cell.deformation());
-         });
-    move(tissue.boundary_points(),
-         boundary_points,
-         [&](const unsigned int p, const Tensor<2, dim> &f) {
-           deform_boundary_point<dim>(
-             ArrayView<double>(
-               &boundary_points.properties[p * boundary_points.n_slots],
-               boundary_points.n_slots),
-             f);
-         });
-    tissue.place(cells, boundary_points);
+    std::vector<double> ratios;
+    if (material.volumetric_form() == VolumetricStrain::pointwise)
+      return ratios;
+    // From then on the cells have the volume that counted in the step.
+    const MaterialPoints<dim> points =
+      material_points(tissue, space, growth_of_step, material);
+    const InternalForce<dim> force(points, material.volumetric_form());
+    unsigned int             c = 0;
+    for (const auto &cell : tissue.cells().cells())
+      {
+        while (space.cells()[c].number != cell.number)
+          ++c;
+        ratios.insert(
+          ratios.end(),
+          cell.end - cell.begin,
+          std::exp(force.mean_log_volume_ratio(c, displacement.on_cell(c))));
+      }
+    return ratios;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::refine_surface()
+  {
+    if (!scene.tissue.refine_surface)
+      return;
+    const TimerOutput::Scope section(timer, "surface refinement");
+    PointList<dim>           points = tissue.boundary_points().copy();
+    if (Morula::refine_surface(
+          points, 0.5 * scene.grid.spacing, next_boundary_id, comm))
+      tissue.replace_surface(points);
   }
 
   template <int dim>

@@ -5,6 +5,7 @@
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
 #include <morula/particles/boundary_state.h>
+#include <morula/particles/surface_refinement.h>
 #include <morula/scene_checks.h>
 #include <morula/simulation.h>
 #include <morula/snapshot_check.h>
@@ -61,7 +62,10 @@ namespace Morula
     , body_force(body_force_of<dim>(scene))
     , tissue(scene.grid,
              CellSlots<dim>(scene.has_growth(), scene.has_proliferation()),
-             comm)
+             comm,
+             scene.tissue.refine_surface ?
+               BoundarySlots<dim>::n_slots_with_patch :
+               BoundarySlots<dim>::n_slots)
     , time_steps(scene.time)
   {
     const TimerOutput::Scope section(timer, "seeding");
@@ -106,24 +110,30 @@ namespace Morula
         births.push_back({cells.ids.back(), -1, 0, 0., founders.positions[i]});
       }
 
+    const bool     refine = scene.tissue.refine_surface;
     PointList<dim> points;
-    points.n_slots = BoundarySlots<dim>::n_slots;
+    points.n_slots = refine ? BoundarySlots<dim>::n_slots_with_patch :
+                              BoundarySlots<dim>::n_slots;
     for (std::size_t i = 0; i < patches.positions.size(); ++i)
       {
         points.ids.push_back(patches.first_id + i);
         points.positions.push_back(patches.positions[i]);
-        const std::vector<double> slots = initial_boundary_slots<dim>(
+        std::vector<double> slots = initial_boundary_slots<dim>(
           patches.positions[i],
           patches.normals[i],
           patches.areas[i],
           boundary_conditions.condition(patches.positions[i],
                                         patches.normals[i]));
+        if (refine)
+          slots = with_patch<dim>(std::move(slots));
         points.properties.insert(points.properties.end(),
                                  slots.begin(),
                                  slots.end());
       }
     tissue.place(cells, points);
-    next_id = founders.n_global;
+    next_id          = founders.n_global;
+    next_boundary_id = patches.n_global;
+    refine_surface();
   }
 
   template <int dim>
@@ -148,7 +158,9 @@ namespace Morula
                    first,
                    n,
                    std::vector<unsigned int>(weights.begin(), weights.end()));
-    next_id    = numbers.at("next_id");
+    next_id = numbers.at("next_id");
+    if (scene.tissue.refine_surface)
+      next_boundary_id = numbers.at("next_boundary_id");
     n_steps    = numbers.at("steps");
     n_rejected = numbers.at("rejected_steps");
     time_steps.restore({resumed_from->time,
@@ -190,7 +202,9 @@ namespace Morula
                                   {"step_begin", now.begin},
                                   {"step_part", double(now.part)},
                                   {"step_level", double(now.level)}};
-    const GridBox<dim> &box    = tissue.grid().box();
+    if (scene.tissue.refine_surface)
+      data.numbers["next_boundary_id"] = next_boundary_id;
+    const GridBox<dim> &box = tissue.grid().box();
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
     data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
@@ -304,13 +318,29 @@ namespace Morula
   {
     --n_steps; // not done
     files->write_snapshot(snapshot(), timer);
+    // Behind the snapshot, as the step is repeated when the run is resumed.
+    if (condition)
+      files->condition(n_steps + 1, time_steps.time(), *condition);
     files->write_timings(timer);
+    throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up_step(const std::string &reason)
+  {
     std::ostringstream text;
     text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()
          << " day (Time/Smallest step = " << scene.time.smallest_step
-         << "): " << reason << ". The state is saved in snapshot.h5.";
-    throw std::runtime_error(text.str());
+         << "): " << reason
+         << ". Resuming may go on with a smaller Time/Smallest step or other "
+            "Solver keys; if it does not, start anew with a larger "
+            "Grid/Spacing, with smaller loads or less growth";
+    if (boundary_conditions.has_dirichlet())
+      text << ", or with another Boundary conditions/Nitsche penalty";
+    text << '.';
+    give_up(text.str());
   }
 
   template class Simulation<2>;

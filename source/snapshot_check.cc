@@ -40,7 +40,16 @@ namespace Morula
     // default: a new key's default is what was done before.
     auto before = values(parameters, "the snapshot's scene");
     before.merge(values(Scene().parameters(), "the default scene"));
-    for (const auto &[path, value] : values(scene.parameters(), "the scene"))
+    const auto now = values(scene.parameters(), "the scene");
+    for (const auto &[path, value] : before)
+      if (now.count(path) == 0)
+        throw InputError(path,
+                         value,
+                         "a key that this program knows",
+                         "The snapshot was written by another version of "
+                         "Morula: resume with that one, or start a new run "
+                         "without --resume.");
+    for (const auto &[path, value] : now)
       {
         if (may_differ(path) || Refusals::same_value(before.at(path), value))
           continue;

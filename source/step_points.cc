@@ -120,17 +120,18 @@ namespace Morula
       list.n_slots = row_length<dim>;
       for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
         {
-          const auto               &particle = tissue.cells().order()[i];
-          const PointData<dim>      data = data_of(tissue, i, growth, material);
-          const ParticleDomain<dim> domain(particle->get_location(),
-                                           volume(tissue.cell(particle)));
-          const unsigned int        n    = tissue.n_quadrature_points(domain);
-          const double              part = std::pow(1. / n, dim);
-          domain.for_quadrature_points(n, [&](const Point<dim> &point) {
-            list.ids.push_back(particle->get_id());
-            list.positions.push_back(point);
-            append_row(data, part, list.properties);
-          });
+          const auto          &particle = tissue.cells().order()[i];
+          const PointData<dim> data     = data_of(tissue, i, growth, material);
+          const Point<dim>    &x        = particle->get_location();
+          const double         V        = volume(tissue.cell(particle));
+          const unsigned int n = space.occupancy().n_points_per_direction(x, V);
+          const double       part = std::pow(1. / n, dim);
+          ParticleDomain<dim>(x, V).for_quadrature_points(
+            n, [&](const Point<dim> &point) {
+              list.ids.push_back(particle->get_id());
+              list.positions.push_back(point);
+              append_row(data, part, list.properties);
+            });
         }
       list = send_to_owners(list, tissue.grid());
 
@@ -201,8 +202,8 @@ namespace Morula
     for (const auto &particle : tissue.cells().order())
       n_per_direction =
         std::max(n_per_direction,
-                 tissue.n_quadrature_points(ParticleDomain<dim>(
-                   particle->get_location(), volume(tissue.cell(particle)))));
+                 space.occupancy().n_points_per_direction(
+                   particle->get_location(), volume(tissue.cell(particle))));
     if (Utilities::MPI::max(n_per_direction, tissue.communicator()) > 1)
       return subdivided_points(tissue, space, growth, material);
 

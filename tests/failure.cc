@@ -55,3 +55,16 @@ TEST(Failure, ShowsWhatOtherRanksHaveToSay)
   EXPECT_EQ(occurrences(text, "a consequence"),
             rank() == 0 && last > 0 ? 1u : 0u);
 }
+
+
+TEST(Failure, ShowsBeginningAndEndOfLongMessages)
+{
+  testing::internal::CaptureStderr();
+  end_of_all_ranks(1,
+                   "the key" + std::string(9999, 'a') + "the remedy",
+                   MPI_COMM_WORLD);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(occurrences(text, "the key"), rank() == 0 ? 1u : 0u);
+  EXPECT_EQ(occurrences(text, "the remedy"), rank() == 0 ? 1u : 0u);
+  EXPECT_LT(text.size(), 3000u);
+}

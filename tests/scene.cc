@@ -5,6 +5,7 @@
 #include <morula/parameter_keys.h>
 #include <morula/scene.h>
 
+#include <boost/algorithm/string.hpp>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -254,6 +255,18 @@ TEST(Scene, RefusesBadFiles)
            "Grid/Spacng",
            "'50'",
            "Did you mean 'Grid/Spacing'"}},
+         {"set Dimension = 3\nset Dimension = " + std::string(20000, '3'),
+          {"scene.prm:2", "333...", "10000 characters"}},
+         {"set Dimension = 3 \x01 2",
+          {"scene.prm:1", "Character 19", "scene?"}},
+         {std::string("set Dimension\0 = 3", 19), {"scene.prm:1", "printed"}},
+         {std::string(100000, '('), {"scene.prm:1", "10000 characters"}},
+         {"set " + std::string(5000, 'a') + " = 1", {"scene.prm:1", "exists"}},
+         {"\nsubsection Grid\n" +
+            boost::join(std::vector<std::string>(50, "subsection Grid"), "\n"),
+          {"scene.prm:22", "'end'"}},
+         {"include " + std::string(5000, 'a'), {"scene.prm:1", "can be read"}},
+         {"include /dev/zero", {"/dev/zero:1", "scene?"}},
          {"set Spacing = 50",
           {"scene.prm:1", "'50'", "Did you mean 'Grid/Spacing'"}},
          {"\nsubsection Gird\nend",
@@ -274,6 +287,30 @@ TEST(Scene, RefusesBadFiles)
          {"subsection Grid\n  set Spacing = {50}\nend",
           {"scene.prm:2", "Grid/Spacing", "{50}", "a number"}}})
     expect_parts(complaint(text), parts);
+}
+
+
+TEST(Scene, ReadsFilesOfAnyEditor)
+{
+  EXPECT_EQ(read("\xEF\xBB\xBFset Dimension = 2").dimension, 2u);
+  EXPECT_EQ(read("set Dimension = 2\r\nset Random seed = 3\r\n").dimension, 2u);
+  EXPECT_EQ(
+    read("#" + std::string(20000, '-') + "\nset Dimension = 2").dimension, 2u);
+}
+
+
+TEST(Scene, RefusesNumbersThatAreNotFinite)
+{
+  for (const std::string value : {"inf", "-inf", "nan", "1e999"})
+    for (const std::string key : {"Time/End time",
+                                  "Grid/Spacing",
+                                  "Tissue/Radius",
+                                  "Boundary conditions/Nitsche penalty"})
+      expect_parts(complaint("", {key + "=" + value}),
+                   {key, "'" + value + "'", "number"});
+  expect_parts(complaint("", {"Grid/Offset=0, inf, 0"}),
+               {"Grid/Offset", "inf"});
+  expect_parts(complaint("", {"-s\x01=3"}), {"-s", "printed"});
 }
 
 

@@ -50,3 +50,18 @@ TEST(SnapshotCheck, TakesAKeyThatTheSnapshotLacksForItsDefault)
   scene.tissue.surface_cells = "trimmed";
   EXPECT_THROW(check_resumable(scene, older), InputError);
 }
+
+
+TEST(SnapshotCheck, RefusesKeysOfALaterProgram)
+{
+  const Scene scene;
+  try
+    {
+      check_resumable(scene, "set Flavour = sweet\n" + scene.parameters());
+      ADD_FAILURE();
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("Flavour"), std::string::npos);
+    }
+}

@@ -22,7 +22,8 @@ namespace Morula
     std::string path; // full, separated by '/'
     std::string default_value;
     std::string documentation;
-    std::string allowed; // noun phrase
+    std::string allowed;       // noun phrase
+    bool        is_of_numbers; // real ones: one, or a list of them
   };
 
   /** The declared keys, for messages and for --parameters. */

@@ -4,6 +4,7 @@
 #ifndef morula_run_files_h
 #define morula_run_files_h
 
+#include <morula/output/condition.h>
 #include <morula/output/lineage.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
@@ -39,6 +40,12 @@ namespace Morula
     /** Appends to statistics.csv and lineage.csv, and shows the step. */
     void
     step(StatisticsRow row, const std::vector<Birth<dim>> &births);
+
+    /** Appends to condition.csv. The scene asks for it. */
+    void
+    condition(const unsigned int       step,
+              const double             time,
+              const ConditionEstimate &estimate);
 
     /** Whether cells and surface are to be written in any format. */
     bool
@@ -78,6 +85,9 @@ namespace Morula
     wall_seconds() const;
 
   private:
+    void
+    open_conditions(const std::optional<SnapshotData<dim>> &resumed_from);
+
     std::string
     path(const std::string &file) const;
 
@@ -101,6 +111,7 @@ namespace Morula
     std::optional<Progress>         progress;
     std::optional<StatisticsFile>   statistics;
     std::optional<LineageFile<dim>> lineage;
+    std::optional<ConditionFile>    conditions; // if the scene asks for it
   };
 } // namespace Morula
 

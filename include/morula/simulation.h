@@ -6,6 +6,7 @@
 
 #include <morula/effects/boundary_terms.h>
 #include <morula/effects/growth/cell_growth.h>
+#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/newton.h>
 #include <morula/mechanics/rigid_modes.h>
@@ -69,13 +70,24 @@ namespace Morula
              const RigidModes<dim>  &rigid_modes,
              Equilibrium::Vector    &u);
     void
+    estimate_condition(MomentumBalance<dim> &balance);
+    void
     remove_rigid_motion(const SplineSpace<dim> &space,
                         const RigidModes<dim>  &rigid_modes,
                         Equilibrium::Vector    &u);
+    /** Of every cell at the end of the step, where ln J_e is projected;
+     *  otherwise empty. */
+    std::vector<double>
+    elastic_volumes(const SplineSpace<dim>       &space,
+                    const DisplacementField<dim> &displacement) const;
     void
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     void
+    refine_surface();
+    void
     divide();
+    void
+    write_condition();
 
     typename MomentumBalance<dim>::TermList
     terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
@@ -94,6 +106,10 @@ namespace Morula
     output(const bool last);
     [[noreturn]] void
     give_up(const std::string &reason);
+    [[noreturn]] void
+    give_up_step(const std::string &reason);
+    void
+    check_gap(const Extremes<dim> &extremes) const; // StepFailed
 
     /** As in cells-NNNN.csv. */
     unsigned int
@@ -111,15 +127,17 @@ namespace Morula
 
     Tissue<dim>           tissue;
     TimeSteps             time_steps;
-    types::particle_index next_id    = 0;
-    unsigned int          n_steps    = 0;
-    unsigned int          n_rejected = 0;
+    types::particle_index next_id          = 0; // of cells
+    types::particle_index next_boundary_id = 0; // where the surface is refined
+    unsigned int          n_steps          = 0;
+    unsigned int          n_rejected       = 0;
 
     // Of the present step.
-    GrowthOfStep<dim>       growth_of_step;
-    std::vector<Birth<dim>> births; // on this rank
-    NewtonReport            newton_report;
-    StatisticsRow           row;
+    GrowthOfStep<dim>                growth_of_step;
+    std::vector<Birth<dim>>          births; // on this rank
+    NewtonReport                     newton_report;
+    StatisticsRow                    row;
+    std::optional<ConditionEstimate> condition; // if the scene asks for it
 
     std::optional<SnapshotData<dim>> resumed_from; // until run()
     std::optional<RunFiles<dim>>     files;        // from run() on

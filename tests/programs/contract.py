@@ -29,6 +29,7 @@ COLUMNS = {
     "surface-0000.csv": "time,id,x,y,z,X,Y,Z,nx,ny,nz,area,condition",
     "lineage.csv": "id,parent,generation,birth_time,x,y,z",
     "timings.csv": "section,calls,wall_seconds,share",
+    "condition.csv": "step,time,unknowns,smallest,largest,condition",
 }
 ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv",
           "lineage.csv", "snapshot.h5"}
@@ -67,7 +68,7 @@ DEFAULTS = {
     "Body force/Force density": "0; 0; 0",
     "Solver/Newton tolerance": "1e-6", "Solver/Linear solver": "automatic",
     "Output/Interval": "0.25", "Output/Formats": "vtu",
-    "Output/Snapshot interval": "0",
+    "Output/Snapshot interval": "0", "Output/Condition estimate": "false",
 }
 
 
@@ -229,6 +230,34 @@ class Contract(ProgramTest):
         self.assertFalse((self.work / "output").exists())
         found = re.findall(r"^  (\S.*?)  +(on|off)\b", text, re.MULTILINE)
         return dict(found)
+
+    def test_condition_estimate(self):
+        """A row a step, with the time at its beginning; on request only."""
+        self.execute(CUBE, *overrides({"Output/Condition estimate": "true"}))
+        rows = read_csv(self.work / "output/condition.csv")
+        self.assertEqual(",".join(rows.dtype.names), COLUMNS["condition.csv"])
+        steps = read_csv(self.work / "output/statistics.csv")
+        self.assertEqual(list(rows["step"]), list(steps["step"][1:]))
+        self.assertEqual(list(rows["time"]), list(steps["time"][:-1]))
+        self.assertEqual(list(rows["unknowns"]), list(steps["unknowns"][1:]))
+        self.assertTrue((rows["smallest"] > 0).all())
+        self.assertTrue((rows["largest"] > 1).all())
+        self.assertTrue((rows["condition"] < 1e6).all())
+        self.assertIn("condition estimate", self.rows_of_timings())
+        self.execute(CUBE)  # which replaces that run
+        self.assertNotIn("condition.csv", self.files())
+        self.assertNotIn("condition estimate", self.rows_of_timings())
+
+    def test_condition_of_a_failing_step(self):
+        """Its row stands there, and is written anew when resumed."""
+        scene = SCENES / "without-extension-fails.prm"
+        keys = overrides({"Output/Condition estimate": "true"})
+        self.execute(scene, *keys, code=2)
+        before = (self.work / "output/condition.csv").read_text()
+        self.assertEqual(len(before.splitlines()), 2)
+        self.execute(scene, *keys, "--resume", code=2)
+        self.assertEqual((self.work / "output/condition.csv").read_text(),
+                         before)
 
     def test_absent_effects(self):
         """An effect that a scene does not call for has no row in timings.csv,

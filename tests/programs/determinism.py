@@ -40,6 +40,16 @@ class Determinism(ProgramTest):
                          "Tissue/Boundary points": "600",
                          "Solver/Newton tolerance": "1e-10"})
 
+    def test_refined_surface(self):
+        """The surface's points are split in mid-run, some of them held."""
+        self.run_on_all(SCENES.parent / "programs/small-cube.prm",
+                        {"Tissue/Refine surface": "true",
+                         "Tissue/Boundary points": "96", "Grid/Spacing": "32",
+                         "Solver/Newton tolerance": "1e-10"})
+        surface = read_csv(self.work / "1/surface-0001.csv")
+        self.assertGreater(len(surface), 96)
+        self.assertGreater((surface["condition"] == 2).sum(), 16)
+
     SPHERE = {"Tissue/Radius": "60", "Tissue/Cell spacing": "10",
               "Tissue/Boundary points": "0", "Time/End time": "1",
               "Time/Step": "0.2", "Grid/Spacing": "30",

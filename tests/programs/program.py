@@ -11,10 +11,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes/checks"))
-from results import read_csv  # noqa: E402 (for the tests that import it)
+TESTS = Path(__file__).resolve().parents[1]
+SCENES = TESTS / "scenes"
 
-SCENES = Path(__file__).resolve().parents[1] / "scenes"
+sys.path[:0] = [str(SCENES / "checks"), str(TESTS / "common")]
+# flake8: noqa: E402, F401 (also for the tests that import them)
+from processes import overrides
+from results import read_csv
 
 
 class ProgramTest(unittest.TestCase):
@@ -75,12 +78,6 @@ class ProgramTest(unittest.TestCase):
             difference = abs(one[name] - other[name]).max()
             self.assertLessEqual(difference, tolerances.get(name, 0.0),
                                  f"column {name} of {a} and {b}")
-
-
-def overrides(keys):
-    """-s arguments for a dictionary of keys."""
-    return [word for key, value in keys.items()
-            for word in ("-s", f"{key}={value}")]
 
 
 def main():

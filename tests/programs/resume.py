@@ -16,6 +16,9 @@ SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
                    "Boundary conditions/Fixed where": "Z <= 0",
                    "Solver/Newton tolerance": "1e-12"})
+REFINED = overrides({"Tissue/Refine surface": "true", "Grid/Spacing": "32",
+                     "Tissue/Boundary points": "96",
+                     "Solver/Newton tolerance": "1e-10"})
 
 
 class Resume(ProgramTest):
@@ -51,6 +54,27 @@ class Resume(ProgramTest):
     def test_longer_end_time_on_two_ranks(self):
         self.assert_same_run(*self.interrupt_and_resume(
             overrides({"Time/End time": "0.5"}), *SHEET, ranks=2))
+
+    def test_condition_estimate(self):
+        """condition.csv goes on, too."""
+        estimate = overrides({"Output/Condition estimate": "true"})
+        self.assert_same_run(*self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}), *estimate))
+        resumed = self.work / "begun-without"
+        self.execute(SCENE, *overrides({"Time/End time": "0.5"}),
+                     output=resumed)
+        self.execute(SCENE, *estimate, "--resume", output=resumed)
+        steps = list(read_csv(resumed / "condition.csv")["step"])
+        self.assertEqual(steps, [5, 6, 7, 8])
+
+    def test_refined_surface(self):
+        """Points are split before and after the interruption."""
+        whole, _ = pair = self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}), *REFINED, ranks=2)
+        self.assert_same_run(*pair)
+        points = [len(read_csv(whole / f"surface-000{i}.csv"))
+                  for i in range(3)]
+        self.assertEqual(points, sorted(set(points)))
 
     def test_stop_at_cells(self):
         whole, resumed = self.work / "whole", self.work / "resumed"

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""From 27 cells to 100,000."""
+import numpy
+from case import Case, Finding, Trial
+from results import positions, read_csv, stresses
+
+RATE = 0.3748  # 1/day: the root of 2 exp(-r) / (1 + r) = 1
+
+
+def enclosed(surface):
+    return sum(numpy.sum(surface["area"] * surface["n" + x] * surface[x])
+               for x in "xyz") / 3
+
+
+def judge(runs):
+    results = runs["ball"].results
+    rows = results.statistics()
+    cells, surface = results.last_cells(), results.last_surface()
+    h = results.number("Grid/Spacing")
+
+    # Renewal theory: ln N grows by RATE a day; each of the n cells there are
+    # adds a scatter of about 0.5/sqrt(n) to what follows.
+    first = numpy.searchsorted(rows["cells"], 100)
+    t, n = rows["time"], rows["cells"]
+    if t[-1] - t[first] > 4:
+        rate = numpy.polyfit(t[first:], numpy.log(n[first:]), 1)[0]
+        yield Finding("growth rate of the number of cells against renewal "
+                      "theory [1/day]", rate, equals=(RATE, 0.02))
+    yield Finding("cells", n[-1],
+                  at_least=results.number("Time/Stop at cells"))
+    yield Finding("initial volume lost, relative",
+                  abs(cells["initial_volume"].sum() / 27e3 - 1), at_most=1e-12)
+
+    files = zip(results.outputs("cells"), results.outputs("surface"))
+    worst = max(abs(enclosed(read_csv(s)) / read_csv(c)["volume"].sum() - 1)
+                for c, s in files)
+    yield Finding("volume inside the surface against that of the cells, "
+                  "largest relative difference", worst, at_most=0.06,
+                  error=True, trial="ball")
+
+    trace = cells["volume"] * numpy.trace(stresses(cells), axis1=1, axis2=2)
+    yield Finding("virial: sum of W tr tau over that of its magnitudes",
+                  abs(trace.sum()) / numpy.abs(trace).sum(), at_most=3e-3)
+    yield Finding("smallest J_e", rows["min_elastic_volume_ratio"].min(),
+                  at_least=1e-3)
+
+    x = positions(surface)
+    x = x - numpy.average(x, axis=0, weights=surface["area"])
+    moments = numpy.linalg.eigvalsh(numpy.einsum(
+        "a,ai,aj->ij", surface["area"], x, x))
+    yield Finding("axes of the surface, longest over shortest",
+                  (moments[-1] / moments[0])**0.5, at_most=2.0)
+    yield Finding("largest patch [of (h/2)^2]",
+                  surface["area"].max() / (h / 2)**2, at_most=1.0)
+    yield Finding("boundary points are numbered through",
+                  numpy.abs(numpy.diff(surface["id"]) - 1).max(), at_most=0)
+
+
+CASE = Case(
+    title="From 27 cells to 100,000",
+    breaks="one grid cell carries the tissue; later the surface's points are "
+           "farther apart than the grid's lines",
+    cure="several quadrature points a cell; the surface refined as it stretches",
+    judge=judge,
+    trials=[
+        Trial("ball", "from-27-cells.prm",
+              quick={"Time/Stop at cells": "1000"}),
+        # The corners of a box stand off from the cells, and on a fine grid
+        # nothing holds their points.
+        Trial("box-on-a-fine-grid", "from-27-cells.prm", exit=(0, 2),
+              keys={"Tissue/Shape": "box", "Tissue/Size": "30, 30, 30",
+                    "Tissue/Lattice offset": "0, 0, 0",
+                    "Time/Stop at cells": "300",
+                    "Grid/Spacing": "25", "Grid/Offset": "12.5, 12.5, 12.5"},
+              message="the step failed even at|left the tissue"),
+    ])

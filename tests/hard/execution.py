@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Runs of the trials of hard cases, each in its own directory."""
+import json
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+from case import Run
+from engine import (different_cells, figures, numbers_missing, wrong_end,
+                    wrong_resume)
+from processes import (ROOT, call, digest, files_of_scene, overrides,
+                       program_stamp)
+from results import Results
+
+HERE = Path(__file__).resolve().parent
+SCENES = ROOT / "prm/hard"
+JUDGES = [HERE / "engine.py", HERE / "execution.py",
+          ROOT / "tests/common/processes.py"]
+
+
+class Execution:
+    """How trials are run: the program, ctest's size or the full one, where."""
+
+    def __init__(self, morula, mpiexec, output, full):
+        self.morula, self.mpiexec, self.full = morula, mpiexec, full
+        self.output = output / ("full" if full else "quick")
+
+    def run(self, name, trial):
+        """(Run of the first number of ranks, what is wrong as sentences)."""
+        directory = self.output / name / trial.name
+        wrong, first = [], None
+        for ranks in trial.ranks:
+            run, found = self._on_ranks(trial, ranks, directory)
+            where = f"{trial.name} on {ranks} ranks: " if ranks > 1 else \
+                f"{trial.name}: "
+            if first is None:
+                first = run
+            elif run.exit == 0 == first.exit:
+                found = found + different_cells(first.results, run.results,
+                                                trial.agreement)
+            wrong += [where + text for text in found]
+        return first, wrong
+
+    def _on_ranks(self, trial, ranks, directory):
+        """A run is kept, and not repeated, if nothing was wrong with it and
+        scene, keys, files, program and checks are what they were."""
+        output = directory / f"ranks-{ranks}"
+        keys = trial.all_keys(self.full, directory / "files")
+        files = write_files(trial, directory / "files")
+        scene = SCENES / trial.scene
+        origin = {"keys": keys, "program": program_stamp(self.morula),
+                  "ranks": ranks, "resume": trial.resume_keys,
+                  "expected": [list(trial.exit), trial.message],
+                  "files": digest([*files_of_scene(scene), *files, *JUDGES])}
+        record = directory / f"ranks-{ranks}.json"
+        kept = json.loads(record.read_text()) if record.is_file() else {}
+        if kept.get("origin") != origin:
+            record.unlink(missing_ok=True)
+            kept = {"origin": origin,
+                    **self._execute(trial, scene, keys, ranks, output)}
+            if not kept["wrong"]:
+                record.write_text(json.dumps(kept))
+        wrong = kept["wrong"]
+        if (output / "statistics.csv").is_file():
+            results = Results(output)
+            run = Run(trial, kept["exit"], kept["text"], results,
+                      figures(results), kept["resumed"])
+        else:
+            run = Run(trial, kept["exit"], kept["text"], None, None)
+            if run.exit in (0, 2):
+                wrong = wrong + ["there is no statistics.csv"]
+        return run, wrong
+
+    def _command(self, scene, keys, ranks, output, *more):
+        words = [self.morula, scene.relative_to(ROOT),
+                 *overrides({**keys, "Output directory": output}), *more]
+        return [self.mpiexec, "-n", ranks, *words] if ranks > 1 else words
+
+    def _execute(self, trial, scene, keys, ranks, output):
+        shutil.rmtree(output, ignore_errors=True)
+        output.parent.mkdir(parents=True, exist_ok=True)
+        words = self._command(scene, keys, ranks, output)
+        print("  +", shlex.join(map(str, words)), flush=True)
+        try:
+            code, text = call(words, timeout=trial.timeout)
+        except subprocess.TimeoutExpired:
+            return {"exit": None, "text": "", "resumed": None,
+                    "wrong": [f"no end within {trial.timeout:g} s"]}
+        wrong = wrong_end(trial, code, text, output)
+        wrong += numbers_missing(output)
+        resumed = None
+        if code == 2 and (output / "snapshot.h5").is_file():
+            resumed, found = self._resume(trial, scene, keys, ranks, output)
+            wrong += found
+        (output / "snapshot.h5").unlink(missing_ok=True)
+        if wrong:
+            wrong.append(f"it printed:\n{text[-3000:]}")
+        return {"exit": code, "text": text, "resumed": resumed, "wrong": wrong}
+
+    def _resume(self, trial, scene, keys, ranks, output):
+        """Resumes a copy of a run; (exit code, what is wrong)."""
+        copy = output.parent / (output.name + "-resumed")
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(output, copy)
+        words = self._command(scene, {**keys, **trial.resume_keys}, ranks,
+                              copy, "--resume")
+        before = (copy / "statistics.csv").read_text()
+        try:
+            code, text = call(words, timeout=trial.timeout)
+        except subprocess.TimeoutExpired:
+            return None, [f"resumed, no end within {trial.timeout:g} s"]
+        after = (copy / "statistics.csv").read_text()
+        wrong = wrong_resume(code, text, before, after)
+        wrong += ["resumed: " + found for found in numbers_missing(copy)]
+        shutil.rmtree(copy)
+        return code, wrong
+
+
+def write_files(trial, directory):
+    """Writes the files of a trial; returns their paths."""
+    found = []
+    for name, text in trial.files.items():
+        directory.mkdir(parents=True, exist_ok=True)
+        text = text() if callable(text) else text
+        file = directory / name
+        if not file.is_file() or file.read_text() != text:
+            file.write_text(text)
+        found.append(file)
+    return found

@@ -35,9 +35,9 @@ def judge_pieces(runs):
         # Single cells in a row hardly resist twist.
         row = shape == "rod of 1 x 1 cells"
         yield Finding(f"{shape}: cells are off by [µm]", max(cells),
-                      at_most=1e-3 if row else 1e-5, error=True, trial=shape)
+                      at_most=1e-5, error=True, trial=shape)
         yield Finding(f"{shape}: the surface is off by [µm]", max(surface),
-                      at_most=0.1 if row else 1e-5, error=True, trial=shape)
+                      at_most=0.05 if row else 1e-5, error=True, trial=shape)
 
 
 def arc(X, a):

@@ -113,7 +113,7 @@ def judge(runs):
                   trial="disc-turned")
     yield from break_down(runs, "disc, no extension")
     yield from vary_little(runs, "slab, paper's keys, diagonal", Y,
-                           linear_at_most=1, condition_at_most=12)
+                           linear_at_most=1, condition_at_most=20)
     yield from vary_little(runs, "slab, y", Y)
     yield from vary_little(runs, "slab, diagonal", Y)
     height = exact_height(1.4, 60)
@@ -130,7 +130,7 @@ def judge(runs):
     # The small sphere of ctest has a coarser grid for its size.
     yield from vary_little(runs, "sphere", Z, 0.002 if full else 0.004)
     if full:
-        yield from vary_little(runs, "sphere, paper's keys", Z, 0.006)
+        yield from vary_little(runs, "sphere, paper's keys", Z, 0.006, 0.4)
 
 
 DISC, SLAB, SPHERE = "cut-disc.prm", "cut-slab.prm", "cut-sphere.prm"

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/input_error.h>
+#include <morula/mechanics/vector_kernels.h>
 #include <morula/scene.h>
 #include <morula/scene_effects_check.h>
 #include <morula/scene_refusals.h>
@@ -128,6 +129,34 @@ namespace Morula
                          "Remove what is written twice.");
     }
 
+    void
+    check_solver(const SolverParameters &solver)
+    {
+      refuse_unless(solver.newton_tolerance > 0. &&
+                      solver.newton_tolerance < 1.,
+                    "Solver/Newton tolerance",
+                    solver.newton_tolerance,
+                    "a number > 0 and < 1",
+                    "1e-6 is a good choice.");
+      refuse_unless(solver.linear_tolerance < 1.,
+                    "Solver/Linear tolerance",
+                    solver.linear_tolerance,
+                    "0, or a number between 0 and 1",
+                    "0 lets Newton's method choose.");
+      std::string runnable = "automatic, plain";
+      bool known = solver.kernel == "automatic" || solver.kernel == "plain";
+      for (const VectorKernels &kernels : available_vector_kernels())
+        {
+          runnable += std::string(", ") + kernels.name;
+          known = known || solver.kernel == kernels.name;
+        }
+      if (!known)
+        throw InputError("Solver/Kernel",
+                         solver.kernel,
+                         "on this processor one of " + runnable,
+                         "'automatic' takes the fastest.");
+    }
+
     template <int dim>
     void
     check_scene(const Scene &scene)
@@ -138,17 +167,7 @@ namespace Morula
       refuse_far_away("Tissue/Center", scene.tissue.center, scene.grid.spacing);
       check_material(scene.material);
       check_effects<dim>(scene);
-      refuse_unless(scene.solver.newton_tolerance > 0. &&
-                      scene.solver.newton_tolerance < 1.,
-                    "Solver/Newton tolerance",
-                    scene.solver.newton_tolerance,
-                    "a number > 0 and < 1",
-                    "1e-6 is a good choice.");
-      refuse_unless(scene.solver.linear_tolerance < 1.,
-                    "Solver/Linear tolerance",
-                    scene.solver.linear_tolerance,
-                    "0, or a number between 0 and 1",
-                    "0 lets Newton's method choose.");
+      check_solver(scene.solver);
       check_output(scene);
     }
   } // namespace

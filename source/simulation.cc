@@ -5,7 +5,7 @@
 #include <morula/effects/division/divide.h>
 #include <morula/input_error.h>
 #include <morula/mechanics/displacement_field.h>
-#include <morula/mechanics/internal_force.h>
+#include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/output/agreement.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/strays.h>
@@ -240,7 +240,7 @@ namespace Morula
     const double                            t = time_steps.next();
     typename MomentumBalance<dim>::TermList list;
     list.push_back(
-      std::make_unique<InternalForce<dim>>(points, material.volumetric_form()));
+      internal_force(points, material.volumetric_form(), scene.solver.kernel));
     // Expressions may have no value at this time: then all ranks must know.
     const auto add = [&](const std::string &name, const auto &make) {
       const TimerOutput::Scope section(timer, name);

@@ -18,6 +18,7 @@ namespace Morula
     double      newton_tolerance = 1e-6;
     double      linear_tolerance = 0.;
     std::string linear_solver    = "automatic";
+    std::string kernel           = "automatic";
     double      largest_gap      = 0.25; // grid spacings; 0: any
 
     void

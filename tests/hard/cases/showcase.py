@@ -61,7 +61,8 @@ CASE = Case(
     title="From 27 cells to 100,000",
     breaks="one grid cell carries the tissue; later the surface's points are "
            "farther apart than the grid's lines",
-    cure="several quadrature points a cell; the surface refined as it stretches",
+    cure="one quadratic field for a small piece; the surface refined as it "
+         "stretches",
     judge=judge,
     trials=[
         Trial("ball", "from-27-cells.prm",

@@ -45,8 +45,8 @@ def panel(runs):
             locks = form == "pointwise" and nu == 0.4999
             yield Finding(f"energy, {form}, nu = {nu}", error,
                           **({"at_most": LEAST_LOCKING[fine]} if locks else
-                             {"equals": (0, LARGEST_ERROR[fine])}
-                             if form == "projected" else {}),
+                             {"equals": (0, LARGEST_ERROR[fine]
+                                         if form == "projected" else 0.15)}),
                           error=True, trial=name)
             if form == "projected":
                 ratio = (last(run, "total_volume")

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_vector_kernels_h
+#define morula_mechanics_vector_kernels_h
+
+#include <string>
+#include <vector>
+
+// Included by files that are compiled for one instruction set: no header with
+// inline functions that the linker could merge with those of other files.
+
+namespace Morula
+{
+  /**
+   * The particles of one grid cell in 3-D, as MaterialPoints and ElasticState
+   * store them, and the 27 coefficients of each component of the displacement.
+   */
+  struct KernelInput
+  {
+    unsigned int  n;
+    const double *xi;          // 3 for each point
+    const double *states;      // 10 for each point: A row by row, W
+    const double *lame;        // λ, μ
+    unsigned int  lame_stride; // 2, or 0 if they are the same for all points
+    double        h;           // µm
+    const double *coefficients;
+  };
+
+  /** What a kernel finds. */
+  struct KernelResult
+  {
+    double       smallest_J = 0.; // J_e, or det f where that is not positive
+    unsigned int at         = 0;  // index of that point
+    double       energy     = 0.;
+    double       energy_magnitude = 0.;
+  };
+
+  /**
+   * The terms of InternalForce for all the particles of a grid cell at once,
+   * for one instruction set (doc/theory.md, section 5). Add nothing if a point
+   * is inverted.
+   */
+  struct VectorKernels
+  {
+    const char *name;
+
+    /** Adds to the residual, 81 values by component. */
+    KernelResult (*residual)(const KernelInput &input, double *residual);
+
+    /** Adds to the tangent, 81 x 81 values row by row. */
+    KernelResult (*tangent)(const KernelInput &input, double *matrix);
+  };
+
+  /** Those that this processor can run, the fastest first. */
+  std::vector<VectorKernels>
+  available_vector_kernels();
+} // namespace Morula
+
+#endif

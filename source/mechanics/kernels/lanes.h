@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// See kernels.h.
+
+namespace Morula
+{
+  namespace MORULA_KERNELS
+  {
+    constexpr unsigned int lanes = MORULA_LANES;
+
+    // Registers stay registers only where everything is inlined.
+#define MORULA_INLINE inline __attribute__((always_inline))
+
+    /** A register of numbers, one for each of as many points. */
+    using Lanes = double __attribute__((vector_size(sizeof(double) * lanes)));
+
+    MORULA_INLINE Lanes
+    all(const double x)
+    {
+      return Lanes{} + x;
+    }
+
+    /** A register in memory, where its numbers are read and written singly. */
+    struct Numbers
+    {
+      alignas(64) double value[lanes];
+
+      Numbers() = default;
+
+      MORULA_INLINE
+      Numbers(const Lanes &x)
+      {
+        *reinterpret_cast<Lanes *>(value) = x;
+      }
+
+      MORULA_INLINE
+      operator Lanes() const
+      {
+        return *reinterpret_cast<const Lanes *>(value);
+      }
+
+      MORULA_INLINE double &
+      operator[](const unsigned int l)
+      {
+        return value[l];
+      }
+
+      MORULA_INLINE double
+      operator[](const unsigned int l) const
+      {
+        return value[l];
+      }
+    };
+
+    /**
+     * ln x for positive normal numbers, to 2 units in the last place; libm's is
+     * for one number at a time and costs more than all the rest of a residual.
+     * x = 2^k m with √½ <= m < √2, and ln m = 2 artanh s, s = (m-1)/(m+1).
+     */
+    MORULA_INLINE Lanes
+    logarithm(const Lanes &x)
+    {
+      using Bits =
+        long long __attribute__((vector_size(sizeof(long long) * lanes)));
+      constexpr long long root_half = 0x3fe6a09e667f3bcdll; // √½
+      const Bits          bits      = reinterpret_cast<Bits>(x);
+      const Bits          exponent  = (bits - root_half) >> 52;
+      const Bits          scaled    = bits - (exponent << 52);
+      const Lanes         m         = reinterpret_cast<Lanes>(scaled);
+      const Lanes         k         = __builtin_convertvector(exponent, Lanes);
+      const Lanes         s = (m - 1.) / (m + 1.), s2 = s * s;
+      Lanes               series = all(1. / 23.);
+      for (int n = 21; n >= 3; n -= 2)
+        series = series * s2 + 1. / n;
+      return k * 0x1.62e42fefa38p-1 +
+             (2. * s + (2. * s * s2 * series + k * 0x1.ef35793c7673p-45));
+    }
+
+    MORULA_INLINE Lanes
+    square_root(const Lanes &x)
+    {
+      Numbers y = x;
+      for (unsigned int l = 0; l < lanes; ++l)
+        y[l] = __builtin_sqrt(y[l]);
+      return y;
+    }
+
+    MORULA_INLINE double
+    sum(const Lanes &numbers)
+    {
+      const Numbers x      = numbers;
+      double        result = 0.;
+      for (unsigned int l = 0; l < lanes; ++l)
+        result += x[l];
+      return result;
+    }
+
+    /** The determinant of M, and its inverse. */
+    MORULA_INLINE Lanes
+    invert(const Lanes (&M)[3][3], Lanes (&inverse)[3][3])
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          {
+            const unsigned int i1 = (j + 1) % 3, i2 = (j + 2) % 3;
+            const unsigned int j1 = (i + 1) % 3, j2 = (i + 2) % 3;
+            inverse[i][j] = M[i1][j1] * M[i2][j2] - M[i1][j2] * M[i2][j1];
+          }
+      const Lanes determinant = M[0][0] * inverse[0][0] +
+                                M[0][1] * inverse[1][0] +
+                                M[0][2] * inverse[2][0];
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          inverse[i][j] /= determinant;
+      return determinant;
+    }
+
+    /** Three numbers and a zero: a quarter more work, but no remainder. */
+    struct Quad
+    {
+      double value[4] = {};
+
+      /** target = factor * this + other_factor * other */
+      MORULA_INLINE void
+      combine(const double factor,
+              const Quad  &other,
+              const double other_factor,
+              double      *target) const
+      {
+        for (unsigned int x = 0; x < 4; ++x)
+          target[x] = factor * value[x] + other_factor * other.value[x];
+      }
+    };
+  } // namespace MORULA_KERNELS
+} // namespace Morula

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// See kernels.h. The tangent of a grid cell as products of small matrices,
+// whose sums stay in registers.
+
+namespace Morula
+{
+  namespace MORULA_KERNELS
+  {
+    constexpr unsigned int n_splines = 27;
+    constexpr unsigned int n_columns = (n_splines + lanes - 1) / lanes;
+
+    /** Of a row in memory: 27 and zeros. A Quad at 24 must fit. */
+    constexpr unsigned int width = n_columns * lanes;
+    static_assert(width >= 28, "a Quad must fit behind the last row");
+
+    /** Rows of the registers' tile: all sums and a row of factors fit. */
+    constexpr unsigned int tile_rows    = lanes == 8 ? 6 : 3;
+    constexpr unsigned int tile_columns = n_columns < 4 ? n_columns : 4;
+
+    /** By direction, for each spline: what the updates of one point take. */
+    struct PointRows
+    {
+      using Rows = double[3][width];
+
+      alignas(64) Rows g;
+      Rows m;
+      Rows g_c1, g_c2, g_both; // times c1, c2 and c1 + c2
+
+      MORULA_INLINE void
+      scale(const double c1, const double c2)
+      {
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int a = 0; a < width; ++a)
+            {
+              g_c1[i][a]   = c1 * g[i][a];
+              g_c2[i][a]   = c2 * g[i][a];
+              g_both[i][a] = (c1 + c2) * g[i][a];
+            }
+      }
+    };
+
+    /** A factor of an update: rows of PointRows. */
+    struct Factor
+    {
+      PointRows::Rows PointRows::*rows;
+      unsigned int                direction;
+
+      MORULA_INLINE const double *
+      of(const PointRows &point) const
+      {
+        return (point.*rows)[direction];
+      }
+    };
+
+    /** Adds the sum over points and products of left[a] right[c]. */
+    struct Update
+    {
+      Factor left, right;
+    };
+
+    using Block = double[n_splines][width];
+
+    template <unsigned int R, unsigned int C, unsigned int K>
+    MORULA_INLINE void
+    update_tile(const PointRows   *points,
+                const unsigned int n,
+                const Update (&updates)[K],
+                const unsigned int row,
+                const unsigned int column,
+                Block             &block)
+    {
+      Lanes sums[R][C];
+      for (unsigned int r = 0; r < R; ++r)
+        for (unsigned int c = 0; c < C; ++c)
+          sums[r][c] = *reinterpret_cast<const Lanes *>(
+            &block[row + r][column + c * lanes]);
+      for (unsigned int p = 0; p < n; ++p)
+        for (unsigned int k = 0; k < K; ++k)
+          {
+            const double *const left  = updates[k].left.of(points[p]) + row;
+            const double *const right = updates[k].right.of(points[p]) + column;
+            Lanes               factors[C];
+            for (unsigned int c = 0; c < C; ++c)
+              factors[c] = *reinterpret_cast<const Lanes *>(right + c * lanes);
+            for (unsigned int r = 0; r < R; ++r)
+              {
+                const Lanes factor = all(left[r]);
+                for (unsigned int c = 0; c < C; ++c)
+                  sums[r][c] += factor * factors[c];
+              }
+          }
+      for (unsigned int r = 0; r < R; ++r)
+        for (unsigned int c = 0; c < C; ++c)
+          *reinterpret_cast<Lanes *>(&block[row + r][column + c * lanes]) =
+            sums[r][c];
+    }
+
+    /** A row of tiles, from a column on. */
+    template <unsigned int R, unsigned int K>
+    MORULA_INLINE void
+    update_rows(const PointRows   *points,
+                const unsigned int n,
+                const Update (&updates)[K],
+                const unsigned int row,
+                unsigned int       column,
+                Block             &block)
+    {
+      constexpr unsigned int step = tile_columns * lanes;
+      for (; column + step <= width; column += step)
+        update_tile<R, tile_columns>(points, n, updates, row, column, block);
+      switch ((width - column) / lanes)
+        {
+          case 3:
+            update_tile<R, 3>(points, n, updates, row, column, block);
+            break;
+          case 2:
+            update_tile<R, 2>(points, n, updates, row, column, block);
+            break;
+          case 1:
+            update_tile<R, 1>(points, n, updates, row, column, block);
+            break;
+          default:;
+        }
+    }
+
+    /** @param symmetric only the entries from the diagonal on are needed */
+    template <unsigned int K>
+    MORULA_INLINE void
+    update(const PointRows   *points,
+           const unsigned int n,
+           const Update (&updates)[K],
+           const bool symmetric,
+           Block     &block)
+    {
+      const auto first_column = [symmetric](const unsigned int row) {
+        return symmetric ? row / lanes * lanes : 0;
+      };
+      unsigned int row = 0;
+      for (; row + tile_rows <= n_splines; row += tile_rows)
+        update_rows<tile_rows>(
+          points, n, updates, row, first_column(row), block);
+      constexpr unsigned int rest = n_splines % tile_rows;
+      if constexpr (rest != 0)
+        update_rows<rest>(points, n, updates, row, first_column(row), block);
+    }
+
+    /** The blocks (i, j), i <= j, of the tangent of a grid cell. */
+    struct Blocks
+    {
+      alignas(64) Block geometric   = {}; // of all (i, i)
+      alignas(64) Block diagonal[3] = {};
+      alignas(64) Block other[3]    = {}; // (0, 1), (0, 2), (1, 2)
+
+      MORULA_INLINE void
+      update(const PointRows *points, const unsigned int n)
+      {
+        using R           = PointRows;
+        const Update gg[] = {{{&R::m, 0}, {&R::m, 0}},
+                             {{&R::m, 1}, {&R::m, 1}},
+                             {{&R::m, 2}, {&R::m, 2}}};
+        MORULA_KERNELS::update(points, n, gg, true, geometric);
+        for (unsigned int i = 0, k = 0; i < 3; ++i)
+          {
+            const Update ii[] = {{{&R::g_both, i}, {&R::g, i}}};
+            MORULA_KERNELS::update(points, n, ii, true, diagonal[i]);
+            for (unsigned int j = i + 1; j < 3; ++j, ++k)
+              {
+                const Update ij[] = {{{&R::g_c1, i}, {&R::g, j}},
+                                     {{&R::g_c2, j}, {&R::g, i}}};
+                MORULA_KERNELS::update(points, n, ij, false, other[k]);
+              }
+          }
+      }
+
+      /** Adds all nine blocks. */
+      MORULA_INLINE void
+      add_to(double *matrix) const
+      {
+        constexpr unsigned int n_dofs = 3 * n_splines;
+        for (unsigned int i = 0, k = 0; i < 3; ++i)
+          {
+            for (unsigned int a = 0; a < n_splines; ++a)
+              for (unsigned int c = a; c < n_splines; ++c)
+                {
+                  const double entry     = diagonal[i][a][c] + geometric[a][c];
+                  const unsigned int row = i * n_splines + a,
+                                     column = i * n_splines + c;
+                  matrix[row * n_dofs + column] += entry;
+                  if (c > a)
+                    matrix[column * n_dofs + row] += entry;
+                }
+            for (unsigned int j = i + 1; j < 3; ++j, ++k)
+              for (unsigned int a = 0; a < n_splines; ++a)
+                for (unsigned int c = 0; c < n_splines; ++c)
+                  {
+                    const unsigned int row    = i * n_splines + a,
+                                       column = j * n_splines + c;
+                    matrix[row * n_dofs + column] += other[k][a][c];
+                    matrix[column * n_dofs + row] += other[k][a][c];
+                  }
+          }
+      }
+    };
+  } // namespace MORULA_KERNELS
+} // namespace Morula

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/vectorized_internal_force.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "../finite_differences.h"
+
+using namespace Morula;
+
+namespace
+{
+  MaterialPoints<3>
+  random_material_points(std::mt19937      &generator,
+                         const unsigned int n,
+                         const bool         uniform)
+  {
+    MaterialPoints<3> points;
+    static_cast<GroupedPoints<3> &>(points) =
+      random_points_in_cell<3>(generator, n);
+    for (unsigned int p = 0; p < (uniform ? 1 : n); ++p)
+      points.lame.push_back(lame(1. + p, 0.3 + 0.1 * (p % 2)));
+    points.current  = random_states<3>(generator, n);
+    points.previous = random_states<3>(generator, n);
+    return points;
+  }
+
+  LocalSystem<3>
+  system_of(const Term<3>               &term,
+            const LocalField<3>         &field,
+            const GrowthAt               growth,
+            const LocalSystem<3>::Wanted wanted)
+  {
+    LocalSystem<3> system(wanted);
+    term.add(0, field, growth, system);
+    return system;
+  }
+
+  template <typename Container>
+  void
+  expect_same(const Container &found, const Container &expected)
+  {
+    double size = 0.;
+    for (const double value : expected)
+      size = std::max(size, std::abs(value));
+    ASSERT_EQ(found.size(), expected.size());
+    for (unsigned int k = 0; k < found.size(); ++k)
+      ASSERT_NEAR(found[k], expected[k], 1e-13 * size) << "entry " << k;
+  }
+
+  void
+  expect_same(const LocalSystem<3> &found, const LocalSystem<3> &expected)
+  {
+    expect_same(found.residual, expected.residual);
+    expect_same(found.magnitude, expected.magnitude);
+    expect_same(found.matrix, expected.matrix);
+    EXPECT_NEAR(found.energy,
+                expected.energy,
+                1e-13 * expected.energy_magnitude);
+    EXPECT_NEAR(found.energy_magnitude,
+                expected.energy_magnitude,
+                1e-13 * expected.energy_magnitude);
+    if (std::isinf(expected.smallest_J.value)) // no points
+      {
+        EXPECT_EQ(found.smallest_J.value, expected.smallest_J.value);
+      }
+    else
+      {
+        EXPECT_NEAR(found.smallest_J.value, expected.smallest_J.value, 1e-13);
+      }
+    EXPECT_EQ(found.smallest_J.xi, expected.smallest_J.xi);
+    EXPECT_EQ(found.inverted, expected.inverted);
+  }
+} // namespace
+
+TEST(VectorizedInternalForce, IsThePlainOneWithAnyNumberOfPoints)
+{
+  for (const VectorKernels &kernels : available_vector_kernels())
+    for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
+      for (const bool uniform : {true, false})
+        {
+          SCOPED_TRACE(kernels.name + std::string(", points: ") +
+                       std::to_string(n));
+          std::mt19937 generator(n);
+          const auto   points = random_material_points(generator, n, uniform);
+          const auto   field  = random_field<3>(generator, 0.15);
+          const InternalForce<3>        plain(points);
+          const VectorizedInternalForce vectorized(points, kernels);
+          for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
+            for (const auto wanted : {LocalSystem<3>::energy_and_residual,
+                                      LocalSystem<3>::rounding,
+                                      LocalSystem<3>::tangent})
+              expect_same(system_of(vectorized, field, growth, wanted),
+                          system_of(plain, field, growth, wanted));
+        }
+}
+
+TEST(VectorizedInternalForce, AddsToWhatIsThere)
+{
+  std::mt19937 generator(3);
+  const auto   points = random_material_points(generator, 5, true);
+  const auto   field  = random_field<3>(generator, 0.15);
+  for (const VectorKernels &kernels : available_vector_kernels())
+    for (const auto wanted :
+         {LocalSystem<3>::energy_and_residual, LocalSystem<3>::tangent})
+      {
+        const VectorizedInternalForce term(points, kernels);
+        LocalSystem<3>                twice =
+                         system_of(term, field, GrowthAt::current, wanted),
+                       once = twice;
+        term.add(0, field, GrowthAt::current, twice);
+        for (double &entry : once.residual)
+          entry *= 2.;
+        for (double &entry : once.matrix)
+          entry *= 2.;
+        expect_same(twice.residual, once.residual);
+        expect_same(twice.matrix, once.matrix);
+        EXPECT_NEAR(twice.energy, 2. * once.energy, 1e-13 * twice.energy);
+      }
+}
+
+TEST(VectorizedInternalForce, NoPointsAddNothing)
+{
+  std::mt19937 generator(4);
+  auto         points = random_material_points(generator, 1, true);
+  points.offsets      = {0, 0};
+  const auto field    = random_field<3>(generator, 0.15);
+  for (const VectorKernels &kernels : available_vector_kernels())
+    expect_same(system_of(VectorizedInternalForce(points, kernels),
+                          field,
+                          GrowthAt::current,
+                          LocalSystem<3>::tangent),
+                LocalSystem<3>(LocalSystem<3>::tangent));
+}
+
+TEST(VectorizedInternalForce, SaysWhichPointIsInverted)
+{
+  std::mt19937 generator(5);
+  auto         points = random_material_points(generator, 11, true);
+  points.current[9].A *= -1.; // of odd dimension: J_e < 0
+  const auto field = random_field<3>(generator, 0.05);
+  for (const VectorKernels &kernels : available_vector_kernels())
+    for (const auto wanted :
+         {LocalSystem<3>::energy_and_residual, LocalSystem<3>::tangent})
+      {
+        const LocalSystem<3> system =
+          system_of(VectorizedInternalForce(points, kernels),
+                    field,
+                    GrowthAt::current,
+                    wanted);
+        EXPECT_TRUE(system.inverted);
+        EXPECT_LT(system.smallest_J.value, 0.);
+        EXPECT_EQ(system.smallest_J.xi, points.xi[9]);
+        for (const double entry : system.residual)
+          ASSERT_EQ(entry, 0.);
+      }
+}
+
+// The kernels have a logarithm of their own: from the smallest to the largest
+// volume ratios, with the accuracy of libm's.
+TEST(VectorizedInternalForce, LogarithmsAreAccurate)
+{
+  std::mt19937  generator(6);
+  LocalField<3> rest = {};
+  for (const VectorKernels &kernels : available_vector_kernels())
+    for (const double J : {1e-100,
+                           1e-9,
+                           0.1,
+                           0.5,
+                           0.707,
+                           0.7072,
+                           1. - 1e-12,
+                           1. + 1e-12,
+                           1.4142,
+                           1.4143,
+                           3.,
+                           1e9,
+                           1e100})
+      {
+        auto points        = random_material_points(generator, 1, true);
+        points.lame        = {{1., 0.}}; // τ = λ ln J_e I alone
+        auto &A            = points.current[0].A;
+        A                  = unit_symmetric_tensor<3>();
+        A[0][0]            = J;
+        const auto   found = system_of(VectorizedInternalForce(points, kernels),
+                                     rest,
+                                     GrowthAt::current,
+                                     LocalSystem<3>::energy_and_residual);
+        const double log_J = std::log(J);
+        EXPECT_NEAR(std::sqrt(2. * found.energy / points.current[0].W),
+                    std::abs(log_J),
+                    5e-16 * std::abs(log_J) +
+                      // of J itself, from a determinant
+                      1e-15);
+      }
+}
+
+TEST(VectorizedInternalForce, IsChosenByName)
+{
+  std::mt19937 generator(7);
+  const auto   points        = random_material_points(generator, 3, true);
+  const auto   is_vectorized = [&](const VolumetricStrain form,
+                                 const std::string     &kernel) {
+    return dynamic_cast<VectorizedInternalForce *>(
+             internal_force(points, form, kernel).get()) != nullptr;
+  };
+  EXPECT_TRUE(is_vectorized(VolumetricStrain::pointwise, "automatic"));
+  EXPECT_TRUE(is_vectorized(VolumetricStrain::pointwise, "baseline"));
+  EXPECT_FALSE(is_vectorized(VolumetricStrain::pointwise, "plain"));
+  EXPECT_FALSE(is_vectorized(VolumetricStrain::projected, "automatic"));
+}

@@ -111,7 +111,9 @@ namespace Morula
     divide();
     try
       {
-        refine_surface();
+        refine_surface([&space](const Point<dim> &x) {
+          return space.occupancy().crowded(x);
+        });
       }
     catch (const SurfaceTorn &error)
       {
@@ -355,14 +357,15 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::refine_surface()
+  Simulation<dim>::refine_surface(
+    const std::function<bool(const Point<dim> &)> &crowded)
   {
     if (!scene.tissue.refine_surface)
       return;
     const TimerOutput::Scope section(timer, "surface refinement");
     PointList<dim>           points = tissue.boundary_points().copy();
     if (Morula::refine_surface(
-          points, 0.5 * scene.grid.spacing, next_boundary_id, comm))
+          points, 0.5 * scene.grid.spacing, crowded, next_boundary_id, comm))
       tissue.replace_surface(points);
   }
 

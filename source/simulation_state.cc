@@ -133,7 +133,7 @@ namespace Morula
     tissue.place(cells, points);
     next_id          = founders.n_global;
     next_boundary_id = patches.n_global;
-    refine_surface();
+    refine_surface([](const Point<dim> &) { return false; });
   }
 
   template <int dim>

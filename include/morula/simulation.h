@@ -17,6 +17,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <optional>
 
 namespace Morula
@@ -83,7 +84,7 @@ namespace Morula
     void
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     void
-    refine_surface();
+    refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
     void
     divide();
     void

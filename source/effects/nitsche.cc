@@ -54,24 +54,28 @@ namespace Morula
           }
       }
 
-      /** g·D²T for component i of spline a and component j of all splines;
-       *  @p along are the g·f⁻ᵀ∇N_b. */
-      void
-      second_derivative(const Tensor<1, dim>        &gap,
-                        const std::array<double, n> &along,
-                        const unsigned int           i,
-                        const unsigned int           a,
-                        const unsigned int           j,
-                        std::array<double, n>       &result) const
+      /**
+       * g·D²T for component i of spline a and component j of spline b is, for
+       * all b, a sum of three rows times these factors.
+       */
+      struct SecondDerivative
+      {
+        double gi, gj, along; // of gradient[i], gradient[j] and g·f⁻ᵀ∇N_b
+      };
+
+      /** @param along g·f⁻ᵀ∇N_a */
+      SecondDerivative
+      second_derivative(const Tensor<1, dim> &gap,
+                        const double          along,
+                        const unsigned int    i,
+                        const unsigned int    a,
+                        const unsigned int    j) const
       {
         const double gm = gap * m;
-        for (unsigned int b = 0; b < n; ++b)
-          result[b] =
-            -weight * (lambda * (gm * gradient[i][b] * gradient[j][a] +
-                                 gradient[i][a] * along[b] * m[j] +
-                                 gradient[j][b] * along[a] * m[i]) +
-                       c2 * (along[b] * gradient[j][a] * m[i] +
-                             along[a] * gradient[i][b] * m[j]));
+        return {-weight * (lambda * gm * gradient[j][a] + c2 * along * m[j]),
+                -weight * lambda * along * m[i],
+                -weight *
+                  (lambda * gradient[i][a] * m[j] + c2 * gradient[j][a] * m[i])};
       }
 
     private:
@@ -126,24 +130,26 @@ namespace Morula
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const double           a_t    = condition.area;
-      std::array<double, n>  along{}, second;
+      std::array<double, n>  along{};
       for (unsigned int b = 0; b < n; ++b)
         for (unsigned int k = 0; k < dim; ++k)
           along[b] += gap[k] * T.gradient[k][b];
+      const auto &N = splines.value;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int j = 0; j < dim; ++j)
             {
               double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
-              const double  penalty =
-                condition.penalty * condition.projection[i][j];
-              T.second_derivative(gap, along, i, a, j, second);
+              const auto second = T.second_derivative(gap, along[a], i, a, j);
+              const double of_N =
+                a_t * (condition.penalty * condition.projection[i][j] * N[a] -
+                       sign * T.derivative[j][i][a]);
               for (unsigned int b = 0; b < n; ++b)
-                row[b] +=
-                  a_t * (penalty * splines.value[a] * splines.value[b] -
-                         splines.value[a] * T.derivative[i][j][b] -
-                         sign * (splines.value[b] * T.derivative[j][i][a] +
-                                 second[b]));
+                row[b] += of_N * N[b] - a_t * N[a] * T.derivative[i][j][b] -
+                          a_t * sign *
+                            (second.gi * T.gradient[i][b] +
+                             second.gj * T.gradient[j][b] +
+                             second.along * along[b]);
             }
     }
   } // namespace

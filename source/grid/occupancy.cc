@@ -281,6 +281,15 @@ namespace Morula
 
   template <int dim>
   bool
+  Occupancy<dim>::crowded(const Point<dim> &x) const
+  {
+    const GridIndex<dim> index = box_.locate(x);
+    return box_.contains(index) &&
+           boundary_points[box_.number(index)] > Utilities::pow(4, dim);
+  }
+
+  template <int dim>
+  bool
   Occupancy<dim>::active(const unsigned int number) const
   {
     return quadrature_points[number] > 0 || particles[number] > 0 ||

@@ -7,53 +7,55 @@ namespace Morula
 {
   namespace
   {
-    std::vector<double>
+    void
     transpose(const std::vector<double> &X,
               const unsigned int         n_rows,
-              const unsigned int         n_columns)
+              const unsigned int         n_columns,
+              std::vector<double>       &result)
     {
-      std::vector<double> result(X.size());
+      result.resize(X.size());
       for (unsigned int r = 0; r < n_rows; ++r)
         for (unsigned int c = 0; c < n_columns; ++c)
           result[c * n_rows + r] = X[r * n_columns + c];
-      return result;
     }
   } // namespace
 
   template <int dim>
   Condensation<dim>::Condensation(const typename SplineSpace<dim>::Cell &cell)
-    : m_(cell.unknowns.size())
-    , identity(cell.weights.empty())
-  {
-    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-      if (identity)
-        rows[a] = {{a, 1.}};
-      else
-        for (unsigned int s = 0; s < m_; ++s)
-          if (cell.weights[a * m_ + s] != 0.)
-            rows[a].push_back({s, cell.weights[a * m_ + s]});
-  }
+    : cell(cell)
+  {}
 
   template <int dim>
   unsigned int
   Condensation<dim>::m() const
   {
-    return m_;
+    return cell.unknowns.size();
+  }
+
+  template <int dim>
+  template <typename Visit>
+  void
+  Condensation<dim>::for_each_weight(const unsigned int a,
+                                     const Visit       &visit) const
+  {
+    if (cell.weights.empty())
+      visit(a, 1.);
+    else
+      for (unsigned int s = 0; s < m(); ++s)
+        if (cell.weights[a * m() + s] != 0.)
+          visit(s, cell.weights[a * m() + s]);
   }
 
   template <int dim>
   LocalField<dim>
   Condensation<dim>::expand(const std::vector<double> &coefficients) const
   {
-    LocalField<dim> field;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        {
-          double sum = 0.;
-          for (const Entry &entry : rows[a])
-            sum += entry.weight * coefficients[i * m_ + entry.unknown];
-          field.coefficient[i][a] = sum;
-        }
+    LocalField<dim> field = {};
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      for_each_weight(a, [&](const unsigned int s, const double weight) {
+        for (unsigned int i = 0; i < dim; ++i)
+          field.coefficient[i][a] += weight * coefficients[i * m() + s];
+      });
     return field;
   }
 
@@ -63,49 +65,50 @@ namespace Morula
     const std::array<double, LocalSystem<dim>::n_dofs> &forces,
     const bool                                          magnitudes) const
   {
-    std::vector<double> result(dim * m_, 0.);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        for (const Entry &entry : rows[a])
-          result[i * m_ + entry.unknown] +=
-            (magnitudes ? std::abs(entry.weight) : entry.weight) *
-            forces[i * BSpline<dim>::n + a];
+    std::vector<double> result(dim * m(), 0.);
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      for_each_weight(a, [&](const unsigned int s, const double weight) {
+        for (unsigned int i = 0; i < dim; ++i)
+          result[i * m() + s] += (magnitudes ? std::abs(weight) : weight) *
+                                 forces[i * BSpline<dim>::n + a];
+      });
     return result;
   }
 
   template <int dim>
-  std::vector<double>
+  void
   Condensation<dim>::times_rows(const std::vector<double> &X,
-                                const unsigned int         n_columns) const
+                                const unsigned int         n_columns,
+                                std::vector<double>       &result) const
   {
-    std::vector<double> result(dim * m_ * n_columns, 0.);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        {
-          const double *const source =
-            &X[(i * BSpline<dim>::n + a) * n_columns];
-          for (const Entry &entry : rows[a])
-            {
-              double *const target =
-                &result[(i * m_ + entry.unknown) * n_columns];
-              for (unsigned int c = 0; c < n_columns; ++c)
-                target[c] += entry.weight * source[c];
-            }
-        }
-    return result;
+    result.assign(dim * m() * n_columns, 0.);
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      for_each_weight(a, [&](const unsigned int s, const double weight) {
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const double *const source =
+              &X[(i * BSpline<dim>::n + a) * n_columns];
+            double *const target = &result[(i * m() + s) * n_columns];
+            for (unsigned int c = 0; c < n_columns; ++c)
+              target[c] += weight * source[c];
+          }
+      });
   }
 
   template <int dim>
-  std::vector<double>
-  Condensation<dim>::condense(const std::vector<double> &matrix) const
+  const std::vector<double> &
+  Condensation<dim>::condense(const std::vector<double> &matrix,
+                              Work                      &work) const
   {
-    if (identity)
+    if (cell.weights.empty())
       return matrix;
     constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
     // (Cᵀ (Cᵀ K)ᵀ)ᵀ: both products run over contiguous rows.
-    const std::vector<double> half =
-      transpose(times_rows(matrix, n_dofs), dim * m_, n_dofs);
-    return transpose(times_rows(half, dim * m_), dim * m_, dim * m_);
+    times_rows(matrix, n_dofs, work.product);
+    transpose(work.product, dim * m(), n_dofs, work.transposed);
+    times_rows(work.transposed, dim * m(), work.product);
+    transpose(work.product, dim * m(), dim * m(), work.transposed);
+    return work.transposed;
   }
 
   template class Condensation<2>;

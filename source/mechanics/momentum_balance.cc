@@ -221,8 +221,9 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "tangent");
     matrix = 0.;
-    const DisplacementField<dim> displacement(space, u, comm);
-    LocalSystem<dim>             system(LocalSystem<dim>::tangent);
+    const DisplacementField<dim>     displacement(space, u, comm);
+    LocalSystem<dim>                 system(LocalSystem<dim>::tangent);
+    typename Condensation<dim>::Work work;
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
         const LocalField<dim> field = displacement.on_cell(c);
@@ -230,7 +231,7 @@ namespace Morula
         for (const auto &term : terms)
           term->add(c, field, growth, system);
         scatter->add(
-          c, Condensation<dim>(space.cells()[c]).condense(system.matrix));
+          c, Condensation<dim>(space.cells()[c]).condense(system.matrix, work));
       }
     matrix.compress(VectorOperation::add);
     return matrix;

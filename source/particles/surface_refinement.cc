@@ -57,9 +57,10 @@ namespace Morula
     /** Throws on all ranks if any has a patch that is too long to be split. */
     template <int dim>
     void
-    check_lengths(const PointList<dim> &points,
-                  const double          longest_edge,
-                  const MPI_Comm        comm)
+    check_lengths(const PointList<dim>    &points,
+                  const std::vector<bool> &crowded,
+                  const double             longest_edge,
+                  const MPI_Comm           comm)
     {
       double                length = 0.;
       types::particle_index id     = 0;
@@ -69,7 +70,7 @@ namespace Morula
           const BoundaryView<dim> point(
             ArrayView<const double>(&points.properties[i * points.n_slots],
                                     points.n_slots));
-          const double edge = longest(point).second;
+          const double edge = crowded[i] ? 0. : longest(point).second;
           if (edge > length)
             {
               length = edge;
@@ -157,22 +158,27 @@ namespace Morula
 
   template <int dim>
   bool
-  refine_surface(PointList<dim>        &points,
-                 const double           longest_edge,
-                 types::particle_index &next_id,
-                 const MPI_Comm         comm)
+  refine_surface(PointList<dim>                                &points,
+                 const double                                   longest_edge,
+                 const std::function<bool(const Point<dim> &)> &crowded,
+                 types::particle_index                         &next_id,
+                 const MPI_Comm                                 comm)
   {
+    std::vector<bool> leave;
+    for (const Point<dim> &x : points.positions)
+      leave.push_back(crowded(x));
     const auto slots_of = [&points](const std::size_t i) {
       return ArrayView<double>(&points.properties[i * points.n_slots],
                                points.n_slots);
     };
-    check_lengths(points, longest_edge, comm);
+    check_lengths(points, leave, longest_edge, comm);
     for (bool any = false;; any = true)
       {
         std::vector<std::size_t>           split;
         std::vector<types::particle_index> ids;
         for (std::size_t i = 0; i < points.size(); ++i)
-          if (longest(BoundaryView<dim>(slots_of(i))).second > longest_edge)
+          if (!leave[i] &&
+              longest(BoundaryView<dim>(slots_of(i))).second > longest_edge)
             {
               split.push_back(i);
               ids.push_back(points.ids[i]);
@@ -189,6 +195,7 @@ namespace Morula
               longest(BoundaryView<dim>(slots_of(i))).first;
             const std::vector<double> mother(slots_of(i).begin(),
                                              slots_of(i).end());
+            leave.push_back(false);
             points.ids.push_back(next_id + places[s]);
             points.positions.push_back(points.positions[i]);
             points.properties.insert(points.properties.end(),
@@ -201,12 +208,14 @@ namespace Morula
       }
   }
 
-#define INSTANTIATE(dim)                                               \
-  template std::vector<double> with_patch<dim>(std::vector<double>);   \
-  template bool                refine_surface(PointList<dim> &,        \
-                                              const double,            \
-                                              types::particle_index &, \
-                                              const MPI_Comm);
+#define INSTANTIATE(dim)                                             \
+  template std::vector<double> with_patch<dim>(std::vector<double>); \
+  template bool                refine_surface(                       \
+                   PointList<dim> &,                                 \
+                   const double,                                     \
+                   const std::function<bool(const Point<dim> &)> &,  \
+                   types::particle_index &,                          \
+                   const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

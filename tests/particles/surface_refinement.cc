@@ -18,6 +18,13 @@ using namespace Morula;
 namespace
 {
   template <int dim>
+  bool
+  nowhere(const Point<dim> &)
+  {
+    return false;
+  }
+
+  template <int dim>
   ArrayView<double>
   slots_of(PointList<dim> &points, const std::size_t i)
   {
@@ -168,7 +175,8 @@ namespace
     PointList<dim> points      = dealt(all);
     points.n_slots             = all.n_slots;
     types::particle_index next = 9;
-    EXPECT_TRUE(refine_surface(points, 25., next, MPI_COMM_WORLD));
+    EXPECT_TRUE(
+      refine_surface<dim>(points, 25., nowhere<dim>, next, MPI_COMM_WORLD));
     EXPECT_EQ(next, 12u);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
@@ -195,7 +203,8 @@ namespace
         EXPECT_LT((view(points, i).initial_normal() - N).norm(), 1e-15);
       }
     const auto before = points.ids.size();
-    EXPECT_FALSE(refine_surface(points, 25., next, MPI_COMM_SELF));
+    EXPECT_FALSE(
+      refine_surface<dim>(points, 25., nowhere<dim>, next, MPI_COMM_SELF));
     EXPECT_EQ(points.ids.size(), before);
   }
 
@@ -206,7 +215,8 @@ namespace
     PointList<dim>        points = random_patches<dim>(60);
     const Sums<dim>       before(points);
     types::particle_index next = 60;
-    EXPECT_TRUE(refine_surface(points, 6., next, MPI_COMM_SELF));
+    EXPECT_TRUE(
+      refine_surface<dim>(points, 6., nowhere<dim>, next, MPI_COMM_SELF));
     EXPECT_EQ(points.size(), next);
     EXPECT_GT(points.size(), 200u);
     const Sums<dim> after(points);
@@ -227,13 +237,43 @@ namespace
 
   template <int dim>
   void
+  check_crowd()
+  {
+    const PointList<dim> all    = random_patches<dim>(60);
+    PointList<dim>       points = all;
+    const auto crowded          = [](const Point<dim> &x) { return x[0] > 0.; };
+    types::particle_index next  = 60;
+    EXPECT_TRUE(refine_surface<dim>(points, 6., crowded, next, MPI_COMM_SELF));
+    unsigned int n_crowded = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (crowded(all.positions[i]))
+        {
+          ++n_crowded;
+          EXPECT_EQ(points.ids[i], all.ids[i]);
+          EXPECT_EQ(points.positions[i], all.positions[i]);
+          EXPECT_EQ(view(points, i).initial_area(),
+                    view(all, i).initial_area());
+        }
+    EXPECT_GT(n_crowded, 10u);
+    // All others are split as if they were alone.
+    PointList<dim> others = selected(all, [&](const std::size_t i) {
+      return !crowded(all.positions[i]);
+    });
+    next                  = 60;
+    refine_surface<dim>(others, 6., nowhere<dim>, next, MPI_COMM_SELF);
+    EXPECT_EQ(points.size(), others.size() + n_crowded);
+  }
+
+  template <int dim>
+  void
   check_ranks()
   {
     const PointList<dim>  all   = random_patches<dim>(60);
     PointList<dim>        alone = all, mine = dealt(all);
     types::particle_index next_alone = 60, next = 60;
-    refine_surface(alone, 6., next_alone, MPI_COMM_SELF);
-    EXPECT_TRUE(refine_surface(mine, 6., next, MPI_COMM_WORLD));
+    refine_surface<dim>(alone, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
+    EXPECT_TRUE(
+      refine_surface<dim>(mine, 6., nowhere<dim>, next, MPI_COMM_WORLD));
     EXPECT_EQ(next, next_alone);
     const PointList<dim> expected = selected(alone, [&](const std::size_t i) {
       return std::find(mine.ids.begin(), mine.ids.end(), alone.ids[i]) !=
@@ -281,8 +321,8 @@ namespace
 
     PointList<dim>        alone = all, mine = tissue.boundary_points().copy();
     types::particle_index next_alone = 60, next = 60;
-    refine_surface(alone, 6., next_alone, MPI_COMM_SELF);
-    refine_surface(mine, 6., next, MPI_COMM_WORLD);
+    refine_surface<dim>(alone, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
+    refine_surface<dim>(mine, 6., nowhere<dim>, next, MPI_COMM_WORLD);
     tissue.replace_surface(mine);
     expect_same_points(tissue.boundary_points().copy(),
                        owned(alone, tissue.grid()));
@@ -307,6 +347,8 @@ TEST(SurfaceRefinement,
 TEST(SurfaceRefinement,
      ConservesAreaNormalAndMoments){MORULA_BOTH_DIMENSIONS(check_conservation)}
 
+
+TEST(SurfaceRefinement, LeavesCrowds){MORULA_BOTH_DIMENSIONS(check_crowd)}
 
 TEST(SurfaceRefinement,
      IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}

@@ -112,6 +112,11 @@ namespace Morula
     unsigned int
     n_quadrature_points(const unsigned int number) const;
 
+    /** Whether more boundary points than a surface needs, 4^dim, share the
+     *  grid cell of @p x, which may lie outside the box. */
+    bool
+    crowded(const Point<dim> &x) const;
+
     /** Whether the grid cell holds a particle, a quadrature point or a
      *  boundary point. */
     bool

@@ -24,6 +24,7 @@ namespace Morula
   class Condensation
   {
   public:
+    /** Keeps a reference to the grid cell. */
     explicit Condensation(const typename SplineSpace<dim>::Cell &cell);
 
     /** Number m of unknowns. */
@@ -42,25 +43,33 @@ namespace Morula
     condense(const std::array<double, LocalSystem<dim>::n_dofs> &forces,
              const bool magnitudes = false) const;
 
-    /** @param matrix (dim 3^dim)² values, row by row */
-    std::vector<double>
-    condense(const std::vector<double> &matrix) const;
-
-  private:
-    struct Entry
+    /** Memory for condense(), to be used for one grid cell after the other. */
+    struct Work
     {
-      unsigned int unknown;
-      double       weight;
+      std::vector<double> product, transposed;
     };
 
-    /** Cᵀ X, C acting on each component; X has dim 3^dim rows. */
-    std::vector<double>
-    times_rows(const std::vector<double> &X,
-               const unsigned int         n_columns) const;
+    /**
+     * @param matrix (dim 3^dim)² values, row by row
+     * @return @p matrix itself where the unknowns are the splines, else a
+     *         vector in @p work
+     */
+    const std::vector<double> &
+    condense(const std::vector<double> &matrix, Work &work) const;
 
-    std::array<std::vector<Entry>, BSpline<dim>::n> rows;
-    unsigned int                                    m_;
-    bool                                            identity;
+  private:
+    /** Calls visit(s, weight) for the unknowns that make up spline @p a. */
+    template <typename Visit>
+    void
+    for_each_weight(const unsigned int a, const Visit &visit) const;
+
+    /** Cᵀ X, C acting on each component; X has dim 3^dim rows. */
+    void
+    times_rows(const std::vector<double> &X,
+               const unsigned int         n_columns,
+               std::vector<double>       &result) const;
+
+    const typename SplineSpace<dim>::Cell &cell;
   };
 } // namespace Morula
 

@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -42,18 +43,24 @@ namespace Morula
    * of one round of splitting are in the order of the split points' ids, for
    * any number of ranks.
    *
+   * Points where the surface is crowded are left as they are: there it is
+   * crumpled, and further points would be carried apart like these, ever more
+   * of them.
+   *
    * @param points  this rank's boundary points, with patches
+   * @param crowded whether there are enough points around a place already
    * @param next_id first free id, the same on all ranks; advanced
    * @return whether any rank has split a point. Collective.
-   * @throws SurfaceTorn on all ranks, before anything is split, if an edge is
-   *         longer than 64 @p longest_edge
+   * @throws SurfaceTorn on all ranks, before anything is split, if an edge that
+   *         is to be split is longer than 64 @p longest_edge
    */
   template <int dim>
   bool
-  refine_surface(PointList<dim>        &points,
-                 const double           longest_edge,
-                 types::particle_index &next_id,
-                 const MPI_Comm         comm);
+  refine_surface(PointList<dim>                                &points,
+                 const double                                   longest_edge,
+                 const std::function<bool(const Point<dim> &)> &crowded,
+                 types::particle_index                         &next_id,
+                 const MPI_Comm                                 comm);
 } // namespace Morula
 
 #endif

@@ -74,8 +74,8 @@ namespace Morula
         const double gm = gap * m;
         return {-weight * (lambda * gm * gradient[j][a] + c2 * along * m[j]),
                 -weight * lambda * along * m[i],
-                -weight *
-                  (lambda * gradient[i][a] * m[j] + c2 * gradient[j][a] * m[i])};
+                -weight * (lambda * gradient[i][a] * m[j] +
+                           c2 * gradient[j][a] * m[i])};
       }
 
     private:
@@ -140,16 +140,16 @@ namespace Morula
           for (unsigned int j = 0; j < dim; ++j)
             {
               double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
-              const auto second = T.second_derivative(gap, along[a], i, a, j);
+              const auto   second = T.second_derivative(gap, along[a], i, a, j);
               const double of_N =
                 a_t * (condition.penalty * condition.projection[i][j] * N[a] -
                        sign * T.derivative[j][i][a]);
               for (unsigned int b = 0; b < n; ++b)
-                row[b] += of_N * N[b] - a_t * N[a] * T.derivative[i][j][b] -
-                          a_t * sign *
-                            (second.gi * T.gradient[i][b] +
-                             second.gj * T.gradient[j][b] +
-                             second.along * along[b]);
+                row[b] +=
+                  of_N * N[b] - a_t * N[a] * T.derivative[i][j][b] -
+                  a_t * sign *
+                    (second.gi * T.gradient[i][b] +
+                     second.gj * T.gradient[j][b] + second.along * along[b]);
             }
     }
   } // namespace

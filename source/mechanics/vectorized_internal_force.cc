@@ -14,7 +14,6 @@ namespace Morula
   VectorizedInternalForce::VectorizedInternalForce(
     const MaterialPoints<3> &points, const VectorKernels &kernels)
     : points(points)
-    , plain(points)
     , kernels(kernels)
   {}
 
@@ -24,11 +23,6 @@ namespace Morula
                                const GrowthAt       growth,
                                LocalSystem<3>      &system) const
   {
-    if (system.wanted == LocalSystem<3>::rounding)
-      {
-        plain.add(cell, field, growth, system);
-        return;
-      }
     const unsigned int first  = points.offsets[cell],
                        n      = points.offsets[cell + 1] - first,
                        stride = points.lame.size() == 1 ? 0 : 2;
@@ -44,7 +38,11 @@ namespace Morula
     const KernelResult found =
       system.wanted == LocalSystem<3>::tangent ?
         kernels.tangent(input, system.matrix.data()) :
-        kernels.residual(input, system.residual.data());
+        kernels.residual(input,
+                         system.residual.data(),
+                         system.wanted == LocalSystem<3>::rounding ?
+                           system.magnitude.data() :
+                           nullptr);
     system.admits(1., found.smallest_J, points.xi[first + found.at]);
     system.add_energy(found.energy, found.energy_magnitude);
   }

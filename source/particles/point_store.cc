@@ -80,10 +80,17 @@ namespace Morula
   PointStore<dim>::take()
   {
     PointList<dim> points = copy();
+    clear();
+    return points;
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::clear()
+  {
     order_.clear();
     cells_.clear();
     handler.clear_particles();
-    return points;
   }
 
   template <int dim>

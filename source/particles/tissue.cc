@@ -72,8 +72,8 @@ namespace Morula
   Tissue<dim>::place(const PointList<dim> &cells,
                      const PointList<dim> &boundary_points)
   {
-    cells_.take();
-    boundary_points_.take();
+    cells_.clear();
+    boundary_points_.clear();
     const std::vector<Point<dim>> corners = domain_corners(cells);
     const auto [first, last] =
       extent<dim>({&corners, &boundary_points.positions}, grid_);
@@ -153,7 +153,7 @@ namespace Morula
         place(cells_.copy(), boundary_points);
         return;
       }
-    boundary_points_.take();
+    boundary_points_.clear();
     boundary_points_.insert(boundary_points, grid_);
   }
 

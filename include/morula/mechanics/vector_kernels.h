@@ -45,8 +45,11 @@ namespace Morula
   {
     const char *name;
 
-    /** Adds to the residual, 81 values by component. */
-    KernelResult (*residual)(const KernelInput &input, double *residual);
+    /** Adds to the residual, 81 values by component, and, if not null, to the
+     *  sums of the magnitudes of its contributions. */
+    KernelResult (*residual)(const KernelInput &input,
+                             double            *residual,
+                             double            *magnitudes);
 
     /** Adds to the tangent, 81 x 81 values row by row. */
     KernelResult (*tangent)(const KernelInput &input, double *matrix);

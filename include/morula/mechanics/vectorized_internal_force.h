@@ -11,9 +11,7 @@ namespace Morula
 {
   /**
    * The pointwise InternalForce in 3-D, all particles of a grid cell at once
-   * and some in a register: the same to rounding, several times faster. The
-   * magnitudes for rounding errors, which Newton's method wants once a step,
-   * come from the plain one.
+   * and some in a register: the same to rounding, several times faster.
    */
   class VectorizedInternalForce : public Term<3>
   {
@@ -30,7 +28,6 @@ namespace Morula
 
   private:
     const MaterialPoints<3> &points;
-    const InternalForce<3>   plain;
     const VectorKernels      kernels;
   };
 

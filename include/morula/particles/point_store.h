@@ -56,7 +56,11 @@ namespace Morula
     remove(const std::vector<Iterator> &points,
            const BackgroundGrid<dim>   &grid);
 
-    /** Takes all points of this rank out of the store, in order. */
+    /** Takes all points of this rank out of the store. */
+    void
+    clear();
+
+    /** Likewise, and returns them in order. */
     PointList<dim>
     take();
 

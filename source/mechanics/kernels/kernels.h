@@ -147,11 +147,14 @@ namespace Morula
           }
     }
 
-    /** W τ f⁻ᵀ, and the energies. */
+    /** W τ, W τ f⁻ᵀ, and the energies. */
     MORULA_INLINE void
-    stress(const Points &points, Lanes (&P)[3][3], Lanes (&energies)[2])
+    stress(const Points &points,
+           Lanes (&tau)[3][3],
+           Lanes (&P)[3][3],
+           Lanes (&energies)[2])
     {
-      Lanes tau[3][3], trace = {};
+      Lanes trace = {};
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
@@ -171,7 +174,7 @@ namespace Morula
           P[i][j] = tau[i][0] * points.f_inverse[j][0] +
                     tau[i][1] * points.f_inverse[j][1] +
                     tau[i][2] * points.f_inverse[j][2];
-      const Lanes size       = points.log_J < 0. ? -points.log_J : points.log_J;
+      const Lanes size       = magnitude(points.log_J);
       const Lanes volumetric = points.lambda * size * size;
       energies[0] +=
         0.5 * points.W *
@@ -180,12 +183,43 @@ namespace Morula
         0.5 * points.W * (volumetric + points.mu * (trace + 3. + 2. * size));
     }
 
+    /** Adds |W τ_ij| |g_a^j| summed over j, g = f⁻ᵀ ∇N, to 81 sums. */
+    MORULA_INLINE void
+    add_magnitudes(const Points &points,
+                   const Lanes (&tau)[3][3],
+                   Lanes (&sums)[3][9][3])
+    {
+      Lanes first[9], second[9];
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          const auto &F = points.f_inverse;
+          factors(points, F[0][j], F[1][j], F[2][j], first, second);
+          for (unsigned int yz = 0; yz < 9; ++yz)
+            for (unsigned int x = 0; x < 3; ++x)
+              {
+                const Lanes g = magnitude(points.N[0][x] * first[yz] +
+                                          points.dN[0][x] * second[yz]);
+                for (unsigned int i = 0; i < 3; ++i)
+                  sums[i][yz][x] += magnitude(tau[i][j]) * g;
+              }
+        }
+    }
+
+    MORULA_INLINE void
+    add_sums(const Lanes (&sums)[3][9][3], double *target)
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int yz = 0; yz < 9; ++yz)
+          for (unsigned int x = 0; x < 3; ++x)
+            target[27 * i + 3 * yz + x] += sum(sums[i][yz][x]);
+    }
+
     inline KernelResult
-    residual(const KernelInput &input, double *target)
+    residual(const KernelInput &input, double *target, double *magnitudes)
     {
       KernelResult result;
       result.smallest_J   = __builtin_inf();
-      Lanes sums[3][9][3] = {}, energies[2] = {};
+      Lanes sums[3][9][3] = {}, sizes[3][9][3] = {}, energies[2] = {};
       for (unsigned int p = 0; p < input.n; p += lanes)
         {
           Points points;
@@ -193,8 +227,10 @@ namespace Morula
           deform(input.coefficients, points);
           if (!admit(points, p, result))
             return result;
-          Lanes P[3][3], first[9], second[9];
-          stress(points, P, energies);
+          Lanes tau[3][3], P[3][3], first[9], second[9];
+          stress(points, tau, P, energies);
+          if (magnitudes != nullptr)
+            add_magnitudes(points, tau, sizes);
           for (unsigned int i = 0; i < 3; ++i)
             {
               factors(points, P[i][0], P[i][1], P[i][2], first, second);
@@ -204,10 +240,9 @@ namespace Morula
                     points.N[0][x] * first[yz] + points.dN[0][x] * second[yz];
             }
         }
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int yz = 0; yz < 9; ++yz)
-          for (unsigned int x = 0; x < 3; ++x)
-            target[27 * i + 3 * yz + x] += sum(sums[i][yz][x]);
+      add_sums(sums, target);
+      if (magnitudes != nullptr)
+        add_sums(sizes, magnitudes);
       result.energy           = sum(energies[0]);
       result.energy_magnitude = sum(energies[1]);
       return result;

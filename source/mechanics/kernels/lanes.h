@@ -78,6 +78,12 @@ namespace Morula
     }
 
     MORULA_INLINE Lanes
+    magnitude(const Lanes &x)
+    {
+      return x < 0. ? -x : x;
+    }
+
+    MORULA_INLINE Lanes
     square_root(const Lanes &x)
     {
       Numbers y = x;

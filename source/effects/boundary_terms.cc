@@ -59,8 +59,7 @@ namespace Morula
       return points;
     }
 
-    /** Of the cells nearest to points: position, reach of the surface and, if
-     *  there is growth, F_g at t and t + dt, row by row. */
+    /** Of the cells nearest to points: F_g at t and t + dt, row by row. */
     template <int dim>
     std::vector<double>
     nearest_cells(const std::vector<Point<dim>> &queries,
@@ -68,19 +67,12 @@ namespace Morula
                   const GrowthOfStep<dim>       &growth)
     {
       PointList<dim> cells;
-      cells.n_slots = dim + 1 + (growth.present ? 2 * dim * dim : 0);
+      cells.n_slots = 2 * dim * dim;
       for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
         {
           const auto &particle = tissue.cells().order()[i];
           cells.ids.push_back(particle->get_id());
           cells.positions.push_back(particle->get_location());
-          for (unsigned int d = 0; d < dim; ++d)
-            cells.properties.push_back(particle->get_location()[d]);
-          cells.properties.push_back(
-            surface_reach(tissue.cell(particle),
-                          tissue.grid().box().spacing()));
-          if (!growth.present)
-            continue;
           for (const auto *F_g : {&growth.previous[i], &growth.current[i]})
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
@@ -130,7 +122,10 @@ namespace Morula
     std::vector<Point<dim>> queries;
     for (const unsigned int p : groups.points)
       queries.push_back(store.order()[p]->get_location());
-    const std::vector<double> nearest = nearest_cells(queries, tissue, growth);
+    const std::vector<double> trust = trust_in_surface(queries, tissue);
+    std::vector<double>       nearest;
+    if (growth.present)
+      nearest = nearest_cells(queries, tissue, growth);
 
     std::vector<typename Nitsche<dim>::Condition> list;
     std::vector<ElasticState<dim>>                current, previous;
@@ -149,12 +144,7 @@ namespace Morula
         Point<dim>       target = X;
         if (point.condition() == SurfaceCondition::fixed)
           target += conditions.displacement(X, t);
-        const Tensor<1, dim> area  = point.area_vector();
-        const std::size_t    slots = nearest.size() / queries.size();
-        Point<dim>           cell; // nearest to x
-        for (unsigned int d = 0; d < dim; ++d)
-          cell[d] = nearest[k * slots + d];
-
+        const Tensor<1, dim>             area = point.area_vector();
         typename Nitsche<dim>::Condition condition;
         condition.projection     = projection(point);
         condition.gap            = condition.projection * (x - target);
@@ -169,8 +159,7 @@ namespace Morula
         // ln J_e of the point itself says nothing about the pressure there.
         if (material.volumetric_form() == VolumetricStrain::projected)
           condition.lame.lambda = 0.;
-        condition.trust =
-          trust_in_surface(x.distance(cell), nearest[k * slots + dim]);
+        condition.trust = trust[k];
         list.push_back(condition);
 
         const Tensor<2, dim> F = point.deformation();
@@ -180,7 +169,7 @@ namespace Morula
                                   material.per_grown_volume()));
         else
           {
-            const std::size_t row = k * slots + dim + 1;
+            const std::size_t row = 2 * dim * dim * k;
             previous.push_back(
               state(F, tensor(row), material.per_grown_volume()));
             current.push_back(

@@ -29,8 +29,12 @@ namespace Morula
   PointStore<dim>::insert(const PointList<dim>      &points,
                           const BackgroundGrid<dim> &grid)
   {
-    const PointList<dim> mine = send_to_owners(points, grid);
-    const GridBox<dim>  &box  = grid.box();
+    PointList<dim> received;
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      received = send_to_owners(points, grid);
+    const PointList<dim> &mine =
+      received.n_slots > 0 ? received : points; // no copy on one rank
+    const GridBox<dim> &box = grid.box();
     for (std::size_t i = 0; i < mine.size(); ++i)
       {
         const GridIndex<dim> index = box.locate(mine.positions[i]);

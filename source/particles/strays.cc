@@ -18,6 +18,62 @@ namespace Morula
     /** How many reaches a boundary point may be away from its nearest cell. */
     constexpr double longest = 4. / 3.;
 
+    /** No reach is shorter than this, in units of h. */
+    constexpr double least_reach = 0.25;
+
+    /** Whether a cell of this rank, in the grid cell of @p x or a neighbouring
+     *  one, is at most @p near away. */
+    template <int dim>
+    bool
+    has_cell_near(const Point<dim>  &x,
+                  const Tissue<dim> &tissue,
+                  const double       near)
+    {
+      const GridBox<dim> &box   = tissue.grid().box();
+      const auto         &store = tissue.cells();
+      const auto          is_in = [&](const unsigned int number) {
+        const auto cell =
+          std::lower_bound(store.cells().begin(),
+                           store.cells().end(),
+                           number,
+                           [](const auto &c, const unsigned int n) {
+                             return c.number < n;
+                           });
+        if (cell != store.cells().end() && cell->number == number)
+          for (unsigned int p = cell->begin; p < cell->end; ++p)
+            if (x.distance_square(store.order()[p]->get_location()) <=
+                near * near)
+              return true;
+        return false;
+      };
+      const GridIndex<dim> index = box.locate(x);
+      if (is_in(box.number(index)))
+        return true;
+      bool found = false;
+      box.for_neighbors(index, 1, [&](const unsigned int number, const auto &) {
+        found = found || is_in(number);
+      });
+      return found;
+    }
+
+    /**
+     * Whether a point of any rank may be farther than @p reaches least reaches
+     * from all cells. Nearly all points have a cell near in their own grid
+     * cell, so that this is far cheaper than to find the nearest ones.
+     */
+    template <int dim>
+    bool
+    any_far_away(const std::vector<Point<dim>> &points,
+                 const Tissue<dim>             &tissue,
+                 const double                   reaches)
+    {
+      const double near = reaches * least_reach * tissue.grid().box().spacing();
+      bool         far  = false;
+      for (const Point<dim> &x : points)
+        far = far || !has_cell_near(x, tissue, near);
+      return Utilities::MPI::logical_or(far, tissue.communicator());
+    }
+
     /** What a stray needs to know of its nearest cell: position, F, reach. */
     template <int dim>
     PointList<dim>
@@ -66,7 +122,7 @@ namespace Morula
     const double stretch = std::sqrt(l1_norm(F_e * transpose(F_e)));
     const double width =
       std::pow(cell.initial_volume() * determinant(F_g), 1. / dim);
-    return std::max(1.5 * stretch * width, 0.25 * h);
+    return std::max(1.5 * stretch * width, least_reach * h);
   }
 
   double
@@ -74,6 +130,29 @@ namespace Morula
   {
     const double part = (longest - distance / reach) / (longest - 1.);
     return std::min(1., std::max(0., part));
+  }
+
+  template <int dim>
+  std::vector<double>
+  trust_in_surface(const std::vector<Point<dim>> &points,
+                   const Tissue<dim>             &tissue)
+  {
+    std::vector<double> trust(points.size(), 1.);
+    if (!any_far_away(points, tissue, 1.))
+      return trust;
+    const PointList<dim>      cells = landmarks(tissue);
+    const std::vector<double> nearest =
+      nearest_properties(points, cells, tissue.grid());
+    for (std::size_t p = 0; p < points.size(); ++p)
+      {
+        const double *const properties = &nearest[p * cells.n_slots];
+        Point<dim>          cell;
+        for (unsigned int d = 0; d < dim; ++d)
+          cell[d] = properties[d];
+        trust[p] = trust_in_surface(points[p].distance(cell),
+                                    properties[cells.n_slots - 1]);
+      }
+    return trust;
   }
 
   template <int dim>
@@ -85,7 +164,8 @@ namespace Morula
     std::vector<Point<dim>> queries;
     for (const auto &point : store.order())
       queries.push_back(point->get_location());
-    if (Utilities::MPI::sum<std::uint64_t>(queries.size(), comm) == 0)
+    if (Utilities::MPI::sum<std::uint64_t>(queries.size(), comm) == 0 ||
+        !any_far_away(queries, tissue, longest))
       return 0;
 
     const PointList<dim>      cells = landmarks(tissue);
@@ -120,9 +200,11 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                    \
-  template double        surface_reach(const CellView<dim, const double> &, \
-                                       const double);                       \
+#define INSTANTIATE(dim)                                             \
+  template double surface_reach(const CellView<dim, const double> &, \
+                                const double);                       \
+  template std::vector<double> trust_in_surface(                     \
+    const std::vector<Point<dim>> &, const Tissue<dim> &);           \
   template std::uint64_t take_back_strays(Tissue<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,6 +7,7 @@
 #include <morula/particles/tissue.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace Morula
 {
@@ -25,6 +26,12 @@ namespace Morula
    *  those at 4/3 of @p reach, linear between. */
   double
   trust_in_surface(const double distance, const double reach);
+
+  /** The same for positions of boundary points on this rank. Collective. */
+  template <int dim>
+  std::vector<double>
+  trust_in_surface(const std::vector<Point<dim>> &points,
+                   const Tissue<dim>             &tissue);
 
   /**
    * Takes boundary points back that have left the tissue: where no cell is

@@ -282,23 +282,16 @@ namespace Morula
           }
       for (unsigned int l = 0; l < n; ++l)
         {
-          Quad Nx, dNx;
-          for (unsigned int x = 0; x < 3; ++x)
-            {
-              Nx.value[x]  = N[x][l];
-              dNx.value[x] = dN[x][l];
-            }
+          const Quad Nx  = {N[0][l], N[1][l], N[2][l], 0.};
+          const Quad dNx = {dN[0][l], dN[1][l], dN[2][l], 0.};
           for (unsigned int i = 0; i < 3; ++i)
             for (unsigned int yz = 0; yz < 9; ++yz)
               {
-                Nx.combine(one[i][yz][l],
-                           dNx,
-                           other[i][yz][l],
-                           &rows[l].g[i][3 * yz]);
-                Nx.combine(one[3 + i][yz][l],
-                           dNx,
-                           other[3 + i][yz][l],
-                           &rows[l].m[i][3 * yz]);
+                // The zero is overwritten by the next three.
+                *reinterpret_cast<QuadInMemory *>(&rows[l].g[i][3 * yz]) =
+                  one[i][yz][l] * Nx + other[i][yz][l] * dNx;
+                *reinterpret_cast<QuadInMemory *>(&rows[l].m[i][3 * yz]) =
+                  one[3 + i][yz][l] * Nx + other[3 + i][yz][l] * dNx;
               }
         }
       for (unsigned int l = 0; l < n; ++l)

@@ -18,7 +18,7 @@ namespace Morula
     MORULA_INLINE Lanes
     all(const double x)
     {
-      return Lanes{} + x;
+      return x - Lanes{}; // unlike x + 0, exactly x: no addition
     }
 
     /** A register in memory, where its numbers are read and written singly. */
@@ -123,20 +123,11 @@ namespace Morula
     }
 
     /** Three numbers and a zero: a quarter more work, but no remainder. */
-    struct Quad
-    {
-      double value[4] = {};
+    using Quad = double __attribute__((vector_size(4 * sizeof(double))));
 
-      /** target = factor * this + other_factor * other */
-      MORULA_INLINE void
-      combine(const double factor,
-              const Quad  &other,
-              const double other_factor,
-              double      *target) const
-      {
-        for (unsigned int x = 0; x < 4; ++x)
-          target[x] = factor * value[x] + other_factor * other.value[x];
-      }
-    };
+    /** The same at any address. */
+    using QuadInMemory = double __attribute__((vector_size(4 * sizeof(double)),
+                                               aligned(sizeof(double)),
+                                               may_alias));
   } // namespace MORULA_KERNELS
 } // namespace Morula

@@ -16,7 +16,7 @@ namespace Morula
     static_assert(width >= 28, "a Quad must fit behind the last row");
 
     /** Rows of the registers' tile: all sums and a row of factors fit. */
-    constexpr unsigned int tile_rows    = lanes == 8 ? 6 : 3;
+    constexpr unsigned int tile_rows    = lanes == 8 ? 4 : 3;
     constexpr unsigned int tile_columns = n_columns < 4 ? n_columns : 4;
 
     /** By direction, for each spline: what the updates of one point take. */

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// The internal force on grid cells of 125 particles, plain and vectorised, next
+// to what the core can do: a matrix product and the triad of STREAM. The
+// environment variable MORULA_BLAS names a shared library with a fast dgemm_.
+// contrib/benchmark runs this and writes doc/performance.md.
+
+#include <morula/mechanics/vectorized_internal_force.h>
+
+#include <benchmark/benchmark.h>
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <random>
+
+using namespace Morula;
+
+namespace
+{
+  constexpr unsigned int n_grid_cells = 64, n_points = 125;
+
+  /** A particle's part of a tangent, in the smallest known form. */
+  constexpr double flop_of_tangent = 11e3;
+
+  MaterialPoints<3>
+  random_points()
+  {
+    std::mt19937                           generator(1);
+    std::uniform_real_distribution<double> uniform(0., 1.);
+    MaterialPoints<3>                      points;
+    points.h    = 50.;
+    points.lame = {lame(1., 0.4)};
+    points.offsets.push_back(0);
+    for (unsigned int c = 0; c < n_grid_cells; ++c)
+      {
+        for (unsigned int p = 0; p < n_points; ++p)
+          {
+            points.xi.emplace_back(uniform(generator),
+                                   uniform(generator),
+                                   uniform(generator));
+            ElasticState<3> state;
+            for (unsigned int d = 0; d < 3; ++d)
+              for (unsigned int e = 0; e < 3; ++e)
+                state.A[d][e] = (d == e) + 0.1 * uniform(generator);
+            state.W = 1000. * (1. + uniform(generator));
+            points.current.push_back(state);
+          }
+        points.offsets.push_back(points.xi.size());
+      }
+    return points;
+  }
+
+  void
+  assemble(benchmark::State            &state,
+           const std::string           &kernel,
+           const LocalSystem<3>::Wanted wanted)
+  {
+    const MaterialPoints<3> points = random_points();
+    const auto              term =
+      internal_force(points, VolumetricStrain::pointwise, kernel);
+    std::mt19937                           generator(2);
+    std::uniform_real_distribution<double> uniform(-2., 2.);
+    LocalField<3>                          field;
+    for (auto &component : field.coefficient)
+      for (double &value : component)
+        value = uniform(generator);
+    LocalSystem<3> system(wanted);
+    for (auto _ : state)
+      for (unsigned int c = 0; c < n_grid_cells; ++c)
+        {
+          system.clear();
+          term->add(c, field, GrowthAt::current, system);
+          benchmark::DoNotOptimize(system.residual.data());
+          benchmark::DoNotOptimize(system.matrix.data());
+        }
+    const double n = 1. * n_grid_cells * n_points * state.iterations();
+    state.counters["seconds_per_point"] = benchmark::Counter(
+      n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    if (wanted == LocalSystem<3>::tangent)
+      state.counters["flop_rate"] =
+        benchmark::Counter(n * flop_of_tangent, benchmark::Counter::kIsRate);
+  }
+
+  void
+  dgemm(benchmark::State &state)
+  {
+    using Dgemm            = void (*)(const char *,
+                           const char *,
+                           const int *,
+                           const int *,
+                           const int *,
+                           const double *,
+                           const double *,
+                           const int *,
+                           const double *,
+                           const int *,
+                           const double *,
+                           double *,
+                           const int *);
+    const char *const name = std::getenv("MORULA_BLAS");
+    void *const library    = name == nullptr ? nullptr : dlopen(name, RTLD_NOW);
+    const auto  product    = library == nullptr ?
+                               nullptr :
+                               reinterpret_cast<Dgemm>(dlsym(library, "dgemm_"));
+    if (product == nullptr)
+      {
+        state.SkipWithError("MORULA_BLAS names no library with dgemm_");
+        return;
+      }
+    const int           n   = 1000;
+    const double        one = 1.;
+    std::vector<double> A(n * n, 0.5), B(n * n, 0.25), C(n * n, 0.);
+    for (auto _ : state)
+      {
+        product("N",
+                "N",
+                &n,
+                &n,
+                &n,
+                &one,
+                A.data(),
+                &n,
+                B.data(),
+                &n,
+                &one,
+                C.data(),
+                &n);
+        benchmark::DoNotOptimize(C.data());
+      }
+    state.counters["flop_rate"] =
+      benchmark::Counter(2. * n * n * n * state.iterations(),
+                         benchmark::Counter::kIsRate);
+  }
+
+  void
+  triad(benchmark::State &state)
+  {
+    const std::size_t   n = 20000000; // 480 MB, larger than caches
+    std::vector<double> a(n, 1.), b(n, 2.), c(n, 3.);
+    for (auto _ : state)
+      {
+        for (std::size_t i = 0; i < n; ++i)
+          a[i] = b[i] + 0.5 * c[i];
+        benchmark::DoNotOptimize(a.data());
+        benchmark::ClobberMemory();
+      }
+    state.counters["byte_rate"] =
+      benchmark::Counter(24. * n * state.iterations(),
+                         benchmark::Counter::kIsRate);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  std::vector<std::string> kernels = {"plain"};
+  for (const VectorKernels &available : available_vector_kernels())
+    kernels.push_back(available.name);
+  benchmark::RegisterBenchmark("dgemm", dgemm);
+  for (const std::string &kernel : kernels)
+    {
+      benchmark::RegisterBenchmark(("tangent/" + kernel).c_str(),
+                                   assemble,
+                                   kernel,
+                                   LocalSystem<3>::tangent);
+      benchmark::RegisterBenchmark(("residual/" + kernel).c_str(),
+                                   assemble,
+                                   kernel,
+                                   LocalSystem<3>::energy_and_residual);
+    }
+  benchmark::RegisterBenchmark("dgemm again", dgemm);
+  benchmark::RegisterBenchmark("triad", triad);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv))
+    return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

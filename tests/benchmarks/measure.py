@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What contrib/benchmark measures: each function returns the rows of a table of
+doc/performance.md, with its header first. All ratios are of runs of one call,
+side by side."""
+import json
+import math
+import subprocess
+
+from runs import environment
+
+NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
+# What happens once, whatever the number of steps or cells.
+NO_STEP = ("total", "seeding", "output", "snapshot", "statistics")
+HALF_FIXED = "prm/paper/fig-2b.prm"
+PROLIFERATING = "prm/paper/fig-4b.prm"
+
+
+def google_benchmark(program, blas, pattern="."):
+    """name -> counters."""
+    found = subprocess.run(
+        [str(program), "--benchmark_format=json",
+         f"--benchmark_filter={pattern}"], check=True, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        env={**environment(), "MORULA_BLAS": str(blas)})
+    return {row["name"]: row for row in json.loads(found.stdout)["benchmarks"]
+            if not row.get("error_occurred")}
+
+
+def kernels(program, blas):
+    found = google_benchmark(program, blas)
+    peak = max(found[name]["flop_rate"] for name in ("dgemm", "dgemm again"))
+    rows = [("kernel", "tangent, µs a particle", "of DGEMM's rate",
+             "plain / this", "residual, µs a particle", "plain / this")]
+    plain = [found[f"{what}/plain"]["seconds_per_point"]
+             for what in ("tangent", "residual")]
+    for name in found:
+        if not name.startswith("tangent/"):
+            continue
+        kernel = name.split("/")[1]
+        tangent = found[name]
+        residual = found[f"residual/{kernel}"]["seconds_per_point"]
+        time = tangent["seconds_per_point"]
+        rows.append((kernel, f"{1e6 * time:.2f}",
+                     f"{100 * tangent['flop_rate'] / peak:.0f} %",
+                     f"{plain[0] / time:.1f}", f"{1e6 * residual:.3f}",
+                     f"{plain[1] / residual:.1f}"))
+    rows.append(("DGEMM, n = 1000", f"{peak / 1e9:.1f} GFLOP/s", "", "", "", ""))
+    rows.append(("STREAM's triad",
+                 f"{found['triad']['byte_rate'] / 1e9:.1f} GB/s", "", "", "",
+                 ""))
+    return rows
+
+
+def phases(runner):
+    """A step of the half-fixed sphere, 65,752 cells, h = 50 µm."""
+    keys = {"Output/Formats": "csv"}
+    plain = runner.run("plain", HALF_FIXED, {**keys, "Solver/Kernel": "plain"})
+    fast = runner.run("automatic", HALF_FIXED, keys)
+    # One assembly: tangent and residual by the plain kernel.
+    unit = (plain.time("tangent") / plain.calls["tangent"]
+            + plain.time("residual") / plain.calls["residual"])
+    rows = [("phase", "plain kernel, s", "s", "of a plain assembly")]
+    iterations, steps = fast.calls["tangent"], len(fast.rows) - 1
+
+    def line(text, names, n):
+        times = [run.time(*names) / n for run in (plain, fast)]
+        rows.append((text, f"{times[0]:.3f}", f"{times[1]:.3f}",
+                     f"{times[1] / unit:.2f}"))
+    line("Newton iteration", NEWTON, iterations)
+    for name in NEWTON:
+        line(f"— {name}", (name,), iterations)
+    others = [name for name in fast.sections if name not in NEWTON + NO_STEP]
+    line("set-up and end of a step", others, steps)
+    for name in others:
+        line(f"— {name}", (name,), steps)
+    return rows
+
+
+def five_days(runner):
+    """Fig. 4b, with the output that its scene asks for."""
+    keys = {"Output/Interval": 0.1, "Output/Snapshot interval": 0.5}
+    runs = {"plain kernel, direct solver": runner.run(
+                "fig-4b-plain", PROLIFERATING,
+                {**keys, "Solver/Kernel": "plain",
+                 "Solver/Linear solver": "direct"}),
+            "as it is": runner.run("fig-4b", PROLIFERATING, keys)}
+    slowest = runs["plain kernel, direct solver"].time("total")
+    rows = [("Fig. 4b, five days", "s", "times faster", "cells",
+             "output and snapshots", "division")]
+    for name, run in runs.items():
+        total = run.time("total")
+        rows.append((name, f"{total:.0f}", f"{slowest / total:.1f}",
+                     f"{int(run.rows[-1]['cells']):,}",
+                     f"{100 * run.time('output', 'snapshot') / total:.1f} %",
+                     f"{100 * run.time('division') / total:.1f} %"))
+    return rows
+
+
+def sphere(n_cells, **keys):
+    """Fig. 4b with another number of cells, at the same cells per grid cell."""
+    radius = 10.0 * (3 * n_cells / (4 * math.pi))**(1 / 3)
+    return {"Tissue/Radius": f"{radius:.6g}",
+            "Tissue/Boundary points": round(2600 * (radius / 250)**2), **keys}
+
+
+def sizes(runner, largest):
+    rows = [("cells", "days", "µs a cell and step", "of the first",
+             "memory, GB", "kB a cell beyond the smallest run", "unknowns",
+             "Newton iterations a step")]
+    first = None
+    for n in (8000, 65000, 200000, 1000000):
+        if n > largest:
+            continue
+        days = 1.0 if n == largest else 0.3
+        run = runner.run(f"cells-{n}", PROLIFERATING,
+                         sphere(n, **{"Time/Step": 0.1, "Time/End time": days}))
+        time = run.time("total") - run.time("seeding", "output", "snapshot")
+        each = time / run.cell_steps()
+        first = first or (each, run.memory, int(run.rows[-1]["cells"]))
+        cells = int(run.rows[-1]["cells"])
+        more = ((run.memory - first[1]) / (cells - first[2]) / 1e3
+                if cells > first[2] else 0.0)
+        rows.append((f"{cells:,}", f"{days:g}", f"{1e6 * each:.1f}",
+                     f"{each / first[0]:.2f}", f"{run.memory / 1e9:.2f}",
+                     f"{more:.2f}" if more else "",
+                     f"{3 * int(run.rows[-1]['unknowns']):,}",
+                     f"{run.total('newton_iterations') / (len(run.rows) - 1):.1f}"))
+    return rows
+
+
+def concurrent(program, blas, name, counter):
+    """Rate of two processes at once over that of one."""
+    alone = google_benchmark(program, blas, f"^{name}$")[name][counter]
+    words = [str(program), "--benchmark_format=json", "--benchmark_min_time=3",
+             f"--benchmark_filter=^{name}$"]
+    both = [subprocess.Popen(words, text=True, stdout=subprocess.PIPE,
+                             stderr=subprocess.DEVNULL,
+                             env={**environment(), "MORULA_BLAS": str(blas)})
+            for _ in range(2)]
+    rates = [json.loads(process.communicate()[0])["benchmarks"][0][counter]
+             for process in both]
+    return sum(rates) / alone
+
+
+def ranks(runner, program, blas):
+    keys = sphere(200000, **{"Time/Step": 0.1, "Time/End time": 0.5})
+    runs = [runner.run(f"ranks-{n}", PROLIFERATING, keys, n) for n in (1, 2)]
+    times = [run.time("total") - run.time("seeding", "output", "snapshot")
+             for run in runs]
+    same = [run.rows[-1]["cells"] for run in runs]
+    rows = [("", "two over one"),
+            ("DGEMM, two processes at once",
+             f"{concurrent(program, blas, 'dgemm', 'flop_rate'):.2f}"),
+            ("STREAM's triad, likewise",
+             f"{concurrent(program, blas, 'triad', 'byte_rate'):.2f}"),
+            ("Morula, 2·10⁵ cells, five steps", f"{times[0] / times[1]:.2f}")]
+    for name in NEWTON + ("commit", "grid", "division"):
+        rows.append((f"— {name}", f"{runs[0].time(name) / runs[1].time(name):.2f}"
+                     ))
+    rows.append(("cells at the end", " and ".join(f"{int(n):,}" for n in same)))
+    return rows
+
+
+EFFECTS = [
+    ("nothing but the tissue", {}),
+    ("a held half", {"Boundary conditions/Fixed where": "Z <= 0"}),
+    ("a body force", {"Body force/Force density": "0; 0; 1e-6"}),
+    ("pressure on the surface", {"Boundary conditions/Pressure where": "1",
+                                 "Boundary conditions/Pressure": "0.01"}),
+    ("even growth", {"Growth/Law": "isotropic",
+                     "Growth/Isotropic/Stretch": "1 + 0.05 * t"}),
+    ("growth and division", {"Proliferation/Law": "cell cycle"}),
+    ("the same, held until grown",
+     {"Proliferation/Law": "cell cycle",
+      "Proliferation/Cell cycle/Size checkpoint": "0.9"}),
+    ("even growth, ln J_e projected",
+     {"Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.05 * t",
+      "Material/Volumetric strain": "projected"}),
+]
+
+
+def effects(runner):
+    rows = [("scene", "µs a cell and step", "Newton iterations a step",
+             "B a cell more than the first", "sections of the timing table")]
+    first = None
+    for name, keys in EFFECTS:
+        run = runner.run("effect", HALF_FIXED,
+                         {"Growth/Law": "none", "Boundary conditions/Fixed where": "",
+                          
+                          "Time/End time": 1, "Time/Step": 0.1, **keys})
+        cells = int(run.rows[-1]["cells"])
+        time = run.time("total") - run.time("seeding", "output", "snapshot")
+        first = first or run.memory
+        names = [section for section in run.sections
+                 if section not in NEWTON + NO_STEP + ("commit", "grid",
+                                                       "points",
+                                                       "sparsity pattern")]
+        rows.append((name, f"{1e6 * time / run.cell_steps():.1f}",
+                     f"{run.total('newton_iterations') / 10:.1f}",
+                     f"{max(0, run.memory - first) / cells:.0f}",
+                     ", ".join(names)))
+    return rows

@@ -235,6 +235,27 @@ namespace
     });
   }
 
+  /** Increments that forces of inertia do no work on have no moments, and
+   *  forces of inertia are what V⁰ times a rigid motion amounts to. */
+  template <int dim>
+  void
+  check_inertia()
+  {
+    const auto body    = block<dim>(1);
+    const auto inertia = body.free_modes().inertia(body.masses);
+    ASSERT_EQ(inertia.size(), n_rigid<dim>);
+    expect_orthonormal<dim>(inertia);
+    Equilibrium::Vector u = deformed(body, 0.4);
+    for (const auto &force : inertia)
+      u.add(-(u * force), force);
+    for (const double moment : body.moments(body.displacements(u), 0))
+      EXPECT_NEAR(moment, 0., 1e-12);
+
+    // On a plane only the motions along it are left, also of the forces.
+    const auto modes = body.modes(slip<dim>);
+    EXPECT_EQ(modes.inertia(body.masses).size(), modes.null_space().size());
+  }
+
   /** Elastic deformations do not change: relative distances. */
   template <int dim>
   void
@@ -356,6 +377,9 @@ TEST(RigidModes, AreCountedByWhatIsHeld){MORULA_BOTH_DIMENSIONS(check_counts)}
 
 
 TEST(RigidModes, AHingeLeavesTheRotations){MORULA_BOTH_DIMENSIONS(check_hinge)}
+
+
+TEST(RigidModes, InertiaLeavesNoMoments){MORULA_BOTH_DIMENSIONS(check_inertia)}
 
 
 TEST(RigidModes, RemovalLeavesNoMoments){MORULA_BOTH_DIMENSIONS(check_removal)}

@@ -124,6 +124,48 @@ namespace
               4u);
   }
 
+  /** A crowd at the surface is trusted; points beyond it by their distance. */
+  template <int dim>
+  void
+  check_trust()
+  {
+    Tissue<dim> tissue(grid(25.), CellSlots<dim>(false, false), MPI_COMM_WORLD);
+    const PointList<dim> all = cells<dim>(unit_tensor<dim>());
+    Point<dim>           end;
+    for (const Point<dim> &y : all.positions)
+      if (y[0] > end[0])
+        end = y;
+    std::vector<Point<dim>> places(3, end);
+    places[0][0] += 5.;
+    places[1][0] += 17.5; // reach: 15
+    places[2][0] += 40.;
+    PointList<dim> surface;
+    for (const Point<dim> &x : places)
+      {
+        Tensor<1, dim> N;
+        N[0]            = 1.;
+        auto one        = boundary_points<dim>(x, N);
+        surface.n_slots = one.n_slots;
+        surface.ids.push_back(surface.ids.size());
+        surface.positions.push_back(x);
+        surface.properties.insert(surface.properties.end(),
+                                  one.properties.begin(),
+                                  one.properties.begin() + one.n_slots);
+      }
+    tissue.place(dealt(all), dealt(surface));
+    std::vector<Point<dim>> mine;
+    std::vector<double>     expected;
+    for (const auto &point : tissue.boundary_points().order())
+      {
+        mine.push_back(point->get_location());
+        expected.push_back(std::vector<double>{1., 0.5, 0.}[point->get_id()]);
+      }
+    const auto found = trust_in_surface(mine, tissue);
+    ASSERT_EQ(found.size(), expected.size());
+    for (unsigned int k = 0; k < found.size(); ++k)
+      EXPECT_NEAR(found[k], expected[k], 1e-12);
+  }
+
   template <int dim>
   void
   check_reach()
@@ -142,6 +184,7 @@ TEST(Strays, AreTakenBackToTheTissue){MORULA_BOTH_DIMENSIONS(check_reach)}
 
 TEST(Strays, AreTrustedLess)
 {
+  MORULA_BOTH_DIMENSIONS(check_trust);
   EXPECT_EQ(trust_in_surface(0., 10.), 1.);
   EXPECT_EQ(trust_in_surface(10., 10.), 1.);
   EXPECT_NEAR(trust_in_surface(35. / 3., 10.), 0.5, 1e-14);

@@ -38,7 +38,7 @@ namespace Morula
 
   /**
    * The terms of InternalForce for all the particles of a grid cell at once,
-   * for one instruction set (doc/theory.md, section 5). Add nothing if a point
+   * for one instruction set (doc/performance.md). Add nothing if a point
    * is inverted.
    */
   struct VectorKernels

@@ -4,7 +4,7 @@
 // Compiled with -mavx2 -mfma.
 #define MORULA_KERNELS avx2
 #define MORULA_LANES 4
-#include "kernels.h"
+#include <morula/mechanics/kernels/kernels.h>
 
 namespace Morula
 {

@@ -4,7 +4,7 @@
 // Compiled with -mavx512f and -mavx512dq.
 #define MORULA_KERNELS avx512
 #define MORULA_LANES 8
-#include "kernels.h"
+#include <morula/mechanics/kernels/kernels.h>
 
 namespace Morula
 {

@@ -4,7 +4,7 @@
 // For any processor.
 #define MORULA_KERNELS baseline
 #define MORULA_LANES 2
-#include "kernels.h"
+#include <morula/mechanics/kernels/kernels.h>
 
 namespace Morula
 {

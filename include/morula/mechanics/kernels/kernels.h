@@ -7,10 +7,9 @@
 // vector types (GCC, Clang). No standard headers here: their inline functions,
 // compiled for this instruction set, could end up in other files.
 
+#include <morula/mechanics/kernels/lanes.h>
+#include <morula/mechanics/kernels/rank_updates.h>
 #include <morula/mechanics/vector_kernels.h>
-
-#include "lanes.h"
-#include "rank_updates.h"
 
 namespace Morula
 {
@@ -304,7 +303,7 @@ namespace Morula
       KernelResult result;
       result.smallest_J = __builtin_inf();
       Blocks    blocks;
-      PointRows rows[lanes];
+      PointRows rows[lanes] = {}; // also what stands behind the 27 entries
       for (unsigned int p = 0; p < input.n; p += lanes)
         {
           Points points;

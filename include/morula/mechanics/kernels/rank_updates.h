@@ -74,7 +74,7 @@ namespace Morula
       Lanes sums[R][C];
       for (unsigned int r = 0; r < R; ++r)
         for (unsigned int c = 0; c < C; ++c)
-          sums[r][c] = *reinterpret_cast<const Lanes *>(
+          sums[r][c] = *reinterpret_cast<const LanesInMemory *>(
             &block[row + r][column + c * lanes]);
       for (unsigned int p = 0; p < n; ++p)
         for (unsigned int k = 0; k < K; ++k)
@@ -83,7 +83,8 @@ namespace Morula
             const double *const right = updates[k].right.of(points[p]) + column;
             Lanes               factors[C];
             for (unsigned int c = 0; c < C; ++c)
-              factors[c] = *reinterpret_cast<const Lanes *>(right + c * lanes);
+              factors[c] =
+                *reinterpret_cast<const LanesInMemory *>(right + c * lanes);
             for (unsigned int r = 0; r < R; ++r)
               {
                 const Lanes factor = all(left[r]);
@@ -93,8 +94,8 @@ namespace Morula
           }
       for (unsigned int r = 0; r < R; ++r)
         for (unsigned int c = 0; c < C; ++c)
-          *reinterpret_cast<Lanes *>(&block[row + r][column + c * lanes]) =
-            sums[r][c];
+          *reinterpret_cast<LanesInMemory *>(
+            &block[row + r][column + c * lanes]) = sums[r][c];
     }
 
     /** A row of tiles, from a column on. */

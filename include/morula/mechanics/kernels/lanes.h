@@ -15,6 +15,10 @@ namespace Morula
     /** A register of numbers, one for each of as many points. */
     using Lanes = double __attribute__((vector_size(sizeof(double) * lanes)));
 
+    /** The same where it stands among single numbers in memory. */
+    using LanesInMemory =
+      double __attribute__((vector_size(sizeof(double) * lanes), may_alias));
+
     MORULA_INLINE Lanes
     all(const double x)
     {
@@ -31,13 +35,13 @@ namespace Morula
       MORULA_INLINE
       Numbers(const Lanes &x)
       {
-        *reinterpret_cast<Lanes *>(value) = x;
+        *reinterpret_cast<LanesInMemory *>(value) = x;
       }
 
       MORULA_INLINE
       operator Lanes() const
       {
-        return *reinterpret_cast<const Lanes *>(value);
+        return *reinterpret_cast<const LanesInMemory *>(value);
       }
 
       MORULA_INLINE double &

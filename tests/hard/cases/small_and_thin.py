@@ -164,7 +164,7 @@ CASE = Case(
     breaks="splines hardly touch the tissue or cannot be told apart by its "
            "cells; bodies share splines and pull each other",
     cure="inner grid cells on one side of thin tissue, one polynomial for a "
-         "small piece, two points a direction in single layers, one copy of a "
+         "small piece, two or three points a direction in single layers, one copy of a "
          "spline for each part",
     judge=judge,
     trials=[Trial(f"{shape}, {place}", "small-and-thin.prm", row=shape,

@@ -3,6 +3,8 @@
 
 #include <morula/mechanics/matrix_scatter.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <algorithm>
@@ -15,51 +17,76 @@ namespace Morula
                                     const MPI_Comm          comm)
     : space(space)
     , matrix(matrix)
+    , comm(comm)
   {
-    make_pattern(comm);
-    make_positions();
+    const Couplings                 columns = couplings();
+    const std::vector<unsigned int> owners  = owners_of_relevant();
+    make_pattern(columns);
+    make_exchange(columns, owners);
+    make_positions(columns, owners);
   }
 
   template <int dim>
-  void
-  MatrixScatter<dim>::make_pattern(const MPI_Comm comm)
+  typename MatrixScatter<dim>::Couplings
+  MatrixScatter<dim>::couplings() const
   {
-    // Which unknowns couple, by this rank's relevant unknowns.
-    const IndexSet                        &relevant = space.relevant();
-    std::vector<std::vector<unsigned int>> couplings(relevant.n_elements());
-    std::vector<std::vector<unsigned int>> cells_of(relevant.n_elements());
+    Couplings columns(space.relevant().n_elements());
+    Couplings cells_of(columns.size());
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       for (const unsigned int unknown : space.cells()[c].unknowns)
         cells_of[unknown].push_back(c);
-    std::vector<unsigned int> last(relevant.n_elements(),
+    std::vector<unsigned int> last(columns.size(),
                                    numbers::invalid_unsigned_int);
-    for (unsigned int row = 0; row < couplings.size(); ++row)
+    for (unsigned int row = 0; row < columns.size(); ++row)
       {
         for (const unsigned int c : cells_of[row])
           for (const unsigned int column : space.cells()[c].unknowns)
             if (last[column] != row)
               {
                 last[column] = row;
-                couplings[row].push_back(column);
+                columns[row].push_back(column);
               }
-        std::sort(couplings[row].begin(), couplings[row].end());
+        std::sort(columns[row].begin(), columns[row].end());
       }
+    return columns;
+  }
 
+  template <int dim>
+  std::vector<unsigned int>
+  MatrixScatter<dim>::owners_of_relevant() const
+  {
+    const IndexSet &relevant = space.relevant();
+    IndexSet        foreign  = relevant;
+    foreign.subtract_set(space.owned());
+    const std::vector<unsigned int> owners =
+      Utilities::MPI::compute_index_owner(space.owned(), foreign, comm);
+    std::vector<unsigned int> all(relevant.n_elements(),
+                                  Utilities::MPI::this_mpi_process(comm));
+    for (types::global_dof_index k = 0; k < owners.size(); ++k)
+      all[relevant.index_within_set(foreign.nth_index_in_set(k))] = owners[k];
+    return all;
+  }
+
+  template <int dim>
+  void
+  MatrixScatter<dim>::make_pattern(const Couplings &columns)
+  {
+    const IndexSet                      &relevant = space.relevant();
     TrilinosWrappers::SparsityPattern    pattern(space.owned_dofs(),
                                               space.owned_dofs(),
                                               space.relevant_dofs(),
                                               comm);
-    std::vector<types::global_dof_index> columns;
-    for (unsigned int row = 0; row < couplings.size(); ++row)
+    std::vector<types::global_dof_index> dofs;
+    for (unsigned int row = 0; row < columns.size(); ++row)
       {
-        columns.clear();
-        for (const unsigned int column : couplings[row])
+        dofs.clear();
+        for (const unsigned int column : columns[row])
           for (unsigned int i = 0; i < dim; ++i)
-            columns.push_back(relevant.nth_index_in_set(column) * dim + i);
+            dofs.push_back(relevant.nth_index_in_set(column) * dim + i);
         for (unsigned int i = 0; i < dim; ++i)
           pattern.add_entries(relevant.nth_index_in_set(row) * dim + i,
-                              columns.begin(),
-                              columns.end(),
+                              dofs.begin(),
+                              dofs.end(),
                               true);
       }
     pattern.compress();
@@ -67,22 +94,77 @@ namespace Morula
   }
 
   template <int dim>
+  int
+  MatrixScatter<dim>::column_id(const types::global_dof_index unknown,
+                                const unsigned int            i) const
+  {
+    return matrix.trilinos_matrix().ColMap().LID(
+      static_cast<TrilinosWrappers::types::int_type>(unknown * dim + i));
+  }
+
+  template <int dim>
   void
-  MatrixScatter<dim>::make_positions()
+  MatrixScatter<dim>::make_exchange(const Couplings                 &columns,
+                                    const std::vector<unsigned int> &owners)
+  {
+    const IndexSet &relevant = space.relevant(), &owned = space.owned();
+
+    // Unknown, number of columns, columns: one after the other.
+    std::map<unsigned int, std::vector<types::global_dof_index>> messages;
+    for (unsigned int s = 0; s < columns.size(); ++s)
+      {
+        const auto unknown = relevant.nth_index_in_set(s);
+        if (owned.is_element(unknown))
+          continue;
+        auto &message = messages[owners[s]];
+        message.push_back(unknown);
+        message.push_back(columns[s].size());
+        for (const unsigned int column : columns[s])
+          message.push_back(relevant.nth_index_in_set(column));
+        auto &values = sent[owners[s]];
+        values.resize(values.size() + dim * dim * columns[s].size());
+      }
+
+    std::vector<int> position_of(matrix.trilinos_matrix().NumMyCols());
+    for (const auto &[rank, message] :
+         Utilities::MPI::some_to_some(comm, messages))
+      for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
+        {
+          Received row;
+          row.number = owned.index_within_set(message[m]);
+          int     length;
+          double *values;
+          int    *ids;
+          matrix.trilinos_matrix().ExtractMyRowView(row.number * dim,
+                                                    length,
+                                                    values,
+                                                    ids);
+          for (int k = 0; k < length; ++k)
+            position_of[ids[k]] = k;
+          for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
+            for (unsigned int j = 0; j < dim; ++j)
+              row.positions.push_back(
+                position_of[column_id(message[m + 2 + k], j)]);
+          received[rank].push_back(std::move(row));
+        }
+  }
+
+  template <int dim>
+  void
+  MatrixScatter<dim>::make_positions(const Couplings                 &columns,
+                                     const std::vector<unsigned int> &owners)
   {
     const IndexSet         &relevant = space.relevant();
     const Epetra_CrsMatrix &epetra   = matrix.trilinos_matrix();
-    std::vector<int>        column_id(relevant.n_elements() * dim);
+    std::vector<int>        ids(relevant.n_elements() * dim);
     owned_number.assign(relevant.n_elements(), -1);
     for (unsigned int s = 0; s < relevant.n_elements(); ++s)
       {
         const auto unknown = relevant.nth_index_in_set(s);
         for (unsigned int i = 0; i < dim; ++i)
           {
-            column_id[s * dim + i] = epetra.ColMap().LID(
-              static_cast<TrilinosWrappers::types::int_type>(unknown * dim +
-                                                             i));
-            if (column_id[s * dim + i] != column_id[s * dim] + int(i))
+            ids[s * dim + i] = column_id(unknown, i);
+            if (ids[s * dim + i] != ids[s * dim] + int(i))
               width = dim;
           }
         if (space.owned().is_element(unknown))
@@ -97,37 +179,47 @@ namespace Morula
         const auto &unknowns = space.cells()[c].unknowns;
         positions[c].resize(unknowns.size() * unknowns.size() * width);
         for (unsigned int s = 0; s < unknowns.size(); ++s)
-          if (owned_number[unknowns[s]] >= 0)
-            places[unknowns[s]].emplace_back(c, s);
+          places[unknowns[s]].emplace_back(c, s);
       }
 
-    rows.resize(space.owned_dofs().n_elements());
-    std::vector<unsigned int> position_of(epetra.NumMyCols());
+    rows.resize(relevant.n_elements() * dim);
+    std::map<unsigned int, std::size_t> n_sent;
+    std::vector<unsigned int>           position_of(
+      std::max<int>(epetra.NumMyCols(), relevant.n_elements() * dim));
     for (unsigned int unknown = 0; unknown < places.size(); ++unknown)
       {
-        if (owned_number[unknown] < 0)
-          continue;
-        int     length;
-        double *values;
-        int    *columns;
+        const bool owned = owned_number[unknown] >= 0;
         for (unsigned int i = 0; i < dim; ++i)
-          {
-            epetra.ExtractMyRowView(owned_number[unknown] * dim + i,
-                                    length,
-                                    values,
-                                    columns);
-            rows[owned_number[unknown] * dim + i] = values;
-          }
-        // All components' rows have the same columns.
-        for (int k = 0; k < length; ++k)
-          position_of[columns[k]] = k;
+          if (owned)
+            {
+              int  length;
+              int *row_ids;
+              epetra.ExtractMyRowView(owned_number[unknown] * dim + i,
+                                      length,
+                                      rows[unknown * dim + i],
+                                      row_ids);
+              // All components' rows have the same columns.
+              for (int k = 0; i == 0 && k < length; ++k)
+                position_of[row_ids[k]] = k;
+            }
+          else
+            {
+              const unsigned int rank = owners[unknown];
+              rows[unknown * dim + i] = &sent[rank][n_sent[rank]];
+              n_sent[rank] += dim * columns[unknown].size();
+            }
+        if (!owned)
+          for (unsigned int k = 0; k < columns[unknown].size(); ++k)
+            for (unsigned int j = 0; j < dim; ++j)
+              position_of[columns[unknown][k] * dim + j] = k * dim + j;
         for (const auto &[c, s] : places[unknown])
           {
             const auto &unknowns = space.cells()[c].unknowns;
             for (unsigned int t = 0; t < unknowns.size(); ++t)
               for (unsigned int j = 0; j < width; ++j)
                 positions[c][(s * unknowns.size() + t) * width + j] =
-                  position_of[column_id[unknowns[t] * dim + j]];
+                  position_of[owned ? ids[unknowns[t] * dim + j] :
+                                      unknowns[t] * dim + j];
           }
       }
   }
@@ -139,35 +231,45 @@ namespace Morula
   {
     const auto        &unknowns = space.cells()[cell].unknowns;
     const unsigned int m        = unknowns.size();
-    std::vector<types::global_dof_index> dofs;
-    std::vector<double>                  values;
     for (unsigned int s = 0; s < m; ++s)
       for (unsigned int i = 0; i < dim; ++i)
         {
           const double *const source = &cell_matrix[(i * m + s) * dim * m];
-          if (owned_number[unknowns[s]] >= 0)
-            {
-              double *const target = rows[owned_number[unknowns[s]] * dim + i];
-              const unsigned int *const position =
-                &positions[cell][s * m * width];
-              for (unsigned int j = 0; j < dim; ++j)
-                for (unsigned int t = 0; t < m; ++t)
-                  target[width == 1 ? position[t] + j :
-                                      position[t * width + j]] +=
-                    source[j * m + t];
-              continue;
-            }
-          if (dofs.empty())
-            for (unsigned int j = 0; j < dim; ++j)
-              for (const unsigned int unknown : unknowns)
-                dofs.push_back(
-                  space.relevant().nth_index_in_set(unknown) * dim + j);
-          matrix.add(space.relevant().nth_index_in_set(unknowns[s]) * dim + i,
-                     dofs.size(),
-                     dofs.data(),
-                     source,
-                     false);
+          double *const       target = rows[unknowns[s] * dim + i];
+          const unsigned int *const position = &positions[cell][s * m * width];
+          for (unsigned int j = 0; j < dim; ++j)
+            for (unsigned int t = 0; t < m; ++t)
+              target[width == 1 ? position[t] + j : position[t * width + j]] +=
+                source[j * m + t];
         }
+  }
+
+  template <int dim>
+  void
+  MatrixScatter<dim>::finish()
+  {
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
+    for (const auto &[rank, values] : Utilities::MPI::some_to_some(comm, sent))
+      {
+        const double *value = values.data();
+        for (const Received &row : received.at(rank))
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              int     length;
+              double *target;
+              int    *ids;
+              epetra.ExtractMyRowView(row.number * dim + i,
+                                      length,
+                                      target,
+                                      ids);
+              for (const unsigned int position : row.positions)
+                target[position] += *value++;
+            }
+      }
+    for (auto &[rank, values] : sent)
+      std::fill(values.begin(), values.end(), 0.);
   }
 
   template class MatrixScatter<2>;

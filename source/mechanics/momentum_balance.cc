@@ -233,6 +233,7 @@ namespace Morula
         scatter->add(
           c, Condensation<dim>(space.cells()[c]).condense(system.matrix, work));
       }
+    scatter->finish();
     matrix.compress(VectorOperation::add);
     return matrix;
   }

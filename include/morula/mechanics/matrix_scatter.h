@@ -10,6 +10,7 @@
 
 #include <mpi.h>
 
+#include <map>
 #include <vector>
 
 namespace Morula
@@ -20,7 +21,7 @@ namespace Morula
    * the matrix's own arrays through a table of positions that is made once a
    * step: TrilinosWrappers' add() searches every entry again, which costs more
    * than all the particles at fine grids (doc/theory.md, section 3). Rows of
-   * other ranks go through add().
+   * other ranks are summed up here in the same way, and sent once.
    */
   template <int dim>
   class MatrixScatter
@@ -40,22 +41,60 @@ namespace Morula
     void
     add(const unsigned int cell, const std::vector<double> &cell_matrix);
 
-  private:
+    /** Adds what was added to other ranks' rows to these. Collective. */
     void
-    make_pattern(const MPI_Comm comm);
+    finish();
+
+  private:
+    /** By relevant unknown: those that it couples with on this rank. */
+    using Couplings = std::vector<std::vector<unsigned int>>;
+
+    Couplings
+    couplings() const;
+
+    /** Ranks, by relevant unknown. */
+    std::vector<unsigned int>
+    owners_of_relevant() const;
 
     void
-    make_positions();
+    make_pattern(const Couplings &columns);
+
+    /** Agrees with the other ranks about what is sent. */
+    void
+    make_exchange(const Couplings                 &columns,
+                  const std::vector<unsigned int> &owners);
+
+    /** Where the entries of the grid cells' matrices go. */
+    void
+    make_positions(const Couplings                 &columns,
+                   const std::vector<unsigned int> &owners);
+
+    /** Position in the matrix's columns of component i of a global unknown. */
+    int
+    column_id(const types::global_dof_index unknown,
+              const unsigned int            i) const;
+
+    /** An unknown's rows that another rank adds to. */
+    struct Received
+    {
+      unsigned int              number;    // of the owned unknown
+      std::vector<unsigned int> positions; // by column and component
+    };
 
     const SplineSpace<dim> &space;
     Matrix                 &matrix;
-    std::vector<double *>   rows;         // by owned dof
+    const MPI_Comm          comm;
+    std::vector<double *>   rows;         // by relevant dof
     std::vector<int>        owned_number; // by relevant unknown
     /** 1 where the columns of an unknown's components follow each other. On
      *  three or more ranks Epetra may order a rank's ghost columns otherwise;
      *  then dim: each component has a position of its own. */
     unsigned int                           width = 1;
     std::vector<std::vector<unsigned int>> positions; // by cell: m x m x width
+
+    /** By owner: values of its rows, one after the other. */
+    std::map<unsigned int, std::vector<double>>   sent;
+    std::map<unsigned int, std::vector<Received>> received; // by sender
   };
 } // namespace Morula
 

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Grid cells that change their class while tissue grows through them."""
-import math
-
 import numpy
 from case import Case, Finding, Trial
+from slab import slab
 
 SCENE, L_P = "growing-column.prm", 4.0
 RATIOS = (1, 1.5, 2, 3.3, 5, 10)  # h / L_p
@@ -28,31 +27,13 @@ def trial(ratio, occupation, lattice, keys=None, in_ctest=True):
                  row=f"{lattice}, h/L_p = {ratio:g}")
 
 
-def exact(theta):
-    """(height by initial height, energy density in kPa) of tissue between slip
-    walls that is free above (doc/exact-solutions.md), in plane strain."""
-    E, nu = 1.0, 0.4
-    lam, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
-    low, high = 0.1, 10.0
-    for _ in range(100):
-        L = 0.5 * (low + high)
-        if mu * (L * L - 1) + lam * math.log(L / theta) > 0:
-            high = L
-        else:
-            low = L
-    J = low / theta
-    energy = (lam / 2 * math.log(J) ** 2 +
-              mu / 2 * (1 / theta ** 2 + low ** 2 - 2 - 2 * math.log(J)))
-    return theta * low, energy
-
-
 def figures(run):
     """(jump of the energy, error of the energy, error of the height); the jump
     is the largest deviation of a step's increment from the exact one, in units
     of the mean increment."""
     rows = run.results.statistics()
     heights, energies = numpy.array(
-        [exact(1 + 0.4 * t) for t in rows["time"]]).T
+        [slab(1 + 0.4 * t) for t in rows["time"]]).T
     found = rows["mean_energy_density"]
     increments = numpy.diff(energies)
     jump = abs(numpy.diff(found) - increments).max() / increments.mean()

@@ -8,6 +8,7 @@ import re
 import numpy
 from case import Case, Finding, Trial
 from results import positions
+from slab import slab
 
 N = 20  # offsets
 IN_CTEST = (0, 4, 8, 13, 16)
@@ -86,20 +87,6 @@ def break_down(runs, row):
                   max(run.figures.condition for run in chosen), at_least=1e9)
 
 
-def exact_height(theta, height):
-    """Of a slab between slip walls, free above, by bisection; 2-D."""
-    E, nu = 1.0, 0.4
-    lam, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
-    low, high = 0.1, 10.0
-    for _ in range(100):
-        L = 0.5 * (low + high)
-        if mu * (L * L - 1) + lam * math.log(L / theta) > 0:
-            high = L
-        else:
-            low = L
-    return theta * low * height
-
-
 def judge(runs):
     Y, Z = numpy.eye(3)[1:]
     yield from vary_little(runs, "disc, paper's keys, y", Y, 0.004)
@@ -116,7 +103,7 @@ def judge(runs):
                            linear_at_most=1, condition_at_most=20)
     yield from vary_little(runs, "slab, y", Y)
     yield from vary_little(runs, "slab, diagonal", Y)
-    height = exact_height(1.4, 60)
+    height = 60 * slab(1.4)[0]
     error = {run.trial.name: abs(apex(run, Y) / height - 1)
              for run in runs.values() if run.trial.scene == SLAB
              and run.trial.row != "slab, no extension"}

@@ -27,8 +27,10 @@ def relative(value, right):
 def enclosed(runs):
     # Stretched by more than 1/0.75 the tissue has lost its ellipticity: the
     # pressure falls with the volume, and cells tear apart.
+    # Wider at the full size, by what was measured there (doc/hard-cases.md).
     for name, rate, until, limit in (("enclosed", 0.1, 20, 8e-3),
                                      ("enclosed-withering", -0.1, 2, 0.03)):
+        small = runs[name].results.number("Tissue/Radius") <= 50
         rows = runs[name].results.statistics()
         row = rows[rows["time"] <= until][-1]
         theta = 1 + rate * row["time"]
@@ -36,7 +38,8 @@ def enclosed(runs):
                       "the closed form [relative]",
                       relative(row["mean_energy_density"],
                                energy([theta] * 3)),
-                      at_most=limit, error=True, trial=name)
+                      at_most=3e-3 if small else limit, error=True,
+                      trial=name)
     last = runs["enclosed-cycles"].results.statistics()[-1]
     growth = 8 * 1.4  # three cycles and 0.4 of the fourth one
     yield Finding("enclosed-cycles: mean energy against the closed form "

@@ -194,8 +194,8 @@ namespace Morula
 
     // A large cell is several quadrature points, but deforms as the field does
     // at its own position: no energy has kept that from turning inside out.
-    if (inverts(
-          DisplacementField<dim>(space, u, comm), space, tissue.cells(), comm))
+    if (points.subdivided &&
+        inverts(DisplacementField<dim>(space, u, comm), tissue.cells(), comm))
       throw StepFailed("a cell is turned inside out");
   }
 
@@ -313,19 +313,12 @@ namespace Morula
     const TimerOutput::Scope     section(timer, "rigid motion");
     const DisplacementField<dim> displacement(space, u, comm);
     std::vector<Tensor<1, dim>>  displacements;
-    unsigned int                 c = 0;
-    for (const auto &cell : tissue.cells().cells())
-      {
-        while (space.cells()[c].number != cell.number)
-          ++c;
-        const LocalField<dim> field = displacement.on_cell(c);
-        const GridIndex<dim>  index = space.box().index(cell.number);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          displacements.push_back(field.value(SplineValues<dim>(
-            space.box().unit_position(tissue.cells().order()[p]->get_location(),
-                                      index),
-            space.box().spacing())));
-      }
+    displacement.at_points(tissue.cells(),
+                           [&](const unsigned int,
+                               const LocalField<dim>   &field,
+                               const SplineValues<dim> &splines) {
+                             displacements.push_back(field.value(splines));
+                           });
     modes.remove(masses(space), displacements, u);
   }
 

@@ -23,47 +23,46 @@ namespace Morula
       double f = std::numeric_limits<double>::infinity();
     };
 
-    /**
-     * Moves the points of a store with the field, calling update(i, f) for
-     * each before; none farther than the limit, and without update above it.
-     * @param points copies of the store's points, moved
-     * @return the largest motion over all ranks. Collective.
-     */
-    template <int dim, typename Update>
-    Motion
-    move_points(const PointStore<dim>        &store,
-                const SplineSpace<dim>       &space,
-                const DisplacementField<dim> &displacement,
-                const Motion                 &limit,
-                const MPI_Comm                comm,
-                PointList<dim>               &points,
-                const Update                 &update)
+    /** Where points go, and how their surroundings deform, in order. */
+    template <int dim>
+    struct Moved
     {
-      Motion       largest{0., 0.};
-      unsigned int c = 0;
-      for (const auto &cell : store.cells())
-        {
-          while (space.cells()[c].number != cell.number)
-            ++c;
-          const LocalField<dim> field = displacement.on_cell(c);
-          const GridIndex<dim>  index = space.box().index(cell.number);
-          for (unsigned int p = cell.begin; p < cell.end; ++p)
-            {
-              const SplineValues<dim> splines(
-                space.box().unit_position(points.positions[p], index),
-                space.box().spacing());
-              const Tensor<2, dim> f = field.step_deformation(splines);
-              if (f.norm() <= limit.f)
-                update(p, f);
-              const Tensor<1, dim> u    = field.value(splines);
-              const double         size = u.norm();
-              points.positions[p] += size > limit.u ? limit.u / size * u : u;
-              largest.u = std::max(largest.u, size);
-              largest.f = std::max(largest.f, f.norm());
-            }
-        }
-      return {Utilities::MPI::max(largest.u, comm),
-              Utilities::MPI::max(largest.f, comm)};
+      std::vector<Point<dim>>     positions; // µm
+      std::vector<Tensor<2, dim>> deformations;
+      Motion                      largest; // over all ranks
+    };
+
+    /** The points of a store, moved with the field: none farther than the
+     *  limit. Collective. */
+    template <int dim>
+    Moved<dim>
+    moved(const PointStore<dim>        &store,
+          const DisplacementField<dim> &displacement,
+          const Motion                 &limit,
+          const MPI_Comm                comm)
+    {
+      Moved<dim> result;
+      result.positions.reserve(store.order().size());
+      result.deformations.reserve(store.order().size());
+      Motion largest{0., 0.};
+      displacement.at_points(store,
+                             [&](const unsigned int       p,
+                                 const LocalField<dim>   &field,
+                                 const SplineValues<dim> &splines) {
+                               const Tensor<2, dim> f =
+                                 field.step_deformation(splines);
+                               const Tensor<1, dim> u    = field.value(splines);
+                               const double         size = u.norm();
+                               result.positions.push_back(
+                                 store.order()[p]->get_location() +
+                                 (size > limit.u ? limit.u / size * u : u));
+                               result.deformations.push_back(f);
+                               largest.u = std::max(largest.u, size);
+                               largest.f = std::max(largest.f, f.norm());
+                             });
+      result.largest = {Utilities::MPI::max(largest.u, comm),
+                        Utilities::MPI::max(largest.f, comm)};
+      return result;
     }
   } // namespace
 
@@ -74,51 +73,42 @@ namespace Morula
   {
     const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, u, comm);
-    PointList<dim>               cells   = tissue.cells().copy();
-    PointList<dim>               surface = tissue.boundary_points().copy();
     const std::vector<double>    volumes = elastic_volumes(space, displacement);
-
-    const auto update_cell = [&](const unsigned int    p,
-                                 const Tensor<2, dim> &f) {
-      const CellView<dim, double> cell(
-        ArrayView<double>(&cells.properties[p * cells.n_slots], cells.n_slots),
-        tissue.slots());
-      if (growth.present())
-        growth.commit(cell,
-                      time_steps.time(),
-                      time_steps.next(),
-                      growth_of_step.current[p]);
-      Tensor<2, dim> F = f * cell.deformation();
-      if (!volumes.empty())
-        F *= std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
-                      1. / dim);
-      cell.set_tensor(tissue.slots().deformation, F);
-    };
-    const auto update_surface = [&](const unsigned int    p,
-                                    const Tensor<2, dim> &f) {
-      deform_boundary_point<dim>(
-        ArrayView<double>(&surface.properties[p * surface.n_slots],
-                          surface.n_slots),
-        f);
-    };
-    const Motion largest = move_points(
-      tissue.cells(), space, displacement, Motion(), comm, cells, update_cell);
+    const Moved<dim>             cells =
+      moved(tissue.cells(), displacement, Motion(), comm);
     // Where the surface stands off from the cells the field is extrapolated: no
     // reason to move farther, or to deform more, than the cells do. See also
     // take_back_strays().
-    move_points(tissue.boundary_points(),
-                space,
-                displacement,
-                Motion{2. * largest.u + space.box().spacing(), 2. * largest.f},
-                comm,
-                surface,
-                update_surface);
-
+    const Motion     limit{2. * cells.largest.u + space.box().spacing(),
+                       2. * cells.largest.f};
+    const Moved<dim> surface =
+      moved(tissue.boundary_points(), displacement, limit, comm);
     const std::string reason =
       why_torn(cells.positions, surface.positions, tissue.grid().box(), comm);
     if (!reason.empty())
       give_up(reason + ".");
-    tissue.place(cells, surface);
+
+    for (unsigned int p = 0; p < cells.positions.size(); ++p)
+      {
+        const CellView<dim, double> cell(tissue.cell_properties(p),
+                                         tissue.slots());
+        if (growth.present())
+          growth.commit(cell,
+                        time_steps.time(),
+                        time_steps.next(),
+                        growth_of_step.current[p]);
+        Tensor<2, dim> F = cells.deformations[p] * cell.deformation();
+        if (!volumes.empty())
+          F *=
+            std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
+                     1. / dim);
+        cell.set_tensor(tissue.slots().deformation, F);
+      }
+    for (unsigned int p = 0; p < surface.positions.size(); ++p)
+      if (surface.deformations[p].norm() <= limit.f)
+        deform_boundary_point<dim>(tissue.boundary_properties(p),
+                                   surface.deformations[p]);
+    tissue.move(cells.positions, surface.positions);
   }
 
   template class Simulation<2>;

@@ -14,25 +14,19 @@ namespace Morula
   template <int dim>
   bool
   inverts(const DisplacementField<dim> &displacement,
-          const SplineSpace<dim>       &space,
           const PointStore<dim>        &store,
           const MPI_Comm                comm)
   {
     unsigned int inverted = 0;
-    unsigned int c        = 0;
-    for (const auto &cell : store.cells())
-      {
-        while (space.cells()[c].number != cell.number)
-          ++c;
-        const LocalField<dim> field = displacement.on_cell(c);
-        const GridIndex<dim>  index = space.box().index(cell.number);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          if (!(determinant(field.step_deformation(
-                  SplineValues<dim>(space.box().unit_position(
-                                      store.order()[p]->get_location(), index),
-                                    space.box().spacing()))) > 0.))
-            ++inverted;
-      }
+    displacement.at_points(store,
+                           [&](const unsigned int,
+                               const LocalField<dim>   &field,
+                               const SplineValues<dim> &splines) {
+                             const Tensor<2, dim> f =
+                               field.step_deformation(splines);
+                             if (!(determinant(f) > 0.))
+                               ++inverted;
+                           });
     return Utilities::MPI::sum(inverted, comm) > 0;
   }
 
@@ -75,7 +69,6 @@ namespace Morula
 
 #define INSTANTIATE(dim)                                         \
   template bool        inverts(const DisplacementField<dim> &,   \
-                               const SplineSpace<dim> &,         \
                                const PointStore<dim> &,          \
                                const MPI_Comm);                  \
   template std::string why_torn(const std::vector<Point<dim>> &, \

@@ -149,7 +149,8 @@ namespace Morula
                        });
 
       MaterialPoints<dim> points;
-      points.h = box.spacing();
+      points.h          = box.spacing();
+      points.subdivided = true;
       points.offsets.push_back(0);
       std::size_t k = 0;
       for (const auto &cell : space.cells())

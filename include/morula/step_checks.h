@@ -16,7 +16,6 @@ namespace Morula
   template <int dim>
   bool
   inverts(const DisplacementField<dim> &displacement,
-          const SplineSpace<dim>       &space,
           const PointStore<dim>        &store,
           const MPI_Comm                comm);
 

@@ -66,19 +66,16 @@ namespace Morula
                   const Tissue<dim>             &tissue,
                   const GrowthOfStep<dim>       &growth)
     {
-      PointList<dim> cells;
-      cells.n_slots = 2 * dim * dim;
-      for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
-        {
-          const auto &particle = tissue.cells().order()[i];
-          cells.ids.push_back(particle->get_id());
-          cells.positions.push_back(particle->get_location());
-          for (const auto *F_g : {&growth.previous[i], &growth.current[i]})
-            for (unsigned int d = 0; d < dim; ++d)
-              for (unsigned int e = 0; e < dim; ++e)
-                cells.properties.push_back((*F_g)[d][e]);
-        }
-      return nearest_properties(queries, cells, tissue.grid());
+      const auto append = [&](const unsigned int p, std::vector<double> &list) {
+        for (const auto *F_g : {&growth.previous[p], &growth.current[p]})
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = 0; e < dim; ++e)
+              list.push_back((*F_g)[d][e]);
+      };
+      return nearest_properties(queries,
+                                tissue.cells(),
+                                {2 * dim * dim, append},
+                                tissue.grid());
     }
 
     /** State of a boundary point with its F and a cell's F_g. */

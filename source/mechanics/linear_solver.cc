@@ -26,10 +26,12 @@ namespace Morula
 
     constexpr unsigned int max_iterations = 2000;
 
-    /** Layers of rows that the ranks' factorisations share. Without any, the
-     *  half-fixed sphere takes up to five times the iterations on two ranks,
-     *  depending on where the ranks' border falls. */
-    constexpr unsigned int overlap = 1;
+    /** Entries of the incomplete factor, over those of the matrix's triangle.
+     *  Fewer make it faster, until it is no longer positive (below 0.4 on the
+     *  half-fixed sphere); then, or where it is of no use, it is made again
+     *  with the full number (doc/performance.md, The linear solver). */
+    constexpr double usual_fill = 0.6;
+    constexpr double full_fill  = 1.;
 
     /** Shifts tried on negative curvature: each at least shift_factor times the
      *  one before, and curvature_factor times what the curvature asks for (the
@@ -195,28 +197,32 @@ namespace Morula
   }
 
   void
-  LinearSolver::make_preconditioner(const Matrix &K)
+  LinearSolver::make_preconditioner(const Matrix &K, const double fill)
   {
     // A slightly raised diagonal keeps the factorisation positive, and usable
     // for the later tangents of the step. Of an unsymmetric tangent it is that
     // of the symmetric part: positive definite where the body is stable, so
     // that the preconditioned operator is the identity and a bounded skew part.
-    auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
-    const TrilinosWrappers::PreconditionIC::AdditionalData data(
-      0, 2e-5 * problem.stiffness_scale(), 1.02, overlap);
+    OverlappingCholesky::Parameters parameters;
+    parameters.fill              = fill;
+    parameters.relative_diagonal = 1.02;
+    parameters.absolute_diagonal = 2e-5 * problem.stiffness_scale();
     if (!symmetric)
       symmetrize(K, symmetric_part);
-    bool failed = false;
+    preconditioner.reset();
+    std::unique_ptr<OverlappingCholesky> made;
     try
       {
-        ic->initialize(symmetric ? K : symmetric_part, data);
+        made =
+          std::make_unique<OverlappingCholesky>(symmetric ? K : symmetric_part,
+                                                problem.coupled_dofs(),
+                                                parameters);
       }
     catch (const ExceptionBase &)
-      {
-        failed = true; // a zero pivot; perhaps on this rank alone
-      }
-    if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
-      preconditioner = std::move(ic);
+      {} // a zero pivot; perhaps on this rank alone
+    if (!Utilities::MPI::logical_or(!made, K.get_mpi_communicator()))
+      preconditioner = std::move(made);
+    fill_of_preconditioner = fill;
   }
 
   void
@@ -229,7 +235,7 @@ namespace Morula
     if (!direct && !prepared)
       {
         const TimerOutput::Scope section(timer, "preconditioner");
-        make_preconditioner(K);
+        make_preconditioner(K, symmetric ? usual_fill : full_fill);
         prepared = true;
       }
     const TimerOutput::Scope section(timer, "linear solver");
@@ -283,8 +289,10 @@ namespace Morula
         if (outcome == Outcome::negative_curvature)
           shift = std::max(
             {least_shift, curvature_factor * needed, shift_factor * shift});
+        else if (preconditioner && fill_of_preconditioner < full_fill)
+          make_preconditioner(K, full_fill); // not positive, or of no use
         else if (preconditioner)
-          preconditioner.reset(); // not positive, or of no use: Jacobi
+          preconditioner.reset(); // likewise: Jacobi
         else
           break;
       }

@@ -19,10 +19,11 @@ namespace Morula
     , matrix(matrix)
     , comm(comm)
   {
-    const Couplings                 columns = couplings();
-    const std::vector<unsigned int> owners  = owners_of_relevant();
-    make_pattern(columns);
-    make_exchange(columns, owners);
+    const Couplings                 columns   = couplings();
+    const std::vector<unsigned int> owners    = owners_of_relevant();
+    const Messages                  announced = announce(columns, owners);
+    make_pattern(columns, announced);
+    make_received(announced);
     make_positions(columns, owners);
   }
 
@@ -68,23 +69,70 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  MatrixScatter<dim>::make_pattern(const Couplings &columns)
+  typename MatrixScatter<dim>::Messages
+  MatrixScatter<dim>::announce(const Couplings                 &columns,
+                               const std::vector<unsigned int> &owners)
   {
-    const IndexSet                      &relevant = space.relevant();
+    const IndexSet &relevant = space.relevant();
+    Messages        messages;
+    for (unsigned int s = 0; s < columns.size(); ++s)
+      {
+        const auto unknown = relevant.nth_index_in_set(s);
+        if (space.owned().is_element(unknown))
+          continue;
+        auto &message = messages[owners[s]];
+        message.push_back(unknown);
+        message.push_back(columns[s].size());
+        for (const unsigned int column : columns[s])
+          message.push_back(relevant.nth_index_in_set(column));
+        auto &values = sent[owners[s]];
+        values.resize(values.size() + dim * dim * columns[s].size());
+      }
+    return Utilities::MPI::some_to_some(comm, messages);
+  }
+
+  template <int dim>
+  void
+  MatrixScatter<dim>::make_pattern(const Couplings &columns,
+                                   const Messages  &announced)
+  {
+    const IndexSet &relevant = space.relevant(), &owned = space.owned();
+    std::vector<std::vector<types::global_dof_index>> unknowns(
+      owned.n_elements());
+    for (unsigned int s = 0; s < columns.size(); ++s)
+      if (const auto row = relevant.nth_index_in_set(s); owned.is_element(row))
+        for (const unsigned int column : columns[s])
+          unknowns[owned.index_within_set(row)].push_back(
+            relevant.nth_index_in_set(column));
+    for (const auto &[rank, message] : announced)
+      for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
+        {
+          auto &row = unknowns[owned.index_within_set(message[m])];
+          row.insert(row.end(),
+                     message.begin() + m + 2,
+                     message.begin() + m + 2 + message[m + 1]);
+        }
+
+    std::size_t longest = 0;
+    for (auto &row : unknowns)
+      {
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        longest = std::max(longest, row.size());
+      }
     TrilinosWrappers::SparsityPattern    pattern(space.owned_dofs(),
                                               space.owned_dofs(),
-                                              space.relevant_dofs(),
-                                              comm);
+                                              comm,
+                                              dim * longest);
     std::vector<types::global_dof_index> dofs;
-    for (unsigned int row = 0; row < columns.size(); ++row)
+    for (unsigned int r = 0; r < unknowns.size(); ++r)
       {
         dofs.clear();
-        for (const unsigned int column : columns[row])
+        for (const auto unknown : unknowns[r])
           for (unsigned int i = 0; i < dim; ++i)
-            dofs.push_back(relevant.nth_index_in_set(column) * dim + i);
+            dofs.push_back(unknown * dim + i);
         for (unsigned int i = 0; i < dim; ++i)
-          pattern.add_entries(relevant.nth_index_in_set(row) * dim + i,
+          pattern.add_entries(owned.nth_index_in_set(r) * dim + i,
                               dofs.begin(),
                               dofs.end(),
                               true);
@@ -104,34 +152,14 @@ namespace Morula
 
   template <int dim>
   void
-  MatrixScatter<dim>::make_exchange(const Couplings                 &columns,
-                                    const std::vector<unsigned int> &owners)
+  MatrixScatter<dim>::make_received(const Messages &announced)
   {
-    const IndexSet &relevant = space.relevant(), &owned = space.owned();
-
-    // Unknown, number of columns, columns: one after the other.
-    std::map<unsigned int, std::vector<types::global_dof_index>> messages;
-    for (unsigned int s = 0; s < columns.size(); ++s)
-      {
-        const auto unknown = relevant.nth_index_in_set(s);
-        if (owned.is_element(unknown))
-          continue;
-        auto &message = messages[owners[s]];
-        message.push_back(unknown);
-        message.push_back(columns[s].size());
-        for (const unsigned int column : columns[s])
-          message.push_back(relevant.nth_index_in_set(column));
-        auto &values = sent[owners[s]];
-        values.resize(values.size() + dim * dim * columns[s].size());
-      }
-
     std::vector<int> position_of(matrix.trilinos_matrix().NumMyCols());
-    for (const auto &[rank, message] :
-         Utilities::MPI::some_to_some(comm, messages))
+    for (const auto &[rank, message] : announced)
       for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
         {
           Received row;
-          row.number = owned.index_within_set(message[m]);
+          row.number = space.owned().index_within_set(message[m]);
           int     length;
           double *values;
           int    *ids;

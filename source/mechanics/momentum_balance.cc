@@ -256,6 +256,22 @@ namespace Morula
   }
 
   template <int dim>
+  IndexSet
+  MomentumBalance<dim>::coupled_dofs() const
+  {
+    IndexSet dofs(space.relevant_dofs().size());
+    for (const auto &cell : space.cells())
+      if (!cell.weights.empty())
+        for (const unsigned int s : cell.unknowns)
+          {
+            const auto first = space.relevant().nth_index_in_set(s) * dim;
+            dofs.add_range(first, first + dim);
+          }
+    dofs.compress();
+    return dofs;
+  }
+
+  template <int dim>
   double
   MomentumBalance<dim>::small_force() const
   {

@@ -72,6 +72,7 @@ namespace Morula
                            "sigma_yz",
                            "sigma_zx"};
     table.n_csv_columns = table.names.size();
+    table.whole         = {"id", "parent", "generation", "phase"};
 
     for (const char *name : {"pressure",
                              "principal_stress_1",

@@ -24,6 +24,7 @@ namespace Morula
                            "area",
                            "condition"};
     table.n_csv_columns = table.names.size();
+    table.whole         = {"id", "condition"};
     table.add_nonscalar("normal", 3);
     table.add_nonscalar("displacement", 3);
   }

@@ -8,57 +8,174 @@
 
 #include <deal.II/base/data_out_base.h>
 
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <numeric>
 #include <sstream>
-#include <tuple>
 
 namespace Morula
 {
   namespace
   {
-    using DataComponentInterpretation::component_is_part_of_tensor;
-    using DataComponentInterpretation::component_is_part_of_vector;
-    using Range =
-      std::tuple<unsigned int,
-                 unsigned int,
-                 std::string,
-                 DataComponentInterpretation::DataComponentInterpretation>;
+    /** A scalar, vector or tensor of every point. */
+    struct Array
+    {
+      std::string  name;
+      unsigned int first_column, n_components;
+      bool         whole; // numbers without fraction
+
+      std::size_t
+      bytes_of_point() const
+      {
+        return n_components * (whole ? sizeof(std::int32_t) : sizeof(float));
+      }
+    };
 
     template <int dim>
-    std::vector<DataOutBase::Patch<0, dim>>
-    patches_of(const PointFields<dim> &fields)
+    std::vector<Array>
+    arrays_of(const PointFields<dim> &fields)
     {
-      std::vector<DataOutBase::Patch<0, dim>> patches(fields.size());
-      for (std::size_t i = 0; i < patches.size(); ++i)
+      std::vector<Array> arrays;
+      unsigned int       column = 0;
+      for (const auto &nonscalar : fields.nonscalars)
         {
-          patches[i].vertices[0] = fields.positions[i];
-          patches[i].patch_index = i;
-          patches[i].data.reinit(fields.names.size(), 1);
-          for (unsigned int c = 0; c < fields.names.size(); ++c)
-            patches[i].data(c, 0) = fields.row(i)[c];
+          for (; column < nonscalar.first_column; ++column)
+            arrays.push_back({fields.names[column],
+                              column,
+                              1,
+                              fields.whole.count(fields.names[column]) > 0});
+          arrays.push_back(
+            {nonscalar.name, column, nonscalar.n_columns, false});
+          column += nonscalar.n_columns;
         }
-      return patches;
+      for (; column < fields.names.size(); ++column)
+        arrays.push_back({fields.names[column],
+                          column,
+                          1,
+                          fields.whole.count(fields.names[column]) > 0});
+      return arrays;
     }
 
-    template <int dim>
-    std::vector<Range>
-    nonscalar_ranges(const PointFields<dim> &fields)
+    /** Sizes in bytes of a piece's arrays, in the order of the file: positions,
+     *  the vertices' connectivity, offsets and types, and the fields'. */
+    std::vector<std::uint64_t>
+    sizes_of(const std::vector<Array> &arrays, const std::uint64_t n_points)
     {
-      std::vector<Range> ranges;
-      for (const auto &nonscalar : fields.nonscalars)
-        ranges.emplace_back(nonscalar.first_column,
-                            nonscalar.first_column + nonscalar.n_columns - 1,
-                            nonscalar.name,
-                            nonscalar.n_columns == 9 ?
-                              component_is_part_of_tensor :
-                              component_is_part_of_vector);
-      return ranges;
+      std::vector<std::uint64_t> sizes = {3 * sizeof(float) * n_points,
+                                          sizeof(std::int32_t) * n_points,
+                                          sizeof(std::int32_t) * n_points,
+                                          n_points};
+      for (const Array &array : arrays)
+        sizes.push_back(array.bytes_of_point() * n_points);
+      return sizes;
+    }
+
+    template <typename T>
+    void
+    store(const T value, char *&target)
+    {
+      std::memcpy(target, &value, sizeof(T));
+      target += sizeof(T);
+    }
+
+    /** A piece's arrays, each behind its size, as they stand in the file. */
+    template <int dim>
+    std::string
+    raw_data(const PointFields<dim> &fields, const std::vector<Array> &arrays)
+    {
+      constexpr char      vtk_vertex = 1;
+      std::vector<char *> targets;
+      std::string         data;
+      const auto          sizes = sizes_of(arrays, fields.size());
+      data.resize(std::accumulate(sizes.begin(),
+                                  sizes.end(),
+                                  sizes.size() * sizeof(std::uint64_t)));
+      char *target = data.data();
+      for (const std::uint64_t size : sizes)
+        {
+          store(size, target);
+          targets.push_back(target);
+          target += size;
+        }
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        {
+          for (unsigned int d = 0; d < 3; ++d)
+            store<float>(d < dim ? fields.positions[i][d] : 0., targets[0]);
+          store<std::int32_t>(i, targets[1]);
+          store<std::int32_t>(i + 1, targets[2]);
+          store<char>(vtk_vertex, targets[3]);
+          for (std::size_t k = 0; k < arrays.size(); ++k)
+            for (unsigned int c = 0; c < arrays[k].n_components; ++c)
+              {
+                const double value = fields.row(i)[arrays[k].first_column + c];
+                if (arrays[k].whole)
+                  store<std::int32_t>(std::lround(value), targets[4 + k]);
+                else
+                  store<float>(value, targets[4 + k]);
+              }
+        }
+      return data;
+    }
+
+    /** The part of the file before the data: where each array of each piece
+     *  is found in these. */
+    std::string
+    description(const std::vector<Array>       &arrays,
+                const std::vector<std::size_t> &n_points,
+                const double                    time,
+                const unsigned int              number)
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << "<?xml version=\"1.0\"?>\n"
+           << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+              "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+           << "<UnstructuredGrid>\n<FieldData>\n"
+           << "<DataArray type=\"Float64\" Name=\"TIME\" "
+              "NumberOfTuples=\"1\" format=\"ascii\">"
+           << time << "</DataArray>\n"
+           << "<DataArray type=\"Float64\" Name=\"CYCLE\" "
+              "NumberOfTuples=\"1\" format=\"ascii\">"
+           << number << "</DataArray>\n</FieldData>\n";
+      std::uint64_t offset = 0;
+      for (const std::size_t n : n_points)
+        {
+          const auto sizes = sizes_of(arrays, n);
+          auto       size  = sizes.begin();
+          const auto array = [&](const std::string &type,
+                                 const std::string &name,
+                                 const unsigned int n_components) {
+            text << "<DataArray type=\"" << type << "\" Name=\"" << name
+                 << "\" NumberOfComponents=\"" << n_components
+                 << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
+            offset += sizeof(std::uint64_t) + *size++;
+          };
+          text << "<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
+               << "\">\n<Points>\n";
+          array("Float32", "Points", 3);
+          text << "</Points>\n<Cells>\n";
+          array("Int32", "connectivity", 1);
+          array("Int32", "offsets", 1);
+          array("UInt8", "types", 1);
+          text << "</Cells>\n<PointData>\n";
+          for (const Array &field : arrays)
+            array(field.whole ? "Int32" : "Float32",
+                  field.name,
+                  field.n_components);
+          text << "</PointData>\n</Piece>\n";
+        }
+      text << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+      return text.str();
     }
   } // namespace
 
-  // The pieces of DataOutInterface::write_vtu_in_parallel(), but written by
-  // rank 0: when the disk is full, MPI I/O fails on some ranks only, and the
-  // others wait for them for ever.
+  // deal.II writes such files as well, but encoded and compressed: that takes
+  // twenty times as long, a third of a whole run of Fig. 4b, for files four fifths
+  // same size (doc/performance.md, Five days of Fig. 4b). Rank 0 writes: when
+  // the disk is full, MPI I/O fails on some ranks only, and the others wait for
+  // them for ever.
   template <int dim>
   void
   write_vtu(const std::string      &path,
@@ -67,32 +184,17 @@ namespace Morula
             const unsigned int      number,
             const MPI_Comm          comm)
   {
-    const DataOutBase::VtkFlags flags(time,
-                                      number,
-                                      /*print_date_and_time=*/false,
-                                      DataOutBase::VtkFlags::best_speed);
-
-    const auto n_points    = Utilities::MPI::sum(fields.size(), comm);
-    const bool first_piece = Utilities::MPI::this_mpi_process(comm) == 0;
-    std::ostringstream piece;
-    if (fields.size() > 0 || (n_points == 0 && first_piece))
-      DataOutBase::write_vtu_main(patches_of(fields),
-                                  fields.names,
-                                  nonscalar_ranges(fields),
-                                  flags,
-                                  piece);
-    const std::vector<std::string> pieces = gather_to_root(piece.str(), comm);
-
+    const std::vector<Array>       arrays = arrays_of(fields);
+    const std::vector<std::size_t> n_points =
+      Utilities::MPI::gather(comm, fields.size());
+    const std::vector<std::string> pieces =
+      gather_to_root(raw_data(fields, arrays), comm);
     on_root(comm, [&]() {
-      std::ostringstream header, footer;
-      DataOutBase::write_vtu_header(header, flags);
-      DataOutBase::write_vtu_footer(footer);
-
       AtomicFile file(path);
-      file.write(header.str());
-      for (const std::string &text : pieces)
-        file.write(text);
-      file.write(footer.str());
+      file.write(description(arrays, n_points, time, number));
+      for (const std::string &piece : pieces)
+        file.write(piece);
+      file.write("\n</AppendedData>\n</VTKFile>\n");
       file.commit();
     });
   }

@@ -14,40 +14,66 @@ namespace Morula
 {
   namespace
   {
-    /** Points that may be nearest: those near grid cells with a query. */
+    /** 1 for grid cells within a radius of a query of this rank, else 0. */
     template <int dim>
-    PointList<dim>
-    candidates(const std::vector<Point<dim>> &queries,
-               const PointList<dim>          &points,
-               const BackgroundGrid<dim>     &grid,
-               const int                      radius)
+    std::vector<unsigned int>
+    near_queries(const std::vector<Point<dim>> &queries,
+                 const GridBox<dim>            &box,
+                 const int                      radius)
     {
-      const GridBox<dim> &box = grid.box();
-      std::vector<char>   near(box.size(), 0);
+      std::vector<unsigned int> near(box.size(), 0);
       for (const Point<dim> &query : queries)
         box.for_neighbors(box.locate(query),
                           radius,
                           [&](const unsigned int number, const auto &) {
                             near[number] = 1;
                           });
-      PointList<dim> all = halo(points, grid, radius * box.spacing());
-      PointList<dim> list;
-      list.n_slots   = points.n_slots;
+      return near;
+    }
+
+    /** Points that may be nearest: those near grid cells with a query. */
+    template <int dim>
+    PointList<dim>
+    candidates(const std::vector<Point<dim>> &queries,
+               const PointStore<dim>         &points,
+               const WantedProperties        &wanted,
+               const BackgroundGrid<dim>     &grid,
+               const int                      radius)
+    {
+      const GridBox<dim>             &box  = grid.box();
+      const std::vector<unsigned int> near = near_queries(queries, box, radius);
+      std::vector<unsigned int>       near_any(near.size());
+      Utilities::MPI::max(near, grid.communicator(), near_any);
+      PointList<dim> near_points;
+      near_points.n_slots = wanted.n;
+      std::vector<double> properties;
+      for (const auto &cell : points.cells())
+        for (unsigned int p = cell.begin;
+             p < cell.end && near_any[cell.number] != 0;
+             ++p)
+          {
+            properties.clear();
+            wanted.append(p, properties);
+            near_points.add(points.order()[p]->get_id(),
+                            points.order()[p]->get_location(),
+                            make_array_view(properties));
+          }
+      if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+        return near_points;
+      PointList<dim> found;
+      found.n_slots  = wanted.n;
       const auto add = [&](const PointList<dim> &from) {
         for (std::size_t i = 0; i < from.size(); ++i)
-          if (near[box.number(box.locate(from.positions[i]))])
-            {
-              list.ids.push_back(from.ids[i]);
-              list.positions.push_back(from.positions[i]);
-              const auto first = from.properties.begin() + i * from.n_slots;
-              list.properties.insert(list.properties.end(),
-                                     first,
-                                     first + from.n_slots);
-            }
+          if (near[box.number(box.locate(from.positions[i]))] != 0)
+            found.add(from.ids[i],
+                      from.positions[i],
+                      ArrayView<const double>(from.properties.data() +
+                                                i * from.n_slots,
+                                              from.n_slots));
       };
-      add(points);
-      add(all);
-      return list;
+      add(near_points);
+      add(halo(near_points, grid, radius * box.spacing()));
+      return found;
     }
 
     /** Position of the nearest point in the list, and its distance. Distances
@@ -82,7 +108,8 @@ namespace Morula
   template <int dim>
   std::vector<double>
   nearest_properties(const std::vector<Point<dim>> &queries,
-                     const PointList<dim>          &points,
+                     const PointStore<dim>         &points,
+                     const WantedProperties        &wanted,
                      const BackgroundGrid<dim>     &grid)
   {
     const GridBox<dim> &box     = grid.box();
@@ -91,10 +118,11 @@ namespace Morula
       largest = std::max(largest, n);
     for (int radius = 1;; radius *= 2)
       {
-        const PointList<dim> list = candidates(queries, points, grid, radius);
-        const auto           tree = pack_rtree_of_indices(list.positions);
-        std::vector<double>  properties;
-        double               farthest = 0.;
+        const PointList<dim> list =
+          candidates(queries, points, wanted, grid, radius);
+        const auto          tree = pack_rtree_of_indices(list.positions);
+        std::vector<double> properties;
+        double              farthest = 0.;
         for (const Point<dim> &query : queries)
           {
             const auto [i, distance] = nearest(query, list, tree);
@@ -114,10 +142,12 @@ namespace Morula
 
   template std::vector<double>
   nearest_properties(const std::vector<Point<2>> &,
-                     const PointList<2> &,
+                     const PointStore<2> &,
+                     const WantedProperties &,
                      const BackgroundGrid<2> &);
   template std::vector<double>
   nearest_properties(const std::vector<Point<3>> &,
-                     const PointList<3> &,
+                     const PointStore<3> &,
+                     const WantedProperties &,
                      const BackgroundGrid<3> &);
 } // namespace Morula

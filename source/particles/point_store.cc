@@ -51,6 +51,35 @@ namespace Morula
 
   template <int dim>
   void
+  PointStore<dim>::move(const std::vector<Point<dim>> &positions,
+                        const BackgroundGrid<dim>     &grid)
+  {
+    AssertDimension(positions.size(), order_.size());
+    const GridBox<dim>   &box = grid.box();
+    PointList<dim>        leaving;
+    std::vector<Iterator> left;
+    leaving.n_slots = n_slots_;
+    for (const Cell &cell : cells_)
+      {
+        const GridIndex<dim> index = box.index(cell.number);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          if (const Point<dim> &x = positions[p]; box.locate(x) == index)
+            {
+              order_[p]->set_location(x);
+              order_[p]->set_reference_location(box.unit_position(x, index));
+            }
+          else
+            {
+              leaving.add(order_[p]->get_id(), x, properties(p));
+              left.push_back(order_[p]);
+            }
+      }
+    handler.remove_particles(left);
+    insert(leaving, grid);
+  }
+
+  template <int dim>
+  void
   PointStore<dim>::remove(const std::vector<Iterator> &points,
                           const BackgroundGrid<dim>   &grid)
   {
@@ -68,14 +97,9 @@ namespace Morula
     points.positions.reserve(order_.size());
     points.properties.reserve(order_.size() * n_slots_);
     for (const Iterator &point : order_)
-      {
-        points.ids.push_back(point->get_id());
-        points.positions.push_back(point->get_location());
-        const ArrayView<const double> properties = point->get_properties();
-        points.properties.insert(points.properties.end(),
-                                 properties.begin(),
-                                 properties.end());
-      }
+      points.add(point->get_id(),
+                 point->get_location(),
+                 point->get_properties());
     return points;
   }
 
@@ -137,6 +161,13 @@ namespace Morula
   PointStore<dim>::order() const
   {
     return order_;
+  }
+
+  template <int dim>
+  ArrayView<double>
+  PointStore<dim>::properties(const unsigned int p)
+  {
+    return order_[p]->get_properties();
   }
 
   template <int dim>

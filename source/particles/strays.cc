@@ -57,46 +57,67 @@ namespace Morula
     }
 
     /**
-     * Whether a point of any rank may be farther than @p reaches least reaches
+     * Numbers of the points that may be farther than @p reaches least reaches
      * from all cells. Nearly all points have a cell near in their own grid
      * cell, so that this is far cheaper than to find the nearest ones.
      */
     template <int dim>
-    bool
-    any_far_away(const std::vector<Point<dim>> &points,
-                 const Tissue<dim>             &tissue,
-                 const double                   reaches)
+    std::vector<unsigned int>
+    far_away(const std::vector<Point<dim>> &points,
+             const Tissue<dim>             &tissue,
+             const double                   reaches)
     {
       const double near = reaches * least_reach * tissue.grid().box().spacing();
-      bool         far  = false;
-      for (const Point<dim> &x : points)
-        far = far || !has_cell_near(x, tissue, near);
-      return Utilities::MPI::logical_or(far, tissue.communicator());
+      std::vector<unsigned int> found;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (!has_cell_near(points[p], tissue, near))
+          found.push_back(p);
+      return found;
     }
 
     /** What a stray needs to know of its nearest cell: position, F, reach. */
     template <int dim>
-    PointList<dim>
-    landmarks(const Tissue<dim> &tissue)
+    constexpr unsigned int n_landmark = dim + dim *dim + 1;
+
+    template <int dim>
+    std::vector<double>
+    nearest_landmarks(const std::vector<Point<dim>> &queries,
+                      const Tissue<dim>             &tissue)
     {
-      const double   h = tissue.grid().box().spacing();
-      PointList<dim> list;
-      list.n_slots = dim + dim * dim + 1;
-      for (const auto &particle : tissue.cells().order())
-        {
-          const auto           cell = tissue.cell(particle);
-          const Point<dim>     x    = particle->get_location();
-          const Tensor<2, dim> F    = cell.deformation();
-          list.ids.push_back(particle->get_id());
-          list.positions.push_back(x);
-          for (unsigned int d = 0; d < dim; ++d)
-            list.properties.push_back(x[d]);
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = 0; e < dim; ++e)
-              list.properties.push_back(F[d][e]);
-          list.properties.push_back(surface_reach(cell, h));
-        }
-      return list;
+      const double h    = tissue.grid().box().spacing();
+      const auto append = [&](const unsigned int p, std::vector<double> &list) {
+        const auto          &particle = tissue.cells().order()[p];
+        const auto           cell     = tissue.cell(particle);
+        const Point<dim>     x        = particle->get_location();
+        const Tensor<2, dim> F        = cell.deformation();
+        for (unsigned int d = 0; d < dim; ++d)
+          list.push_back(x[d]);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            list.push_back(F[d][e]);
+        list.push_back(surface_reach(cell, h));
+      };
+      return nearest_properties(queries,
+                                tissue.cells(),
+                                {n_landmark<dim>, append},
+                                tissue.grid());
+    }
+
+    /** Points that are perhaps strays (far_away()), and the landmarks of the
+     *  cells nearest to them. Collective. */
+    template <int dim>
+    std::pair<std::vector<unsigned int>, std::vector<double>>
+    strays(const std::vector<Point<dim>> &points,
+           const Tissue<dim>             &tissue,
+           const double                   reaches)
+    {
+      const std::vector<unsigned int> far = far_away(points, tissue, reaches);
+      if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
+        return {};
+      std::vector<Point<dim>> queries;
+      for (const unsigned int p : far)
+        queries.push_back(points[p]);
+      return {far, nearest_landmarks(queries, tissue)};
     }
 
     /** The part of a motion that the point's condition leaves free. */
@@ -137,20 +158,16 @@ namespace Morula
   trust_in_surface(const std::vector<Point<dim>> &points,
                    const Tissue<dim>             &tissue)
   {
+    const auto [far, nearest] = strays(points, tissue, 1.);
     std::vector<double> trust(points.size(), 1.);
-    if (!any_far_away(points, tissue, 1.))
-      return trust;
-    const PointList<dim>      cells = landmarks(tissue);
-    const std::vector<double> nearest =
-      nearest_properties(points, cells, tissue.grid());
-    for (std::size_t p = 0; p < points.size(); ++p)
+    for (std::size_t k = 0; k < far.size(); ++k)
       {
-        const double *const properties = &nearest[p * cells.n_slots];
+        const double *const landmark = &nearest[k * n_landmark<dim>];
         Point<dim>          cell;
         for (unsigned int d = 0; d < dim; ++d)
-          cell[d] = properties[d];
-        trust[p] = trust_in_surface(points[p].distance(cell),
-                                    properties[cells.n_slots - 1]);
+          cell[d] = landmark[d];
+        trust[far[k]] = trust_in_surface(points[far[k]].distance(cell),
+                                         landmark[n_landmark<dim> - 1]);
       }
     return trust;
   }
@@ -160,43 +177,41 @@ namespace Morula
   take_back_strays(Tissue<dim> &tissue)
   {
     const auto             &store = tissue.boundary_points();
-    const MPI_Comm          comm  = tissue.communicator();
-    std::vector<Point<dim>> queries;
+    std::vector<Point<dim>> positions;
     for (const auto &point : store.order())
-      queries.push_back(point->get_location());
-    if (Utilities::MPI::sum<std::uint64_t>(queries.size(), comm) == 0 ||
-        !any_far_away(queries, tissue, longest))
-      return 0;
+      positions.push_back(point->get_location());
+    const auto [far, nearest] = strays(positions, tissue, longest);
 
-    const PointList<dim>      cells = landmarks(tissue);
-    const std::vector<double> nearest =
-      nearest_properties(queries, cells, tissue.grid());
-    PointList<dim> points = store.copy();
-    std::uint64_t  n      = 0;
-    for (std::size_t p = 0; p < points.size(); ++p)
+    std::uint64_t n = 0;
+    for (std::size_t k = 0; k < far.size(); ++k)
       {
-        const double *const cell  = &nearest[p * cells.n_slots];
-        const double        leash = longest * cell[cells.n_slots - 1];
+        const unsigned int  p     = far[k];
+        const double *const cell  = &nearest[k * n_landmark<dim>];
+        const double        leash = longest * cell[n_landmark<dim> - 1];
         Tensor<1, dim>      way; // to the cell
         for (unsigned int d = 0; d < dim; ++d)
-          way[d] = cell[d] - points.positions[p][d];
+          way[d] = cell[d] - positions[p][d];
         if (way.norm() <= leash * (1. + 1e-9))
           continue;
-        double *const properties = &points.properties[p * points.n_slots];
         const BoundaryView<dim> point(
-          ArrayView<const double>(properties, points.n_slots));
+          boundary_properties<dim>(store.order()[p]));
         if (point.condition() == SurfaceCondition::fixed)
           continue;
         ++n;
-        points.positions[p] +=
-          free_part(point, (1. - leash / way.norm()) * way);
+        positions[p] += free_part(point, (1. - leash / way.norm()) * way);
         std::copy(cell + dim,
                   cell + dim + dim * dim,
-                  properties + BoundarySlots<dim>::deformation);
+                  tissue.boundary_properties(p).begin() +
+                    BoundarySlots<dim>::deformation);
       }
-    n = Utilities::MPI::sum(n, comm);
+    n = Utilities::MPI::sum(n, tissue.communicator());
     if (n > 0)
-      tissue.place(tissue.cells().copy(), points);
+      {
+        std::vector<Point<dim>> cells;
+        for (const auto &cell : tissue.cells().order())
+          cells.push_back(cell->get_location());
+        tissue.move(cells, positions);
+      }
     return n;
   }
 

@@ -14,6 +14,35 @@ namespace Morula
   {
     /** Load of the fullest rank over the mean that is put up with. */
     constexpr double worst_imbalance = 1.15;
+
+    /** Corners of the domains of cells, whose states are state(i): the grid
+     *  must reach as far. */
+    template <int dim, typename State>
+    std::vector<Point<dim>>
+    domain_corners(const std::vector<Point<dim>> &positions, const State &state)
+    {
+      std::vector<Point<dim>> corners;
+      corners.reserve(2 * positions.size());
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        {
+          const ParticleDomain<dim> domain(positions[i], volume(state(i)));
+          corners.push_back(domain.lower());
+          corners.push_back(domain.upper());
+        }
+      return corners;
+    }
+
+    template <int dim>
+    std::vector<Point<dim>>
+    domain_corners(const PointList<dim> &cells, const CellSlots<dim> &slots)
+    {
+      return domain_corners(cells.positions, [&](const std::size_t i) {
+        return CellView<dim, const double>(
+          ArrayView<const double>(&cells.properties[i * cells.n_slots],
+                                  cells.n_slots),
+          slots);
+      });
+    }
   } // namespace
 
   template <int dim>
@@ -29,29 +58,13 @@ namespace Morula
   {}
 
   template <int dim>
-  std::vector<Point<dim>>
-  Tissue<dim>::domain_corners(const PointList<dim> &cells) const
-  {
-    std::vector<Point<dim>> corners;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      {
-        const CellView<dim, const double> state(
-          ArrayView<const double>(&cells.properties[i * cells.n_slots],
-                                  cells.n_slots),
-          slots_);
-        const ParticleDomain<dim> domain(cells.positions[i], volume(state));
-        corners.push_back(domain.lower());
-        corners.push_back(domain.upper());
-      }
-    return corners;
-  }
-
-  template <int dim>
   bool
   Tissue<dim>::balanced(const std::vector<unsigned int> &counts) const
   {
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(grid_.communicator());
+    if (n_ranks == 1)
+      return true;
     std::vector<double> loads(n_ranks, 0.);
     for (unsigned int number = 0; number < counts.size(); ++number)
       loads[grid_.owner(number)] += counts[number];
@@ -74,21 +87,18 @@ namespace Morula
   {
     cells_.clear();
     boundary_points_.clear();
-    const std::vector<Point<dim>> corners = domain_corners(cells);
+    const std::vector<Point<dim>> corners = domain_corners(cells, slots_);
     const auto [first, last] =
       extent<dim>({&corners, &boundary_points.positions}, grid_);
     bool made_anew = !grid_.covers(first, last);
     if (made_anew)
       grid_.enclose(first, last);
-    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
+    const std::vector<unsigned int> counts =
+      count_points(cells.positions, grid_);
+    if (made_anew || !balanced(counts))
       {
-        const std::vector<unsigned int> counts =
-          count_points(cells.positions, grid_);
-        if (made_anew || !balanced(counts))
-          {
-            grid_.partition(counts);
-            made_anew = true;
-          }
+        grid_.partition(counts);
+        made_anew = true;
       }
     if (made_anew)
       {
@@ -97,6 +107,42 @@ namespace Morula
       }
     cells_.insert(cells, grid_);
     boundary_points_.insert(boundary_points, grid_);
+  }
+
+  template <int dim>
+  void
+  Tissue<dim>::move(const std::vector<Point<dim>> &cells,
+                    const std::vector<Point<dim>> &boundary_points)
+  {
+    const std::vector<Point<dim>> corners =
+      domain_corners(cells, [&](const std::size_t i) {
+        return cell(cells_.order()[i]);
+      });
+    const auto [first, last] = extent<dim>({&corners, &boundary_points}, grid_);
+    if (!grid_.covers(first, last) || !balanced(count_points(cells, grid_)))
+      {
+        PointList<dim> all = cells_.copy(), surface = boundary_points_.copy();
+        all.positions     = cells;
+        surface.positions = boundary_points;
+        place(all, surface);
+        return;
+      }
+    cells_.move(cells, grid_);
+    boundary_points_.move(boundary_points, grid_);
+  }
+
+  template <int dim>
+  ArrayView<double>
+  Tissue<dim>::cell_properties(const unsigned int p)
+  {
+    return cells_.properties(p);
+  }
+
+  template <int dim>
+  ArrayView<double>
+  Tissue<dim>::boundary_properties(const unsigned int p)
+  {
+    return boundary_points_.properties(p);
   }
 
   template <int dim>
@@ -122,7 +168,7 @@ namespace Morula
     const PointList<dim>                                  &daughters)
   {
     // Daughters stand next to their mothers, but that may be the box's edge.
-    const std::vector<Point<dim>> corners = domain_corners(daughters);
+    const std::vector<Point<dim>> corners = domain_corners(daughters, slots_);
     const auto [first, last]              = extent<dim>({&corners}, grid_);
     if (!grid_.covers(first, last))
       {

@@ -128,6 +128,12 @@ namespace Morula
       return nulls;
     }
 
+    IndexSet
+    coupled_dofs() const override
+    {
+      return owned;
+    }
+
     double
     small_force() const override
     {

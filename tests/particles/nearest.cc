@@ -43,7 +43,15 @@ namespace
       if (grid.owner(grid.box().number(grid.box().locate(query))) ==
           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
         queries.push_back(query);
-    const auto found = nearest_properties(queries, owned(all, grid), grid);
+    PointStore<dim> store(all.n_slots);
+    store.attach(grid);
+    store.insert(owned(all, grid), grid);
+    const auto append = [&](const unsigned int p, std::vector<double> &list) {
+      const auto properties = store.properties(p);
+      list.insert(list.end(), properties.begin(), properties.end());
+    };
+    const auto found =
+      nearest_properties(queries, store, {all.n_slots, append}, grid);
     ASSERT_EQ(found.size(), queries.size() * all.n_slots);
     for (std::size_t q = 0; q < queries.size(); ++q)
       for (unsigned int slot = 0; slot < all.n_slots; ++slot)

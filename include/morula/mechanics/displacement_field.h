@@ -6,6 +6,7 @@
 
 #include <morula/grid/spline_space.h>
 #include <morula/mechanics/term.h>
+#include <morula/particles/point_store.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -32,10 +33,41 @@ namespace Morula
     LocalField<dim>
     on_cell(const unsigned int cell) const;
 
+    /**
+     * Calls action(p, field, splines) for each point of a store in order:
+     * with its position in PointStore::order(), the field on its grid cell, and
+     * the splines at its place.
+     */
+    template <typename Action>
+    void
+    at_points(const PointStore<dim> &store, const Action &action) const;
+
   private:
     const SplineSpace<dim>       &space;
     TrilinosWrappers::MPI::Vector relevant;
   };
+
+  template <int dim>
+  template <typename Action>
+  void
+  DisplacementField<dim>::at_points(const PointStore<dim> &store,
+                                    const Action          &action) const
+  {
+    unsigned int c = 0;
+    for (const auto &cell : store.cells())
+      {
+        while (space.cells()[c].number != cell.number)
+          ++c;
+        const LocalField<dim> field = on_cell(c);
+        const GridIndex<dim>  index = space.box().index(cell.number);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          action(p,
+                 field,
+                 SplineValues<dim>(space.box().unit_position(
+                                     store.order()[p]->get_location(), index),
+                                   space.box().spacing()));
+      }
+  }
 } // namespace Morula
 
 #endif

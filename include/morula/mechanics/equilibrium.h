@@ -89,6 +89,12 @@ namespace Morula
     virtual const std::vector<Vector> &
     null_space() const = 0;
 
+    /** Unknowns, of this rank or others, that hang together so closely that a
+     *  preconditioner must not part them: what couples them most is this rank's
+     *  part of the problem. */
+    virtual IndexSet
+    coupled_dofs() const = 0;
+
     /** A force that counts as small in this scene, kPa µm^(dim-1). */
     virtual double
     small_force() const = 0;

@@ -5,10 +5,10 @@
 #define morula_mechanics_linear_solver_h
 
 #include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/overlapping_cholesky.h>
 #include <morula/mechanics/solver_parameters.h>
 
 #include <deal.II/base/timer.h>
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
 #include <memory>
@@ -95,7 +95,7 @@ namespace Morula
                    const Vector                   &b) const;
 
     void
-    make_preconditioner(const Matrix &K);
+    make_preconditioner(const Matrix &K, const double fill);
 
     /** Removes the part in the problem's null space. */
     void
@@ -107,8 +107,9 @@ namespace Morula
     const bool         symmetric;
     TimerOutput       &timer;
     Matrix symmetric_part; // of an unsymmetric tangent; the preconditioner's
-    std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
-    double                                              largest_shift_ = 0.;
+    std::unique_ptr<OverlappingCholesky> preconditioner;
+    double                               fill_of_preconditioner = 0.;
+    double                               largest_shift_         = 0.;
     bool prepared = false; // a preconditioner was made; none now: Jacobi
   };
 } // namespace Morula

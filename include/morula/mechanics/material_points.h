@@ -54,6 +54,8 @@ namespace Morula
     std::vector<Lame> lame;
     /** Growth at t + dt. */
     std::vector<ElasticState<dim>> current;
+    /** Whether some cells are several points. */
+    bool subdivided = false;
     /** Growth at t; empty if nothing grows. */
     std::vector<ElasticState<dim>> previous;
 

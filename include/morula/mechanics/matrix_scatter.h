@@ -56,13 +56,23 @@ namespace Morula
     std::vector<unsigned int>
     owners_of_relevant() const;
 
-    void
-    make_pattern(const Couplings &columns);
+    /** By rank: an unknown's number, that of its columns, the columns; then the
+     *  next unknown's. */
+    using Messages =
+      std::map<unsigned int, std::vector<types::global_dof_index>>;
 
-    /** Agrees with the other ranks about what is sent. */
+    /** Tells the owners of other ranks' rows what will be sent to them.
+     *  @return what they tell */
+    Messages
+    announce(const Couplings &columns, const std::vector<unsigned int> &owners);
+
+    /** Own rows, with the columns that any rank adds to. */
     void
-    make_exchange(const Couplings                 &columns,
-                  const std::vector<unsigned int> &owners);
+    make_pattern(const Couplings &columns, const Messages &announced);
+
+    /** Where the entries that other ranks send go. */
+    void
+    make_received(const Messages &announced);
 
     /** Where the entries of the grid cells' matrices go. */
     void

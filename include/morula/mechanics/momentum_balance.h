@@ -84,6 +84,11 @@ namespace Morula
     double
     small_force() const override;
 
+    /** Those of the extended splines in this rank's grid cells: the tangent
+     *  couples these many times as much as others. */
+    IndexSet
+    coupled_dofs() const override;
+
     double
     stiffness_scale() const override;
 

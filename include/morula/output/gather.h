@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi_large_count.h>
 
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -22,7 +23,7 @@ namespace Morula
    */
   template <typename Container>
   std::vector<Container>
-  gather_to_root(const Container &local, const MPI_Comm comm)
+  gather_to_root(Container local, const MPI_Comm comm)
   {
     using T = typename Container::value_type;
     static_assert(std::is_trivially_copyable<T>::value,
@@ -43,7 +44,7 @@ namespace Morula
       }
 
     std::vector<Container> all(sizes.size());
-    all[0] = local;
+    all[0] = std::move(local);
     for (std::size_t rank = 1; rank < all.size(); ++rank)
       if (sizes[rank] > 0)
         {

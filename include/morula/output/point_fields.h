@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ namespace Morula
     /** The columns behind these are for VTU files only. */
     unsigned int           n_csv_columns = 0;
     std::vector<Nonscalar> nonscalars;
+    /** Names of scalars that are numbers without fraction. */
+    std::set<std::string> whole;
 
     std::vector<types::particle_index> ids;
     /** Current, µm. */

@@ -5,21 +5,31 @@
 #define morula_particles_nearest_h
 
 #include <morula/grid/background_grid.h>
-#include <morula/particles/point_list.h>
+#include <morula/particles/point_store.h>
 
+#include <functional>
 #include <vector>
 
 namespace Morula
 {
+  /** What is wanted of a point, given by its position in PointStore::order():
+   *  append(p, list) adds @p n numbers to the list. */
+  struct WantedProperties
+  {
+    unsigned int                                             n;
+    std::function<void(unsigned int, std::vector<double> &)> append;
+  };
+
   /**
-   * The properties of the point nearest to each query position, over all ranks
-   * (ties: the lowest id). Queries lie in grid cells of this rank. Returns
-   * points.n_slots numbers for each query. Collective.
+   * What is wanted of the point nearest to each query position, over all ranks
+   * (ties: the lowest id), one after the other. Queries lie in grid cells of
+   * this rank. Asks only for points near any query. Collective.
    */
   template <int dim>
   std::vector<double>
   nearest_properties(const std::vector<Point<dim>> &queries,
-                     const PointList<dim>          &points,
+                     const PointStore<dim>         &points,
+                     const WantedProperties        &wanted,
                      const BackgroundGrid<dim>     &grid);
 } // namespace Morula
 

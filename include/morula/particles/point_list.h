@@ -4,6 +4,7 @@
 #ifndef morula_particles_point_list_h
 #define morula_particles_point_list_h
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 #include <deal.II/particles/property_pool.h>
 
@@ -30,6 +31,16 @@ namespace Morula
     size() const
     {
       return ids.size();
+    }
+
+    void
+    add(const types::particle_index    id,
+        const Point<dim>              &position,
+        const ArrayView<const double> &values)
+    {
+      ids.push_back(id);
+      positions.push_back(position);
+      properties.insert(properties.end(), values.begin(), values.end());
     }
   };
 } // namespace Morula

@@ -51,6 +51,14 @@ namespace Morula
     void
     insert(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
 
+    /**
+     * Moves the points of this rank to these positions (µm), in order; those
+     * that leave it are sent to their new owners. Collective.
+     */
+    void
+    move(const std::vector<Point<dim>> &positions,
+         const BackgroundGrid<dim>     &grid);
+
     /** Removes these points of this rank. */
     void
     remove(const std::vector<Iterator> &points,
@@ -75,6 +83,10 @@ namespace Morula
     /** All points of this rank in the canonical order. */
     const std::vector<Iterator> &
     order() const;
+
+    /** Properties of the point order()[p], to be changed. */
+    ArrayView<double>
+    properties(const unsigned int p);
 
     unsigned int
     n_slots() const;

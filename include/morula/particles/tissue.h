@@ -37,8 +37,24 @@ namespace Morula
     place(const PointList<dim> &cells, const PointList<dim> &boundary_points);
 
     /**
-     * The same on a given box and partition, as they were when a snapshot was
-     * written. Collective.
+     * Moves this rank's cells and boundary points to these positions (µm), in
+     * the order of their stores; what has been written to cell_properties() and
+     * boundary_properties() goes with them. Collective.
+     */
+    void
+    move(const std::vector<Point<dim>> &cells,
+         const std::vector<Point<dim>> &boundary_points);
+
+    /** Properties of this rank's points, by position in their stores. */
+    ArrayView<double>
+    cell_properties(const unsigned int p);
+
+    ArrayView<double>
+    boundary_properties(const unsigned int p);
+
+    /**
+     * The same as place() on a given box and partition, as they were when a
+     * snapshot was written. Collective.
      */
     void
     restore(const PointList<dim>            &cells,
@@ -80,10 +96,7 @@ namespace Morula
     communicator() const;
 
   private:
-    /** Corners of the cells' domains: the grid must reach as far. */
-    std::vector<Point<dim>>
-    domain_corners(const PointList<dim> &cells) const;
-
+    /** Whether the ranks' loads are about equal. */
     bool
     balanced(const std::vector<unsigned int> &counts) const;
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/overlapping_cholesky.h>
+
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Own rows, then the others. */
+    Epetra_Map
+    block_map(const OverlappingCholesky::Matrix &K, IndexSet others)
+    {
+      const IndexSet own = K.locally_owned_range_indices();
+      others.subtract_set(own);
+      std::vector<int> rows;
+      for (const IndexSet &part : {own, others})
+        for (const auto row : part)
+          rows.push_back(static_cast<int>(row));
+      return Epetra_Map(
+        -1, rows.size(), rows.data(), 0, K.trilinos_matrix().Comm());
+    }
+  } // namespace
+
+  OverlappingCholesky::OverlappingCholesky(const Matrix     &K,
+                                           const IndexSet   &others,
+                                           const Parameters &parameters)
+    : rows(block_map(K, others))
+    , import(rows, K.trilinos_matrix().RowMap())
+    , self(MPI_COMM_SELF)
+    , local(rows.NumMyElements(), 0, self)
+    , gathered(rows)
+  {
+    if (rows.Comm().NumProc() > 1)
+      block = block_of(K.trilinos_matrix());
+    factorize(block ? *block : K.trilinos_matrix(), parameters);
+  }
+
+  std::unique_ptr<Epetra_CrsMatrix>
+  OverlappingCholesky::block_of(const Epetra_CrsMatrix &K) const
+  {
+    const int        n_own = K.NumMyRows(), n = rows.NumMyElements();
+    const Epetra_Map others(
+      -1, n - n_own, rows.MyGlobalElements() + n_own, 0, rows.Comm());
+    Epetra_CrsMatrix received(Copy, others, 0);
+    const int        error =
+      received.Import(K, Epetra_Import(others, K.RowMap()), Insert);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+
+    std::vector<int> numbers(K.NumMyCols());
+    for (int k = 0; k < K.NumMyCols(); ++k)
+      numbers[k] = rows.LID(K.GCID(k));
+    auto result =
+      std::make_unique<Epetra_CrsMatrix>(Copy, local, local, K.MaxNumEntries());
+    std::vector<int>    columns;
+    std::vector<double> values;
+    for (int row = 0; row < n; ++row)
+      {
+        int     length, *ids;
+        double *entries;
+        if (row < n_own)
+          K.ExtractMyRowView(row, length, entries, ids);
+        else
+          received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
+        columns.clear();
+        values.clear();
+        for (int k = 0; k < length; ++k)
+          {
+            const int column = row < n_own ? numbers[ids[k]] : rows.LID(ids[k]);
+            if (column >= row) // Ifpack reads no others
+              {
+                columns.push_back(column);
+                values.push_back(entries[k]);
+              }
+          }
+        result->InsertMyValues(row,
+                               values.size(),
+                               values.data(),
+                               columns.data());
+      }
+    result->FillComplete();
+    return result;
+  }
+
+  void
+  OverlappingCholesky::factorize(const Epetra_CrsMatrix &A,
+                                 const Parameters       &parameters)
+  {
+    // Ifpack only reads the matrix.
+    factor = std::make_unique<Ifpack_IC>(const_cast<Epetra_CrsMatrix *>(&A));
+    Teuchos::ParameterList list;
+    list.set("fact: ict level-of-fill", parameters.fill);
+    list.set("fact: relative threshold", parameters.relative_diagonal);
+    list.set("fact: absolute threshold", parameters.absolute_diagonal);
+    factor->SetParameters(list);
+    int error = factor->Initialize();
+    AssertThrow(error == 0, ExcTrilinosError(error));
+    error = factor->Compute();
+    AssertThrow(error == 0, ExcTrilinosError(error));
+  }
+
+  void
+  OverlappingCholesky::vmult(Vector &y, const Vector &x) const
+  {
+    if (!block)
+      {
+        factor->ApplyInverse(x.trilinos_vector(), y.trilinos_vector());
+        return;
+      }
+    gathered.Import(x.trilinos_vector(), import, Insert);
+    Epetra_Vector view(View, local, gathered.Values());
+    factor->ApplyInverse(view, view);
+    y.trilinos_vector().PutScalar(0.);
+    y.trilinos_vector().Export(gathered, import, Add);
+  }
+} // namespace Morula

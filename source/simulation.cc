@@ -91,7 +91,7 @@ namespace Morula
   {
     row           = StatisticsRow();
     newton_report = NewtonReport();
-    births.clear();
+    births        = {};
     condition.reset();
     ++n_steps;
 

@@ -92,6 +92,8 @@ namespace Morula
 
     PointList<dim> cells;
     cells.n_slots = tissue.slots().n_slots;
+    cells.reserve(founders.positions.size());
+    births.reserve(founders.positions.size());
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
     for (std::size_t i = 0; i < founders.positions.size(); ++i)
       {
@@ -102,11 +104,9 @@ namespace Morula
         cell.set_scalar(tissue.slots().initial_volume, founders.volumes[i]);
         cell.set_tensor(tissue.slots().deformation, identity);
         growth.initialize(founders.first_id + i, cell);
-        cells.ids.push_back(founders.first_id + i);
-        cells.positions.push_back(founders.positions[i]);
-        cells.properties.insert(cells.properties.end(),
-                                slots.begin(),
-                                slots.end());
+        cells.add(founders.first_id + i,
+                  founders.positions[i],
+                  make_array_view(slots));
         births.push_back({cells.ids.back(), -1, 0, 0., founders.positions[i]});
       }
 
@@ -116,8 +116,6 @@ namespace Morula
                               BoundarySlots<dim>::n_slots;
     for (std::size_t i = 0; i < patches.positions.size(); ++i)
       {
-        points.ids.push_back(patches.first_id + i);
-        points.positions.push_back(patches.positions[i]);
         std::vector<double> slots = initial_boundary_slots<dim>(
           patches.positions[i],
           patches.normals[i],
@@ -126,9 +124,9 @@ namespace Morula
                                         patches.normals[i]));
         if (refine)
           slots = with_patch<dim>(std::move(slots));
-        points.properties.insert(points.properties.end(),
-                                 slots.begin(),
-                                 slots.end());
+        points.add(patches.first_id + i,
+                   patches.positions[i],
+                   make_array_view(slots));
       }
     tissue.place(cells, points);
     next_id          = founders.n_global;
@@ -286,7 +284,7 @@ namespace Morula
     if (files->writes_points() && files->output_due(t, last))
       {
         const TimerOutput::Scope section(timer, "output");
-        CellFields<dim>          cells(t);
+        CellFields<dim>          cells(t, tissue.cells().order().size());
         for (const auto &particle : tissue.cells().order())
           {
             const auto cell = tissue.cell(particle);

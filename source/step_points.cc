@@ -181,6 +181,7 @@ namespace Morula
                        return true;
                      }).offsets;
     points.h       = space.box().spacing();
+    points.xi.reserve(tissue.cells().order().size());
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
         const GridIndex<dim> index = space.box().index(space.cells()[c].number);
@@ -210,6 +211,9 @@ namespace Morula
 
     MaterialPoints<dim> points;
     static_cast<GroupedPoints<dim> &>(points) = cell_positions(tissue, space);
+    points.current.reserve(points.xi.size());
+    if (growth.present)
+      points.previous.reserve(points.xi.size());
     for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
       append(data_of(tissue, i, growth, material),
              growth.present,

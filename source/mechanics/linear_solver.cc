@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace Morula
 {
@@ -26,12 +27,21 @@ namespace Morula
 
     constexpr unsigned int max_iterations = 2000;
 
-    /** Entries of the incomplete factor, over those of the matrix's triangle.
-     *  Fewer make it faster, until it is no longer positive (below 0.4 on the
-     *  half-fixed sphere); then, or where it is of no use, it is made again
-     *  with the full number (doc/performance.md, The linear solver). */
-    constexpr double usual_fill = 0.6;
-    constexpr double full_fill  = 1.;
+    /**
+     * Incomplete factorisations, tried one after the other until one is
+     * positive and of use. Fewer entries make them faster; the raised diagonal
+     * keeps them positive, and usable for the later tangents of the step
+     * (doc/performance.md, The linear solver).
+     */
+    struct Attempt
+    {
+      double fill, relative_diagonal;
+    };
+    constexpr Attempt attempts[]        = {{0.6, 1.02},
+                                           {1., 1.02},
+                                           {1., 1.1},
+                                           {1., 1.5}};
+    constexpr double  absolute_diagonal = 2e-5; // of the stiffness scale
 
     /** Shifts tried on negative curvature: each at least shift_factor times the
      *  one before, and curvature_factor times what the curvature asks for (the
@@ -197,32 +207,36 @@ namespace Morula
   }
 
   void
-  LinearSolver::make_preconditioner(const Matrix &K, const double fill)
+  LinearSolver::make_preconditioner(const Matrix &K)
   {
-    // A slightly raised diagonal keeps the factorisation positive, and usable
-    // for the later tangents of the step. Of an unsymmetric tangent it is that
-    // of the symmetric part: positive definite where the body is stable, so
-    // that the preconditioned operator is the identity and a bounded skew part.
-    OverlappingCholesky::Parameters parameters;
-    parameters.fill              = fill;
-    parameters.relative_diagonal = 1.02;
-    parameters.absolute_diagonal = 2e-5 * problem.stiffness_scale();
+    // Of an unsymmetric tangent it is that of the symmetric part: positive
+    // definite where the body is stable, so that the preconditioned operator is
+    // the identity and a bounded skew part.
     if (!symmetric)
       symmetrize(K, symmetric_part);
     preconditioner.reset();
-    std::unique_ptr<OverlappingCholesky> made;
-    try
+    for (; !preconditioner && n_attempts < std::size(attempts); ++n_attempts)
       {
-        made =
-          std::make_unique<OverlappingCholesky>(symmetric ? K : symmetric_part,
-                                                problem.coupled_dofs(),
-                                                parameters);
+        OverlappingCholesky::Parameters parameters;
+        parameters.fill              = attempts[n_attempts].fill;
+        parameters.relative_diagonal = attempts[n_attempts].relative_diagonal;
+        parameters.absolute_diagonal =
+          absolute_diagonal * problem.stiffness_scale();
+        std::unique_ptr<OverlappingCholesky> made;
+        try
+          {
+            made =
+              std::make_unique<OverlappingCholesky>(symmetric ? K :
+                                                                symmetric_part,
+                                                    problem.coupled_dofs(),
+                                                    parameters);
+          }
+        catch (const ExceptionBase &)
+          {}                                               // a zero pivot
+        const bool failed = !made || !made->is_positive(); // on this rank
+        if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
+          preconditioner = std::move(made);
       }
-    catch (const ExceptionBase &)
-      {} // a zero pivot; perhaps on this rank alone
-    if (!Utilities::MPI::logical_or(!made, K.get_mpi_communicator()))
-      preconditioner = std::move(made);
-    fill_of_preconditioner = fill;
   }
 
   void
@@ -235,7 +249,7 @@ namespace Morula
     if (!direct && !prepared)
       {
         const TimerOutput::Scope section(timer, "preconditioner");
-        make_preconditioner(K, symmetric ? usual_fill : full_fill);
+        make_preconditioner(K);
         prepared = true;
       }
     const TimerOutput::Scope section(timer, "linear solver");
@@ -289,10 +303,8 @@ namespace Morula
         if (outcome == Outcome::negative_curvature)
           shift = std::max(
             {least_shift, curvature_factor * needed, shift_factor * shift});
-        else if (preconditioner && fill_of_preconditioner < full_fill)
-          make_preconditioner(K, full_fill); // not positive, or of no use
         else if (preconditioner)
-          preconditioner.reset(); // likewise: Jacobi
+          make_preconditioner(K); // that one was of no use: another, or none
         else
           break;
       }

@@ -101,6 +101,16 @@ namespace Morula
     AssertThrow(error == 0, ExcTrilinosError(error));
   }
 
+  bool
+  OverlappingCholesky::is_positive() const
+  {
+    const Epetra_Vector &inverse_pivots = factor->D();
+    for (int k = 0; k < inverse_pivots.MyLength(); ++k)
+      if (!(inverse_pivots[k] > 0.))
+        return false;
+    return true;
+  }
+
   void
   OverlappingCholesky::vmult(Vector &y, const Vector &x) const
   {

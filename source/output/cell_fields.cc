@@ -46,7 +46,7 @@ namespace Morula
   }
 
   template <int dim>
-  CellFields<dim>::CellFields(const double time)
+  CellFields<dim>::CellFields(const double time, const std::size_t n_cells)
     : time(time)
   {
     table.names         = {"time",
@@ -80,7 +80,8 @@ namespace Morula
                              "principal_stress_3"})
       table.names.push_back(name);
     table.add_nonscalar("displacement", 3);
-    table.add_nonscalar("sigma", 9);
+    table.add_nonscalar("sigma", 6);
+    table.reserve(n_cells);
   }
 
   template <int dim>
@@ -120,9 +121,13 @@ namespace Morula
     for (const double principal : eigenvalues(sigma))
       values.push_back(principal);
     table.add_vector(position - cell.founder_position());
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        values.push_back(sigma[i][j]);
+    for (const double value : {sigma[0][0],
+                               sigma[1][1],
+                               sigma[2][2],
+                               sigma[0][1],
+                               sigma[1][2],
+                               sigma[2][0]})
+      values.push_back(value);
   }
 
   template CellQuantities

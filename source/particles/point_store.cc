@@ -22,6 +22,7 @@ namespace Morula
   {
     Assert(order_.empty(), ExcMessage("Take the points out first."));
     handler.initialize(grid.triangulation(), mapping, n_slots_);
+    capacity = 0;
   }
 
   template <int dim>
@@ -34,6 +35,7 @@ namespace Morula
       received = send_to_owners(points, grid);
     const PointList<dim> &mine =
       received.n_slots > 0 ? received : points; // no copy on one rank
+    reserve(order_.size() + mine.size());
     const GridBox<dim> &box = grid.box();
     for (std::size_t i = 0; i < mine.size(); ++i)
       {
@@ -74,17 +76,17 @@ namespace Morula
               left.push_back(order_[p]);
             }
       }
-    handler.remove_particles(left);
-    insert(leaving, grid);
+    replace(left, leaving, grid);
   }
 
   template <int dim>
   void
-  PointStore<dim>::remove(const std::vector<Iterator> &points,
-                          const BackgroundGrid<dim>   &grid)
+  PointStore<dim>::replace(const std::vector<Iterator> &removed,
+                           const PointList<dim>        &inserted,
+                           const BackgroundGrid<dim>   &grid)
   {
-    handler.remove_particles(points);
-    sort(grid);
+    handler.remove_particles(removed);
+    insert(inserted, grid);
   }
 
   template <int dim>
@@ -93,9 +95,7 @@ namespace Morula
   {
     PointList<dim> points;
     points.n_slots = n_slots_;
-    points.ids.reserve(order_.size());
-    points.positions.reserve(order_.size());
-    points.properties.reserve(order_.size() * n_slots_);
+    points.reserve(order_.size());
     for (const Iterator &point : order_)
       points.add(point->get_id(),
                  point->get_location(),
@@ -119,6 +119,18 @@ namespace Morula
     order_.clear();
     cells_.clear();
     handler.clear_particles();
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::reserve(const std::size_t n)
+  {
+    // deal.II's pool would double, and for a moment hold three times what a
+    // growing tissue needs.
+    if (n <= capacity)
+      return;
+    capacity = capacity == 0 ? n : std::max(n, capacity + capacity / 4);
+    handler.get_property_pool().reserve(capacity);
   }
 
   template <int dim>

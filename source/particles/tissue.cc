@@ -172,8 +172,9 @@ namespace Morula
     const auto [first, last]              = extent<dim>({&corners}, grid_);
     if (!grid_.covers(first, last))
       {
-        PointList<dim> all = daughters;
-        cells_.remove(mothers, grid_);
+        PointList<dim> all = daughters, none;
+        none.n_slots       = daughters.n_slots;
+        cells_.replace(mothers, none, grid_);
         const PointList<dim> others = cells_.take();
         all.ids.insert(all.ids.end(), others.ids.begin(), others.ids.end());
         all.positions.insert(all.positions.end(),
@@ -185,8 +186,7 @@ namespace Morula
         place(all, boundary_points_.copy());
         return;
       }
-    cells_.remove(mothers, grid_);
-    cells_.insert(daughters, grid_);
+    cells_.replace(mothers, daughters, grid_);
   }
 
   template <int dim>

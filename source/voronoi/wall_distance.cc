@@ -5,7 +5,6 @@
 
 #include <CGAL/Fuzzy_sphere.h>
 #include <CGAL/Kd_tree.h>
-#include <CGAL/Orthogonal_incremental_neighbor_search.h>
 #include <CGAL/Search_traits_2.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
@@ -52,6 +51,10 @@ namespace Morula
     };
 
 
+    /** Points in a leaf of a search tree. A tree of CGAL's usual 10 takes
+     *  twice as long to make. */
+    constexpr unsigned int bucket_size = 40;
+
     /** Points in a kd-tree, each with its index. */
     template <int dim>
     class PointTree
@@ -62,12 +65,13 @@ namespace Morula
         CGAL::Search_traits_adapter<Entry,
                                     CGAL::First_of_pair_property_map<Entry>,
                                     typename SpatialTypes<dim>::Traits>;
-      using Search = CGAL::Orthogonal_incremental_neighbor_search<Traits>;
-      using Tree   = typename Search::Tree;
-      using Sphere = CGAL::Fuzzy_sphere<Traits>;
+      using Tree     = CGAL::Kd_tree<Traits>;
+      using Splitter = typename Tree::Splitter;
+      using Sphere   = CGAL::Fuzzy_sphere<Traits>;
 
       template <typename Position>
       PointTree(const std::size_t n_points, const Position &position)
+        : tree(Splitter(bucket_size))
       {
         std::vector<Entry> entries;
         entries.reserve(n_points);
@@ -76,14 +80,6 @@ namespace Morula
         tree.insert(entries.begin(), entries.end());
         if (n_points > 0)
           tree.build();
-      }
-
-      /** All points by increasing distance from @p center, as they are asked
-       *  for. */
-      Search
-      by_distance(const Point<dim> &center) const
-      {
-        return Search(tree, convert(center));
       }
 
       /** Indices of the points within @p radius. */
@@ -158,32 +154,24 @@ namespace Morula
 
     /**
      * Where the rays from a cell leave its Voronoi region. The wall against a
-     * neighbour at distance r is no nearer than r/2, so that all walls that can
-     * matter have been seen when r exceeds twice the farther of the two nearest
-     * walls. Being a minimum over a set that holds all of them, the result does
-     * not depend on the order of the points.
+     * neighbour at distance r is no nearer than r/2, so that neighbours within
+     * twice the cell's length hold all walls that count. Being a minimum over
+     * these, the result does not depend on the order of the points.
      *
      * Neighbours within 1e-3 lengths count as coinciding and bound nothing; a
      * wall is therefore at least 5e-4 lengths away.
      */
     template <int dim>
     void
-    meet_voronoi_walls(const DividingCell<dim>                  &cell,
-                       const PointTree<dim>                     &cells,
-                       const std::vector<types::particle_index> &ids,
-                       const std::vector<Point<dim>>            &positions,
-                       WallDistances                            &distances)
+    meet_voronoi_walls(const DividingCell<dim>                           &cell,
+                       const std::vector<typename PointTree<dim>::Entry> &near,
+                       const std::vector<types::particle_index>          &ids,
+                       const std::vector<Point<dim>> &positions,
+                       WallDistances                 &distances)
     {
-      const auto neighbours = cells.by_distance(cell.position);
-      for (const auto &neighbour : neighbours)
+      for (const auto &entry : near)
         {
-          const double reach =
-            2. * (1. + search_slack) *
-            std::min(cell.length, std::max(distances[0], distances[1]));
-          if (neighbour.second > reach * reach)
-            break;
-
-          const std::size_t    q = neighbour.first.second;
+          const std::size_t    q = entry.second;
           const Tensor<1, dim> r = positions[q] - cell.position;
           if (ids[q] == cell.id || r.norm() < contact * cell.length)
             continue;
@@ -250,7 +238,10 @@ namespace Morula
                                   near);
             meet_dirichlet_walls(cell, walls, near, distances);
           }
-        meet_voronoi_walls(cell, cells, ids, positions, distances);
+        cells.find_within(cell.position,
+                          2. * (1. + search_slack) * cell.length,
+                          near);
+        meet_voronoi_walls(cell, near, ids, positions, distances);
         result.push_back(place_daughters(distances, cell.length));
       }
     return result;

@@ -7,8 +7,9 @@ import re
 
 # Iterations depend on the rounding, that is on the processor.
 TOLERANCE = 0.1
-# Sums of ranks' blocks precondition less well than the whole factorisation.
-RANKS_TOLERANCE = 1.5
+# Sums of ranks' blocks precondition less well than the whole factorisation, by
+# far so on the few grid cells of these scenes.
+RANKS_FACTOR = 4.5
 
 
 def flop_per_point(dim):
@@ -59,7 +60,7 @@ def excess(found, reference, ranks):
         name, usual = row["counter"], int(row["value"])
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":
-            upper *= 1 + RANKS_TOLERANCE
+            upper *= RANKS_FACTOR
         if not lower - 2 <= found[name] <= upper + 2:
             texts.append(f"{name}: {found[name]}, in the reference {usual}")
     return texts

@@ -110,7 +110,7 @@ TEST(CellFields, GivesShearStress)
   F[1][2]        = 0.25;
   cell.writer().set_scalar(cell.slots.initial_volume, 1.);
   cell.writer().set_tensor(cell.slots.deformation, F);
-  CellFields<3> fields(0.);
+  CellFields<3> fields(0., 1);
   fields.add(0,
              cell.reader(),
              {},
@@ -160,7 +160,7 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   write.set_scalar(cell.slots.parent, 7.);
   write.set_scalar(cell.slots.generation, 2.);
 
-  CellFields<2> fields(third);
+  CellFields<2> fields(third, 1);
   const auto    q = cell_quantities<2>(cell.reader(), lame_constants, true);
   fields.add(12, cell.reader(), Point<2>(5., 6.), 3, q);
   const auto &table  = fields.fields();

@@ -32,6 +32,7 @@ namespace
     PointFields<dim> fields;
     fields.names         = {"id", "energy"};
     fields.n_csv_columns = 1;
+    fields.whole         = {"id"};
     fields.add_nonscalar("displacement", 3);
     fields.add_nonscalar("sigma", 9);
     for (unsigned int id = 0; id < n; ++id)
@@ -112,6 +113,7 @@ for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
         n = data.GetArray('id').GetValue(i)
         x = [10 * n + d if d < dim else 0 for d in range(3)]
         assert grid.GetPoint(i) == tuple(x), grid.GetPoint(i)
+        assert data.GetArray('id').GetDataTypeAsString() == 'int'
         assert data.GetArray('energy').GetValue(i) == 0.5 * n
         u = data.GetArray('displacement').GetTuple(i)
         assert u == tuple(0.25 * c for c in x), u

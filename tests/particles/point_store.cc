@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "random_points.h"
 
@@ -87,10 +88,55 @@ namespace
     for (const auto &point : store.order())
       if (point->get_id() % 3 == 0)
         removed.push_back(point);
-    store.remove(removed, grid);
+    PointList<dim> none;
+    none.n_slots = 2;
+    store.replace(removed, none, grid);
     expect_store(store, grid, selected(all, [&](const std::size_t i) {
                    return all.ids[i] % 3 != 0;
                  }));
+  }
+
+  /** Points that stay in their grid cell, leave it, and leave their rank, with
+   *  properties written in place. */
+  template <int dim>
+  void
+  check_moves()
+  {
+    for (const double distance : {3., 30., 150.})
+      {
+        const auto          all = random_points<dim>(500, 200., 2, 7);
+        auto                end = all;
+        BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+        for (std::size_t i = 0; i < end.size(); ++i)
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              end.positions[i][d] +=
+                (((i + d) % 3) - 1.) * distance * (1. + 1e-3 * i);
+            end.properties[2 * i] = -1. * end.ids[i];
+          }
+        PointList<dim> both = all;
+        both.ids.insert(both.ids.end(), end.ids.begin(), end.ids.end());
+        both.positions.insert(both.positions.end(),
+                              end.positions.begin(),
+                              end.positions.end());
+        enclose(grid, both);
+        std::map<types::particle_index, Point<dim>> targets;
+        for (std::size_t i = 0; i < end.size(); ++i)
+          targets[end.ids[i]] = end.positions[i];
+
+        PointStore<dim> store(2);
+        store.attach(grid);
+        store.insert(dealt(all), grid);
+        std::vector<Point<dim>> positions;
+        for (unsigned int p = 0; p < store.order().size(); ++p)
+          {
+            const auto id = store.order()[p]->get_id();
+            positions.push_back(targets.at(id));
+            store.properties(p)[0] = -1. * id;
+          }
+        store.move(positions, grid);
+        expect_store(store, grid, end);
+      }
   }
 
   template <int dim>
@@ -128,6 +174,9 @@ TEST(PointStore, HoldsEachPointWhereItsGridCellIsOwned){
 
 
 TEST(PointStore, RemovesPoints){MORULA_BOTH_DIMENSIONS(check_removal)}
+
+
+TEST(PointStore, MovesPoints){MORULA_BOTH_DIMENSIONS(check_moves)}
 
 
 TEST(PointStore, CountsPointsOverAllRanks)

@@ -95,7 +95,7 @@ namespace Morula
                    const Vector                   &b) const;
 
     void
-    make_preconditioner(const Matrix &K, const double fill);
+    make_preconditioner(const Matrix &K);
 
     /** Removes the part in the problem's null space. */
     void
@@ -108,8 +108,8 @@ namespace Morula
     TimerOutput       &timer;
     Matrix symmetric_part; // of an unsymmetric tangent; the preconditioner's
     std::unique_ptr<OverlappingCholesky> preconditioner;
-    double                               fill_of_preconditioner = 0.;
-    double                               largest_shift_         = 0.;
+    std::size_t                          n_attempts     = 0; // to make one
+    double                               largest_shift_ = 0.;
     bool prepared = false; // a preconditioner was made; none now: Jacobi
   };
 } // namespace Morula

@@ -54,6 +54,10 @@ namespace Morula
                         const IndexSet   &others,
                         const Parameters &parameters);
 
+    /** Whether this rank's factorisation is positive. */
+    bool
+    is_positive() const;
+
     /** Collective. */
     void
     vmult(Vector &y, const Vector &x) const;

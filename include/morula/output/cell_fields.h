@@ -49,7 +49,8 @@ namespace Morula
   {
   public:
     /** @param time day */
-    explicit CellFields(const double time);
+    /** @param n_cells as many as will be added */
+    CellFields(const double time, const std::size_t n_cells);
 
     /**
      * Adds one cell of this rank.

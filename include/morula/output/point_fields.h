@@ -26,7 +26,7 @@ namespace Morula
   {
     /**
      * Consecutive columns that ParaView shall see as one vector (3 columns) or
-     * one tensor (9 columns, row by row), also in 2-D.
+     * one symmetric tensor (6 columns: xx, yy, zz, xy, yz, zx), also in 2-D.
      */
     struct Nonscalar
     {
@@ -63,6 +63,15 @@ namespace Morula
     {
       for (unsigned int d = 0; d < 3; ++d)
         values.push_back(d < dim ? vector[d] : 0.);
+    }
+
+    /** Makes room, when all columns are there. */
+    void
+    reserve(const std::size_t n_points)
+    {
+      ids.reserve(n_points);
+      positions.reserve(n_points);
+      values.reserve(n_points * names.size());
     }
 
     std::size_t

@@ -34,6 +34,14 @@ namespace Morula
     }
 
     void
+    reserve(const std::size_t n)
+    {
+      ids.reserve(n);
+      positions.reserve(n);
+      properties.reserve(n * n_slots);
+    }
+
+    void
     add(const types::particle_index    id,
         const Point<dim>              &position,
         const ArrayView<const double> &values)

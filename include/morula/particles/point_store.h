@@ -59,10 +59,12 @@ namespace Morula
     move(const std::vector<Point<dim>> &positions,
          const BackgroundGrid<dim>     &grid);
 
-    /** Removes these points of this rank. */
+    /** Removes these points of this rank, and inserts others as insert() does.
+     *  Collective. */
     void
-    remove(const std::vector<Iterator> &points,
-           const BackgroundGrid<dim>   &grid);
+    replace(const std::vector<Iterator> &removed,
+            const PointList<dim>        &inserted,
+            const BackgroundGrid<dim>   &grid);
 
     /** Takes all points of this rank out of the store. */
     void
@@ -95,7 +97,12 @@ namespace Morula
     void
     sort(const BackgroundGrid<dim> &grid);
 
+    /** Makes room for @p n points. */
+    void
+    reserve(const std::size_t n);
+
     const unsigned int              n_slots_;
+    std::size_t                     capacity = 0; // points there is room for
     MappingQ1<dim>                  mapping;
     Particles::ParticleHandler<dim> handler;
     std::vector<Cell>               cells_;

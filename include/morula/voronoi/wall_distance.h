@@ -43,9 +43,8 @@ namespace Morula
    * than the cell's length counts as absent.
    *
    * The Voronoi wall along the unit vector n is at
-   * min_q |q-p|² / (2 (q-p)·n) over the cells q with (q-p)·n > 0; neighbours
-   * are visited by increasing distance and the search stops once they are
-   * farther than twice the best distance: exact and local. Dirichlet boundary
+   * min_q |q-p|² / (2 (q-p)·n) over the cells q with (q-p)·n > 0; those within
+   * two lengths hold all walls that count: exact and local. Dirichlet boundary
    * points act as half-spaces, each within one point spacing of where the ray
    * hits it. Where only one side has a wall, the other daughter takes its
    * distance, (19); without walls both stand at a quarter of the length, (20).

@@ -72,13 +72,16 @@ namespace Morula
   {
     GrowthOfStep<dim> growth_of_step;
     growth_of_step.present = present();
-    if (present())
-      for (const auto &particle : tissue.cells().order())
-        {
-          const CellView<dim, const double> cell = tissue.cell(particle);
-          growth_of_step.previous.push_back(cell.growth());
-          growth_of_step.current.push_back(growth(cell, t0, t1));
-        }
+    if (!present())
+      return growth_of_step;
+    growth_of_step.previous.reserve(tissue.cells().order().size());
+    growth_of_step.current.reserve(tissue.cells().order().size());
+    for (const auto &particle : tissue.cells().order())
+      {
+        const CellView<dim, const double> cell = tissue.cell(particle);
+        growth_of_step.previous.push_back(cell.growth());
+        growth_of_step.current.push_back(growth(cell, t0, t1));
+      }
     return growth_of_step;
   }
 

@@ -435,3 +435,86 @@ TEST(Scene, HasShorterVectorsAndFewerShapesInThePlane)
                           "Proliferation/Cell cycle/Division axis=fixed"}),
                {"Proliferation/Cell cycle/Fixed axis", "zero"});
 }
+
+
+TEST(Scene, SaysWhereAKeyStands)
+{
+  expect_parts(complaint("subsection Growth\n set Stretch = 2\nend"),
+               {"scene.prm:2: Growth/Stretch",
+                "stands in subsection Growth/Isotropic"});
+  expect_parts(complaint("", {"Growth/Stretch=2"}),
+               {"-s: Growth/Stretch", "stands in subsection Growth/Isotropic"});
+  expect_parts(complaint("subsection Cell cycle\nend"),
+               {"scene.prm:1: Cell cycle",
+                "stands in subsection Proliferation"});
+}
+
+
+TEST(Scene, SuggestsChoices)
+{
+  expect_parts(complaint("subsection Tissue\n set Shape = spere\nend"),
+               {"scene.prm:2: Tissue/Shape",
+                "'spere'",
+                "Did you mean 'sphere'?"});
+  expect_parts(complaint("", {"Output/Formats=csv, vtk"}),
+               {"Did you mean 'vtu'?"});
+  expect_parts(complaint("", {"Grid/Extension=flase"}),
+               {"Did you mean 'false'?"});
+}
+
+
+TEST(ParameterKeys, KnowUnitsAndChoices)
+{
+  ParameterHandler prm;
+  Scene            scene;
+  scene.declare(prm);
+  const ParameterKeys                 keys(prm);
+  std::map<std::string, ParameterKey> by_path;
+  for (const ParameterKey &key : keys.list())
+    by_path.emplace(key.path, key);
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(by_path.at("Time/Step").unit, "day");
+  EXPECT_EQ(by_path.at("Body force/Force density").unit, "kPa/um");
+  EXPECT_EQ(by_path.at("Material/Poisson's ratio").unit, "");
+  EXPECT_EQ(by_path.at("Boundary conditions/Nitsche form").choices,
+            (Words{"symmetric", "unsymmetric"}));
+  EXPECT_EQ(by_path.at("Output/Formats").choices,
+            (Words{"vtu", "csv", "none"}));
+  EXPECT_TRUE(by_path.at("Time/Step").choices.empty());
+}
+
+
+TEST(ParameterKeys, KeepFormerNames)
+{
+  ParameterHandler prm;
+  double           spacing = 50.;
+  std::string      law     = "none";
+  prm.enter_subsection("Grid");
+  prm.add_parameter("Spacing", spacing, "h. Units: um.");
+  prm.add_parameter("Law", law, "A law.");
+  prm.declare_alias("Spacing", "Mesh size", true);
+  prm.leave_subsection();
+
+  const ParameterKeys keys(prm);
+  ASSERT_EQ(keys.list().size(), 2u);
+  EXPECT_EQ(keys.current_name("Grid/Mesh size"), "Grid/Spacing");
+  EXPECT_EQ(keys.current_name("Grid/Spacing"), "Grid/Spacing");
+  EXPECT_EQ(keys.current_name("Grid/Other"), "Grid/Other");
+
+  keys.apply({Statement::set, "Grid/Mesh size", "20", ""}, prm);
+  EXPECT_EQ(spacing, 20.);
+  try
+    {
+      keys.apply({Statement::set, "Grid/Mesh size", "wide", ""}, prm);
+      ADD_FAILURE();
+    }
+  catch (const InputError &error)
+    {
+      expect_parts(error.what(), {"Grid/Spacing", "'wide'", "a number"});
+    }
+
+  std::ostringstream printed;
+  keys.print(printed);
+  expect_parts(printed.str(),
+               {"# Formerly: Grid/Mesh size\n  set Spacing = 50"});
+}

@@ -4,6 +4,7 @@
 #include <morula/expression.h>
 #include <morula/input_error.h>
 #include <morula/particles/cell_state.h>
+#include <morula/scene_refusals.h>
 #include <morula/scene_size.h>
 
 #include <deal.II/base/mpi.h>
@@ -73,37 +74,72 @@ namespace Morula
       Expression where, duration, rate, checkpoint;
     };
 
+    // What follows is fitted to the runs of the table "estimates" of
+    // doc/performance.md; contrib/benchmark estimates measures them anew. The
+    // exponents of the direct solver are those of nested dissection.
+
+    /** Bytes of a run with @p n_cells cells and @p n equations, on one rank. */
     template <int dim>
     double
-    memory(const Scene &scene, const SceneSize &size)
+    memory(const Scene &scene, const double n_cells, const double n)
     {
-      // position, reference position, id, place in the grid, about 200 bytes;
-      // two more copies while points are exchanged, sorted and written
+      constexpr double program = 180e6;
+      // position, reference position, id, place in the grid: about 200 bytes;
+      // and what a step makes of them
       const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
-      const double         cell_bytes = 3. * (8. * slots.n_slots + 200.);
-
-      // grid cells of the tissue and of one and a half layers on each side
-      const double L         = std::pow(size.volume, 1. / dim);
-      const double n_splines = std::pow(L / scene.grid.spacing + 3., dim);
-
-      // a matrix row couples with 5^dim splines, 12 bytes an entry; matrix,
+      const double cell = (dim == 2 ? 3. : 4.) * (8. * slots.n_slots + 200.);
+      // a row couples with 5^dim splines, 12 bytes an entry; matrix,
       // preconditioner and positions of the entries
-      const double row_bytes = 3. * 12. * dim * std::pow(5., dim);
+      const double row     = 2.7 * 12. * dim * std::pow(5., dim);
+      const double factors = scene.solver.linear_solver != "direct" ? 0. :
+                             dim == 2 ? 370. * n * std::log(n) :
+                                        1500. * std::pow(n, 4. / 3.);
       // boundary points hold less than cells; without a wished number they are
       // fewer, too
-      double bytes =
-        (size.cells + 1. * scene.tissue.boundary_points) * cell_bytes +
-        n_splines * dim * row_bytes;
+      return program + (n_cells + scene.tissue.boundary_points) * cell +
+             n * row + factors;
+    }
 
-      // nested dissection: the top separator is two layers of splines, a dense
-      // block, and all others together need about three times as much
-      if (scene.solver.linear_solver == "direct")
-        {
-          const double separator =
-            2. * dim * std::pow(n_splines, (dim - 1.) / dim);
-          bytes += 4. * 8. * separator * separator / 2.;
-        }
-      return bytes;
+    /** Whether anything but the clamps acts on the tissue. */
+    bool
+    is_driven(const Scene &scene)
+    {
+      const BoundaryConditionParameters &given = scene.boundary_conditions;
+      return scene.has_growth() || scene.has_proliferation() ||
+             !given.traction_where.empty() || !given.pressure_where.empty() ||
+             !Refusals::same_value(scene.body_force.force_density, "0; 0; 0") ||
+             !Refusals::same_value(given.displacement, "0; 0; 0");
+    }
+
+    /** Seconds of a step of one core with @p n_cells cells, @p n equations. */
+    template <int dim>
+    double
+    step_seconds(const Scene &scene, const double n_cells, const double n)
+    {
+      if (!is_driven(scene))
+        return 2e-6 * n_cells;
+      constexpr double newton_iterations = 4.;
+      const bool       is_projected =
+        scene.material.volumetric_form() == VolumetricStrain::projected;
+      const double n_points =
+        n_cells * std::pow(scene.grid.points_per_cell, dim);
+      const double point    = dim == 2 ? (is_projected ? 1.5e-6 : 0.6e-6) :
+                                         (is_projected ? 5e-6 : 1.5e-6);
+      const double equation = dim == 2 ? 10e-6 : 50e-6;
+      const double factors  = scene.solver.linear_solver != "direct" ? 0. :
+                              dim == 2 ? 4.5e-7 * std::pow(n, 1.5) :
+                                         1.7e-7 * n * n;
+      return newton_iterations * (n_points * point + n * equation + factors);
+    }
+
+    /** Equations of a compact tissue of this volume. */
+    double
+    n_equations(const Scene &scene, const double volume)
+    {
+      const double dim = scene.dimension;
+      return dim *
+             std::pow(std::pow(volume, 1. / dim) / scene.grid.spacing + 2.,
+                      dim);
     }
 
     std::string
@@ -174,8 +210,40 @@ namespace Morula
   double
   estimated_memory(const Scene &scene, const SceneSize &size)
   {
-    return scene.dimension == 2 ? memory<2>(scene, size) :
-                                  memory<3>(scene, size);
+    const double n = n_equations(scene, size.volume);
+    return scene.dimension == 2 ? memory<2>(scene, size.cells, n) :
+                                  memory<3>(scene, size.cells, n);
+  }
+
+
+  template <int dim>
+  SizeEstimate
+  estimated_size(const Scene         &scene,
+                 const Founders<dim> &founders,
+                 const unsigned int   n_unknowns,
+                 const MPI_Comm       comm)
+  {
+    const SceneSize last = expected_size(scene, founders.positions, comm);
+    const double    first_volume =
+      founders.n_global * std::pow(scene.tissue.cell_spacing, dim);
+
+    SizeEstimate size;
+    size.cells             = last.cells;
+    size.unknowns_at_start = n_unknowns;
+    size.unknowns          = n_unknowns * n_equations(scene, last.volume) /
+                    n_equations(scene, first_volume);
+    size.steps  = std::ceil(scene.time.end_time / scene.time.step - 1e-9);
+    size.memory = memory<dim>(scene, size.cells, size.unknowns);
+
+    // the means over a time in which both grow exponentially
+    const auto mean = [](const double a, const double b) {
+      return std::abs(b - a) < 1e-3 * a ? a : (b - a) / std::log(b / a);
+    };
+    size.seconds =
+      size.steps * step_seconds<dim>(scene,
+                                     mean(founders.n_global, size.cells),
+                                     mean(n_unknowns, size.unknowns));
+    return size;
   }
 
 
@@ -216,4 +284,14 @@ namespace Morula
   expected_size(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
   template SceneSize
   expected_size(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
+  template SizeEstimate
+  estimated_size(const Scene &,
+                 const Founders<2> &,
+                 const unsigned int,
+                 const MPI_Comm);
+  template SizeEstimate
+  estimated_size(const Scene &,
+                 const Founders<3> &,
+                 const unsigned int,
+                 const MPI_Comm);
 } // namespace Morula

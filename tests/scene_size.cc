@@ -207,9 +207,17 @@ TEST(SceneChecks, CountTheBoundaryConditions)
   ConditionCounts counts = check();
   EXPECT_EQ(counts.points, 2 * n_ranks());
   EXPECT_EQ(counts.fixed, n_ranks());
-  EXPECT_EQ(counts.slip, 2 * n_ranks());
+  // fixed wins over slip, slip over pressure
+  EXPECT_EQ(counts.slip, n_ranks());
   EXPECT_EQ(counts.traction, 0u);
+  EXPECT_EQ(counts.pressure, 0u);
+
+  given.slip_where = "Z < 0";
+  counts           = check();
+  EXPECT_EQ(counts.fixed, n_ranks());
+  EXPECT_EQ(counts.slip, 0u);
   EXPECT_EQ(counts.pressure, 1u);
+  given.slip_where = "1";
 
   given.slip_normal         = "1, 0, 0";
   const std::string message = complaint(check);

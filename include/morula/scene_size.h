@@ -50,10 +50,35 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm);
 
+  /** What --explain tells of the size of a run. */
+  struct SizeEstimate
+  {
+    double cells             = 0.; // at the end
+    double unknowns_at_start = 0.; // exact
+    double unknowns          = 0.; // at the end
+    double memory            = 0.; // bytes
+    double seconds           = 0.; // of one core, all steps, without output
+    double steps             = 0.;
+  };
+
+  /**
+   * Estimates, rough ones of the time, fitted to the runs of doc/performance.md
+   * ("What --explain expects"). Collective; every rank gives its own founders.
+   * @param n_unknowns of the first step
+   * @throws InputError, on some ranks only, where an expression has no value
+   */
+  template <int dim>
+  SizeEstimate
+  estimated_size(const Scene         &scene,
+                 const Founders<dim> &founders,
+                 const unsigned int   n_unknowns,
+                 const MPI_Comm       comm);
+
   /**
    * Memory that a run of this size needs on all ranks together, bytes:
    * particles and what is copied of them, matrix and preconditioner on the
-   * grid around the tissue. An estimate, right within a factor of about two.
+   * grid around a compact tissue. An estimate, right within a factor of about
+   * two (doc/performance.md, "What --explain expects").
    */
   double
   estimated_memory(const Scene &scene, const SceneSize &size);

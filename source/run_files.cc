@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace Morula
 {
@@ -96,6 +97,30 @@ namespace Morula
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
+    if (resumed_from)
+      tell_of_missing_states();
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::tell_of_missing_states()
+  {
+    for (const std::string format : {"vtu", "csv"})
+      {
+        if (!has_format(format))
+          continue;
+        unsigned int n_missing = 0;
+        for (unsigned int n = 0; n < output_times.size(); ++n)
+          n_missing +=
+            !std::filesystem::exists(path(numbered_file("cells", n, format)));
+        if (n_missing > 0)
+          message(std::to_string(n_missing) + " of the " +
+                  std::to_string(output_times.size()) +
+                  " states so far are not there as " + format +
+                  (format == "vtu" ? "; cells.pvd and surface.pvd are without "
+                                     "them." :
+                                     "."));
+      }
   }
 
   template <int dim>

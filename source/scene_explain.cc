@@ -5,6 +5,7 @@
 #include <morula/particles/cell_state.h>
 #include <morula/particles/seeding.h>
 #include <morula/scene_checks.h>
+#include <morula/scene_estimates.h>
 #include <morula/scene_explain.h>
 #include <morula/scene_refusals.h>
 #include <morula/scene_size.h>
@@ -165,13 +166,13 @@ namespace Morula
       return text.str();
     }
 
-    /** "more than", "at most about", ...: what the estimates bound. */
+    /** What the number of cells at the end is. */
     std::string
     bound_of_cells(const Scene &scene)
     {
       return !scene.has_proliferation() ? "" :
              has_checkpoint(scene)      ? "at least " :
-                                          "at most about ";
+                                          "about ";
     }
 
     void
@@ -208,7 +209,7 @@ namespace Morula
       const std::vector<std::string> warnings =
         scene_warnings(scene, founders, surface, comm);
       const SizeEstimate size =
-        estimated_size(scene, founders, n_unknowns(), comm);
+        estimated_size(scene, founders, comm, n_unknowns());
       const double available = physical_memory(comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;

@@ -202,6 +202,22 @@ TEST(SceneWarnings, OfIntervalsBelowTheStep)
 }
 
 
+TEST(SceneWarnings, OfLongRunsWithoutSnapshots)
+{
+  Scene scene                    = good_scene();
+  scene.isotropic_growth.stretch = "1 + 0.01*t";
+  scene.time.step                = 1e-4;
+  scene.time.smallest_step       = 1e-5;
+  scene.time.end_time            = 20.; // 200,000 steps of some 0.02 s
+  expect_warning(scene,
+                 {"Output/Snapshot interval = '0 day'",
+                  "hours of one core",
+                  "Choose an interval"});
+  scene.output.snapshot_interval = 1.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
 TEST(SceneWarnings, OfFormerNames)
 {
   Scene scene   = good_scene();

@@ -89,6 +89,8 @@ namespace Morula
     wall_seconds() const;
 
   private:
+    void
+    tell_of_missing_states(); // of which Output/Formats was another
     bool
     continues_conditions(
       const std::optional<SnapshotData<dim>> &resumed_from) const;

@@ -70,7 +70,8 @@ namespace Morula
     prm.add_parameter("Boundary points",
                       boundary_points,
                       "Number of points on the surface, met as nearly as the "
-                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).");
+                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).",
+                      Patterns::Integer(0));
     prm.add_parameter(
       "Refine surface",
       refine_surface,

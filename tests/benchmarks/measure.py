@@ -228,6 +228,14 @@ ESTIMATED = [
     ("2-D, division", "tests/scenes/proliferating-disc.prm", DISC),
     ("— direct solver", "tests/scenes/proliferating-disc.prm",
      {**DISC, "Solver/Linear solver": "direct"}),
+    # judged by the fit, not fitted
+    ("not fitted: Fig. 3b", "prm/paper/fig-3b.prm", {"Time/End time": 2}),
+    ("not fitted: free block", "prm/hard/free-block.prm",
+     {"Time/End time": 0.5}),
+    ("not fitted: patch, 3-D", "prm/verification/patch-3d.prm", {}),
+    ("not fitted: film, 2-D", "prm/hard/wrinkling-film.prm",
+     {"Time/End time": 0.2}),
+    ("not fitted: few cells, 3-D", "prm/hard/division.prm", {}),
 ]
 
 

@@ -39,6 +39,8 @@ NUMBERS = [
     wrong("infinite", "Time/End time", "inf", "a number", "Correct the value"),
     wrong("no integer", "Time/Stop at cells", "1.5", "an integer >= 0",
           "Correct the value"),
+    wrong("negative number of points", "Tissue/Boundary points", "-5",
+          "an integer >= 0", "Correct the value"),
     wrong("no boolean", "Grid/Extension", "maybe", "true or false",
           "Correct the value"),
     wrong("too short a list", "Tissue/Size", "60, 60", "3 numbers in um",

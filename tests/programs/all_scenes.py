@@ -34,8 +34,8 @@ MADE = {"hard/close-bodies.prm": ("Tissue/Points file", "cells.csv",
 # Few cells per grid spacing, or tissue thinner than a grid cell: these scenes
 # are there to show how far that goes.
 WARNED = {f"hard/{name}.prm": ["Grid/Spacing"] for name in (
-    "division", "enclosed-sphere", "from-27-cells", "small-and-thin", "solver",
-    "thin-strip", "twelve-generations")}
+    "breaking-off", "division", "enclosed-sphere", "from-27-cells",
+    "small-and-thin", "solver", "thin-strip", "twelve-generations")}
 
 
 def volume(keys, dim):

@@ -23,7 +23,7 @@ set Seed = 4
 subsection Grid  # the grid
   set   Mesh size = 50   # um, was Mesh size
   set Young = 1 + \\
-    0.1*X  # kPa
+    0.001*X  # kPa
   set Offset = 1, 2, 3
 end
 set Dimension = 3"""
@@ -36,7 +36,7 @@ end
 set Dimension = 3
 subsection Material
   set Young's modulus = 1 + \\
-    0.1*X
+    0.001*X
 end
 """
 

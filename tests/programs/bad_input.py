@@ -23,7 +23,7 @@ SCENE = ROOT / "tests/programs/small-cube.prm"
 class BadInput(ProgramTest):
     def assert_refused(self, result, texts):
         self.assertEqual(result.stdout, "")
-        self.assertRegex(result.stderr, r"(?s)^morula: .+ = '.*': allowed is ")
+        self.assertRegex(result.stderr, r"(?ms)^morula: .+ = '.*': allowed is ")
         for text in texts:
             self.assertIn(text, result.stderr)
         self.assertNotIn("exception", result.stderr.lower())

@@ -33,15 +33,12 @@ namespace
     simulation.run();
   }
 
-  /** The part of --explain that only the first step's splines can tell. */
+  /** What only the first step's splines can tell --explain. */
   template <int dim>
-  void
-  explain_equations(const Scene &scene)
+  unsigned int
+  n_unknowns(const Scene &scene)
   {
-    const unsigned int n =
-      Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
-    if (is_first_rank())
-      std::cout << "Unknowns of the first step: " << n << '\n';
+    return Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
   }
 
   /** Prints what was asked for instead of a run; false if that is nothing. */
@@ -76,11 +73,10 @@ namespace
     scene.check();
     if (command.explain)
       {
-        explain(scene, std::cout, MPI_COMM_WORLD);
-        if (scene.dimension == 2)
-          explain_equations<2>(scene);
-        else
-          explain_equations<3>(scene);
+        explain(scene, std::cout, MPI_COMM_WORLD, [&scene]() {
+          return scene.dimension == 2 ? n_unknowns<2>(scene) :
+                                        n_unknowns<3>(scene);
+        });
         return;
       }
     check_memory(scene, initial_size(scene), MPI_COMM_WORLD);

@@ -91,6 +91,10 @@ namespace Morula
             read_line(line, n_outer);
             line.clear();
           }
+        if (input.bad())
+          fail(name,
+               "a file that can be read to its end",
+               "Check its permissions and the disk.");
         read_line(line, n_outer);
         if (sections.size() > n_outer)
           fail(boost::join(sections, "/"),

@@ -6,6 +6,7 @@
 
 #include <morula/input_error.h>
 #include <morula/parameter_keys.h>
+#include <morula/suggestion.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
@@ -17,7 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
+#include <functional>
 #include <ostream>
 #include <regex>
 #include <sstream>
@@ -57,28 +58,6 @@ namespace Morula
       return text;
     }
 
-    void
-    collect(const Tree                &tree,
-            const std::string         &prefix,
-            std::vector<ParameterKey> &keys,
-            std::vector<std::string>  &sections)
-    {
-      for (const auto &[name, child] : tree)
-        if (child.count("pattern_description") > 0)
-          {
-            const auto pattern = child.get<std::string>("pattern_description");
-            keys.push_back({prefix + name,
-                            child.get<std::string>("default_value"),
-                            child.get<std::string>("documentation"),
-                            noun_phrase(pattern),
-                            pattern.find("[Double") != std::string::npos});
-          }
-        else
-          {
-            sections.push_back(prefix + name);
-            collect(child, prefix + name + "/", keys, sections);
-          }
-    }
 
     /** deal.II's patterns of numbers match "inf" and "nan" as well. */
     bool
@@ -98,60 +77,48 @@ namespace Morula
       return names;
     }
 
-    /** Number of insertions, deletions and replacements (Levenshtein). */
-    unsigned int
-    edit_distance(const std::string &a, const std::string &b)
+    /** The words among which a key's value, or each of its list, is chosen. */
+    std::vector<std::string>
+    choices_of(const std::string &machine_description)
     {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0u);
-      for (std::size_t i = 0; i < a.size(); ++i)
-        {
-          unsigned int diagonal = row[0];
-          row[0]                = i + 1;
-          for (std::size_t j = 0; j < b.size(); ++j)
-            {
-              const unsigned int above = row[j + 1];
-              row[j + 1]               = std::min(
-                {above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0u : 1u)});
-              diagonal = above;
-            }
-        }
-      return row.back();
+      if (machine_description.find("[Bool]") != std::string::npos)
+        return {"true", "false"};
+      std::vector<std::string> words;
+      std::smatch              match;
+      if (std::regex_search(machine_description,
+                            match,
+                            std::regex("\\[Selection ([^\\]]*)\\]")))
+        boost::split(words,
+                     boost::trim_copy(match[1].str()),
+                     boost::is_any_of("|"));
+      return words;
     }
 
-    /**
-     * How unlike two paths are: the distance of the whole or, for a key that
-     * stands in the wrong section, of the last name alone.
-     */
-    unsigned int
-    unlikeness(const std::string &wanted, const std::string &candidate)
-    {
-      const std::string a = boost::to_lower_copy(wanted);
-      const std::string b = boost::to_lower_copy(candidate);
-      return std::min(2 * edit_distance(a, b),
-                      2 * edit_distance(split_path(a).back(),
-                                        split_path(b).back()) +
-                        1);
-    }
-
-    /** A question, or empty if nothing is similar enough. */
+    /** A question about the first of the words that is no choice, or empty. */
     std::string
-    did_you_mean(const std::string              &wanted,
-                 const std::vector<std::string> &candidates)
+    did_you_mean(const std::string &value, const ParameterKey &key)
     {
-      if (candidates.empty() || wanted.size() > 200)
-        return "";
-      const auto best =
-        std::min_element(candidates.begin(),
-                         candidates.end(),
-                         [&wanted](const std::string &a, const std::string &b) {
-                           return unlikeness(wanted, a) < unlikeness(wanted, b);
-                         });
-      const std::size_t limit =
-        std::max<std::size_t>(5, split_path(wanted).back().size());
-      return unlikeness(wanted, *best) <= limit ?
-               "Did you mean '" + *best + "'? " :
-               "";
+      for (const std::string &word : Utilities::split_string_list(value))
+        if (std::find(key.choices.begin(), key.choices.end(), word) ==
+            key.choices.end())
+          {
+            const std::string best = most_similar(word, key.choices);
+            return best.empty() ? "" : "Did you mean '" + best + "'? ";
+          }
+      return "";
+    }
+
+    /** What follows "Units: " at the end of a documentation. */
+    std::string
+    unit_of(const std::string &documentation)
+    {
+      const std::string word  = "Units: ";
+      const auto        begin = documentation.rfind(word);
+      return begin == std::string::npos ?
+               "" :
+               boost::trim_right_copy_if(documentation.substr(begin +
+                                                              word.size()),
+                                         boost::is_any_of("."));
     }
   } // namespace
 
@@ -164,7 +131,32 @@ namespace Morula
                            ParameterHandler::KeepDeclarationOrder);
     Tree tree;
     boost::property_tree::read_json(json, tree);
-    collect(tree, "", keys, sections);
+    const std::function<void(const Tree &, const std::string &)> collect =
+      [&](const Tree &branch, const std::string &prefix) {
+        for (const auto &[name, child] : branch)
+          if (child.count("pattern_description") > 0)
+            {
+              const auto pattern =
+                child.get<std::string>("pattern_description");
+              const auto documentation =
+                child.get<std::string>("documentation");
+              keys.push_back({prefix + name,
+                              child.get<std::string>("default_value"),
+                              documentation,
+                              noun_phrase(pattern),
+                              unit_of(documentation),
+                              choices_of(pattern),
+                              pattern.find("[Double") != std::string::npos});
+            }
+          else if (child.count("alias") > 0)
+            renamed[prefix + name] = prefix + child.get<std::string>("alias");
+          else
+            {
+              sections.push_back(prefix + name);
+              collect(child, prefix + name + "/");
+            }
+      };
+    collect(tree, "");
   }
 
 
@@ -172,6 +164,14 @@ namespace Morula
   ParameterKeys::list() const &
   {
     return keys;
+  }
+
+
+  std::string
+  ParameterKeys::current_name(const std::string &path) const
+  {
+    const auto found = renamed.find(path);
+    return found == renamed.end() ? path : found->second;
   }
 
 
@@ -187,22 +187,23 @@ namespace Morula
   {
     const std::string section =
       statement.path.substr(0, statement.path.rfind('/'));
-    if (statement.kind == Statement::section)
-      throw InputError(statement.place + statement.path,
-                       "subsection",
-                       "a section that exists",
-                       did_you_mean(statement.path, sections) +
-                         "'morula --parameters' prints them all.");
+    const bool               is_section = statement.kind == Statement::section;
     std::vector<std::string> paths;
-    for (const ParameterKey &key : keys)
-      paths.push_back(key.path);
+    if (is_section)
+      paths = sections;
+    else
+      for (const ParameterKey &key : keys)
+        paths.push_back(key.path);
+    std::string suggestion = suggest_path(statement.path, paths);
+    if (!suggestion.empty())
+      suggestion += ' ';
     throw InputError(statement.place + statement.path,
-                     statement.value,
+                     is_section ? "subsection" : statement.value,
+                     is_section ? "a section that exists" :
                      has_section(section) || section == statement.path ?
-                       "a key that exists" :
-                       "a key in a section that exists",
-                     did_you_mean(statement.path, paths) +
-                       "'morula --parameters' prints them all.");
+                                  "a key that exists" :
+                                  "a key in a section that exists",
+                     suggestion + "'morula --parameters' prints them all.");
   }
 
 
@@ -215,11 +216,12 @@ namespace Morula
           refuse_unknown(statement);
         return;
       }
-    const auto key = std::find_if(keys.begin(),
-                                  keys.end(),
-                                  [&statement](const ParameterKey &k) {
-                                    return k.path == statement.path;
-                                  });
+    const auto key =
+      std::find_if(keys.begin(),
+                   keys.end(),
+                   [this, &statement](const ParameterKey &k) {
+                     return k.path == current_name(statement.path);
+                   });
     if (key == keys.end())
       refuse_unknown(statement);
 
@@ -227,10 +229,12 @@ namespace Morula
       throw InputError(statement.place + key->path,
                        statement.value,
                        key->allowed,
-                       "It is: " + key->documentation +
+                       did_you_mean(statement.value, *key) +
+                         "It is: " + key->documentation +
                          " Correct the value or remove the line; the default "
                          "is '" +
-                         key->default_value + "'.");
+                         key->default_value + "'" +
+                         (key->unit.empty() ? "." : " " + key->unit + "."));
     };
     if (key->is_of_numbers && !all_finite(statement.value))
       refuse();
@@ -280,6 +284,9 @@ namespace Morula
         for (const std::string &line :
              Utilities::break_text_into_lines(text, 76 - 2 * open.size()))
           out << indent() << "# " << line << '\n';
+        for (const auto &[old, path] : renamed)
+          if (path == key.path)
+            out << indent() << "# Formerly: " << old << '\n';
         out << indent() << "set " << name << " = " << key.default_value << '\n';
       }
     while (!open.empty())

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace Morula
 {
@@ -19,7 +20,7 @@ namespace Morula
               const std::string                      &name,
               const double                            otherwise)
     {
-      return data ? data->numbers.at(name) : otherwise;
+      return data ? data->number(name) : otherwise;
     }
 
     /** Number of the first multiple of @p interval that is due after @p time;
@@ -55,20 +56,26 @@ namespace Morula
   {
     if (resumed_from)
       {
-        output_times = resumed_from->tables.at("output_times");
+        output_times = resumed_from->table("output_times");
         for (const auto &[name, seconds] : resumed_from->numbers)
           if (name.rfind(section_prefix, 0) == 0)
             {
               const std::string section = name.substr(section_prefix.size());
-              sections_before[section]  = {
-                 resumed_from->numbers.at(calls_prefix + section), seconds};
+              sections_before[section]  = {resumed_from->number(calls_prefix +
+                                                               section),
+                                           seconds};
             }
-        statistics.emplace(path("statistics.csv"),
-                           resumed_from->numbers.at("statistics_rows"),
-                           comm);
-        lineage.emplace(path("lineage.csv"),
-                        resumed_from->numbers.at("lineage_rows"),
-                        comm);
+        const std::uint64_t n_rows   = resumed_from->number("statistics_rows");
+        const std::uint64_t n_births = resumed_from->number("lineage_rows");
+        // All are looked at before the first of them is cut.
+        StatisticsFile::check(path("statistics.csv"), n_rows, comm);
+        LineageFile<dim>::check(path("lineage.csv"), n_births, comm);
+        if (continues_conditions(resumed_from))
+          ConditionFile::check(path("condition.csv"),
+                               resumed_from->number("condition_rows"),
+                               comm);
+        statistics.emplace(path("statistics.csv"), n_rows, comm);
+        lineage.emplace(path("lineage.csv"), n_births, comm);
         prepare_resume(scene.output_directory,
                        scene.parameters(),
                        output_times.size(),
@@ -90,6 +97,39 @@ namespace Morula
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
+    if (resumed_from)
+      tell_of_missing_states();
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::tell_of_missing_states()
+  {
+    for (const std::string format : {"vtu", "csv"})
+      {
+        if (!has_format(format))
+          continue;
+        unsigned int n_missing = 0;
+        for (unsigned int n = 0; n < output_times.size(); ++n)
+          n_missing +=
+            !std::filesystem::exists(path(numbered_file("cells", n, format)));
+        if (n_missing > 0)
+          message(std::to_string(n_missing) + " of the " +
+                  std::to_string(output_times.size()) +
+                  " states so far are not there as " + format +
+                  (format == "vtu" ? "; cells.pvd and surface.pvd are without "
+                                     "them." :
+                                     "."));
+      }
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::continues_conditions(
+    const std::optional<SnapshotData<dim>> &resumed_from) const
+  {
+    return scene.output.condition_estimate && resumed_from &&
+           resumed_from->numbers.count("condition_rows") > 0;
   }
 
   template <int dim>
@@ -98,9 +138,9 @@ namespace Morula
     const std::optional<SnapshotData<dim>> &resumed_from)
   {
     // A run may be resumed with estimates that was begun without.
-    if (resumed_from && resumed_from->numbers.count("condition_rows") > 0)
+    if (continues_conditions(resumed_from))
       conditions.emplace(path("condition.csv"),
-                         resumed_from->numbers.at("condition_rows"),
+                         resumed_from->number("condition_rows"),
                          comm);
     else
       conditions.emplace(path("condition.csv"), comm);
@@ -142,6 +182,13 @@ namespace Morula
                     row.cells,
                     row.newton_iterations,
                     timer.wall_time()});
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::message(const std::string &text)
+  {
+    progress->message(text);
   }
 
   template <int dim>

@@ -62,16 +62,16 @@ namespace Morula
   {
     prm.add_parameter("End time",
                       end_time,
-                      "Time at which the run ends, day; > 0.",
+                      "Time at which the run ends; > 0. Units: day.",
                       Patterns::Double());
     prm.add_parameter("Step",
                       step,
-                      "Time step, day; > 0. Steps end at its multiples.",
+                      "Time step; > 0. Steps end at its multiples. Units: day.",
                       Patterns::Double());
     prm.add_parameter("Smallest step",
                       smallest_step,
                       "A step that fails is halved; the run gives up below "
-                      "this, day; > 0.",
+                      "this; > 0. Units: day.",
                       Patterns::Double());
     prm.add_parameter("Stop at cells",
                       stop_at_cells,
@@ -137,7 +137,15 @@ namespace Morula
       {
         keys.apply(statement, prm);
         if (statement.kind == Statement::set)
-          scene.as_written[statement.path] = statement.value;
+          {
+            const std::string path = keys.current_name(statement.path);
+            scene.as_written[path] = statement.value;
+            if (path != statement.path)
+              scene.renamed.push_back(statement.place + "the key '" +
+                                      statement.path + "' is called '" + path +
+                                      "' today; 'contrib/migrate " + file +
+                                      "' rewrites the file");
+          }
       }
     return scene;
   }

@@ -20,17 +20,17 @@ namespace Morula
   {
     template <int dim>
     void
-    require_positive(const Expression &expression, const Point<dim> &X)
+    require_stiffness(const Expression &expression, const Point<dim> &X)
     {
       const double value = expression.value(X, 0.);
       if (value > 0.)
         return;
       std::ostringstream place;
-      place << "It is " << value << " at (" << X
+      place << "It is " << value << " kPa at (" << X
             << ") um. Make it positive all over the tissue.";
       throw InputError(expression.key(),
                        expression.text(),
-                       "a value > 0",
+                       "a value > 0 kPa",
                        place.str());
     }
 
@@ -47,7 +47,7 @@ namespace Morula
       const IsotropicGrowth growth(scene.isotropic_growth);
       for (const Point<dim> &X : founders)
         {
-          require_positive(stiffness, X);
+          require_stiffness(stiffness, X);
           for (const double t : {0., scene.time.end_time})
             {
               force.vector(X, t);
@@ -85,9 +85,9 @@ namespace Morula
         return where_holds && where_holds->value(X, 0.) > 0.;
       }
 
-      /** Number of points on all ranks; refuses none. Collective. */
-      types::particle_index
-      total(const types::particle_index n, const MPI_Comm comm) const
+      /** @param n points of this rank where it holds. Collective. */
+      void
+      refuse_nowhere(const types::particle_index n, const MPI_Comm comm) const
       {
         const types::particle_index sum = Utilities::MPI::sum(n, comm);
         if (where_holds && sum == 0)
@@ -97,7 +97,6 @@ namespace Morula
                            "It is positive at none: correct it, or leave it "
                            "empty. Boundary points sit at centers of surface "
                            "patches, not on edges or corners.");
-        return sum;
       }
 
     private:
@@ -144,7 +143,7 @@ namespace Morula
       any_normal ? Tensor<1, dim>() :
                    unit_vector<dim>(section + "Slip normal", given.slip_normal);
 
-    ConditionCounts mine;
+    ConditionCounts holding, acting;
     everywhere(comm, [&] {
       for (unsigned int i = 0; i < surface.positions.size(); ++i)
         {
@@ -156,7 +155,7 @@ namespace Morula
           const bool is_pulled  = traction.holds(X);
           const bool is_pressed = pressure.holds(X);
           if (is_fixed || slips)
-            require_positive(stiffness, X);
+            require_stiffness(stiffness, X);
           for (const double t : {0., scene.time.end_time})
             {
               if (is_fixed)
@@ -166,21 +165,31 @@ namespace Morula
               if (is_pressed)
                 push.value(X, t);
             }
-          mine.fixed += is_fixed;
-          mine.slip += slips;
-          mine.traction += is_pulled;
-          mine.pressure += is_pressed;
+          holding.fixed += is_fixed;
+          holding.slip += slips;
+          holding.traction += is_pulled;
+          holding.pressure += is_pressed;
+
+          const bool is_free = !is_fixed && !slips;
+          acting.fixed += is_fixed;
+          acting.slip += slips && !is_fixed;
+          acting.traction += is_pulled && is_free;
+          acting.pressure += is_pressed && is_free;
         }
     });
+    fixed.refuse_nowhere(holding.fixed, comm);
+    slip.refuse_nowhere(holding.slip, comm);
+    traction.refuse_nowhere(holding.traction, comm);
+    pressure.refuse_nowhere(holding.pressure, comm);
 
-    ConditionCounts all;
-    all.points = Utilities::MPI::sum(
-      static_cast<types::particle_index>(surface.positions.size()), comm);
-    all.fixed    = fixed.total(mine.fixed, comm);
-    all.slip     = slip.total(mine.slip, comm);
-    all.traction = traction.total(mine.traction, comm);
-    all.pressure = pressure.total(mine.pressure, comm);
-    return all;
+    acting.points = surface.positions.size();
+    for (types::particle_index *n : {&acting.points,
+                                     &acting.fixed,
+                                     &acting.slip,
+                                     &acting.traction,
+                                     &acting.pressure})
+      *n = Utilities::MPI::sum(*n, comm);
+    return acting;
   }
 
 

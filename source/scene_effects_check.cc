@@ -52,14 +52,17 @@ namespace Morula
       const CellCycleParameters &cycle   = scene.cell_cycle;
       const std::string          section = "Proliferation/Cell cycle/";
       refuse_constant_unless(Sign::positive,
+                             "day",
                              in_space_only(section + "Duration",
                                            cycle.duration),
                              "Choose the duration of a cycle in days.");
       refuse_constant_unless(Sign::not_negative,
+                             "1/day",
                              in_space_only(section + "G0 exit rate",
                                            cycle.exit_rate),
                              "0 lets cells wait forever.");
       refuse_constant_unless(Sign::not_negative,
+                             "(a ratio of volumes)",
                              in_space_only(section + "Size checkpoint",
                                            cycle.size_checkpoint),
                              "0 means no checkpoint.");
@@ -79,6 +82,7 @@ namespace Morula
     {
       if (scene.has_growth())
         refuse_constant_unless(Sign::positive,
+                               "(a ratio of lengths)",
                                Expression("Growth/Isotropic/Stretch",
                                           scene.isotropic_growth.stretch),
                                "1 is the initial size.");
@@ -174,7 +178,7 @@ namespace Morula
       refuse_unless(given.nitsche_penalty > 0.,
                     section + "Nitsche penalty",
                     given.nitsche_penalty,
-                    "a number > 0",
+                    "a number > 0, in units of E/h",
                     "1e3 is a good choice for the symmetric Nitsche form, 20 "
                     "for the unsymmetric one.");
     }

@@ -5,9 +5,11 @@
 #include <morula/particles/cell_state.h>
 #include <morula/particles/seeding.h>
 #include <morula/scene_checks.h>
+#include <morula/scene_estimates.h>
 #include <morula/scene_explain.h>
 #include <morula/scene_refusals.h>
 #include <morula/scene_size.h>
+#include <morula/scene_warnings.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -150,17 +152,65 @@ namespace Morula
           out << "  " << std::left << std::setw(24) << name << size << '\n';
     }
 
+    std::string
+    duration_text(const double seconds)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      if (seconds < 120.)
+        text << seconds << " seconds";
+      else if (seconds < 7200.)
+        text << seconds / 60. << " minutes";
+      else
+        text << seconds / 3600. << " hours";
+      return text.str();
+    }
+
+    /** What the number of cells at the end is. */
+    std::string
+    bound_of_cells(const Scene &scene)
+    {
+      return !scene.has_proliferation() ? "" :
+             has_checkpoint(scene)      ? "at least " :
+                                          "about ";
+    }
+
+    void
+    print_size(std::ostream       &out,
+               const Scene        &scene,
+               const SizeEstimate &size,
+               const double        available)
+    {
+      out << "Size\n  cells at the end: " << bound_of_cells(scene)
+          << std::round(size.cells)
+          << "\n  unknowns: " << size.unknowns_at_start
+          << " in the first step, about " << std::round(size.unknowns)
+          << " in the last\n"
+          << "  memory: about " << std::setprecision(3) << size.memory / 1e9
+          << " GB of " << available / 1e9 << " GB\n  time: about "
+          << duration_text(size.seconds) << " (" << size.seconds << " s) of "
+          << "one core for " << size.steps << " steps, without output; a "
+          << "rough estimate, from runs on the processor of "
+          << "doc/performance.md\n";
+    }
+
     template <int dim>
     void
-    explain_scene(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+    explain_scene(const Scene                         &scene,
+                  std::ostream                        &out,
+                  const MPI_Comm                       comm,
+                  const std::function<unsigned int()> &n_unknowns)
     {
       check_memory(scene, initial_size(scene), comm);
       const Founders<dim> founders = seed_founders<dim>(scene.tissue, comm);
       check_at_cells(scene, founders.positions, comm);
       const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);
       const ConditionCounts     counts = check_at_surface(scene, surface, comm);
-      const SceneSize size = expected_size(scene, founders.positions, comm);
-      const double    available = physical_memory(comm);
+      const std::vector<std::string> warnings =
+        scene_warnings(scene, founders, surface, comm);
+      const SizeEstimate size =
+        estimated_size(scene, founders, comm, n_unknowns());
+      const double available = physical_memory(comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
 
@@ -176,24 +226,23 @@ namespace Morula
       print_slots(text,
                   CellSlots<dim>(scene.has_growth(),
                                  scene.has_proliferation()));
-      text << "Size\n  cells at the end: "
-           << (!scene.has_proliferation() ? "" :
-               has_checkpoint(scene)      ? "at least " :
-                                            "at most about ")
-           << std::round(size.cells) << "\n  memory: about "
-           << std::setprecision(3) << estimated_memory(scene, size) / 1e9
-           << " GB of " << available / 1e9 << " GB\n";
+      print_size(text, scene, size, available);
+      for (const std::string &warning : warnings)
+        text << warning << '\n';
       out << text.str();
     }
   } // namespace
 
 
   void
-  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+  explain(const Scene                         &scene,
+          std::ostream                        &out,
+          const MPI_Comm                       comm,
+          const std::function<unsigned int()> &n_unknowns)
   {
     if (scene.dimension == 2)
-      explain_scene<2>(scene, out, comm);
+      explain_scene<2>(scene, out, comm, n_unknowns);
     else
-      explain_scene<3>(scene, out, comm);
+      explain_scene<3>(scene, out, comm, n_unknowns);
   }
 } // namespace Morula

@@ -37,7 +37,9 @@ namespace Morula
         if (!(std::abs(x) <= farthest * h))
           throw InputError(key,
                            Patterns::Tools::to_string(place),
-                           "at most " + as_text(farthest) + " grid spacings",
+                           "at most " + as_text(farthest) +
+                             " grid spacings from the origin, " +
+                             as_text(farthest * h) + " um",
                            "Move the scene nearer to the origin.");
     }
 
@@ -58,13 +60,13 @@ namespace Morula
                     "Time/Step",
                     time.step,
                     "at least Time/End time = " + as_text(time.end_time) +
-                      " / " + as_text(max_steps),
+                      " day / " + as_text(max_steps),
                     "Raise it, or choose an earlier end.");
       refuse_unless(time.smallest_step > 0. && time.smallest_step <= time.step,
                     "Time/Smallest step",
                     time.smallest_step,
                     "a number of days > 0 and <= Time/Step = " +
-                      as_text(time.step),
+                      as_text(time.step) + " day",
                     "Lower it, or raise Time/Step.");
     }
 
@@ -86,7 +88,7 @@ namespace Morula
       if (grid.offset.size() < dim)
         throw InputError("Grid/Offset",
                          Patterns::Tools::to_string(grid.offset),
-                         std::to_string(dim) + " numbers",
+                         std::to_string(dim) + " numbers in um",
                          "Write one for each direction.");
     }
 
@@ -94,6 +96,7 @@ namespace Morula
     check_material(const MaterialParameters &material)
     {
       refuse_constant_unless(Sign::positive,
+                             "kPa",
                              in_space_only("Material/Young's modulus",
                                            material.youngs_modulus),
                              "Choose a positive stiffness.");

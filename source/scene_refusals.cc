@@ -34,6 +34,7 @@ namespace Morula::Refusals
 
   void
   refuse_constant_unless(const Sign         sign,
+                         const std::string &unit,
                          const Expression  &expression,
                          const std::string &remedy)
   {
@@ -44,7 +45,8 @@ namespace Morula::Refusals
     if (value < 0. || (value == 0. && !zero_is_allowed))
       throw InputError(expression.key(),
                        expression.text(),
-                       zero_is_allowed ? "a value >= 0" : "a value > 0",
+                       (zero_is_allowed ? "a value >= 0 " : "a value > 0 ") +
+                         unit,
                        remedy);
   }
 

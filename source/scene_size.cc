@@ -3,12 +3,12 @@
 
 #include <morula/expression.h>
 #include <morula/input_error.h>
-#include <morula/particles/cell_state.h>
+#include <morula/scene_estimates.h>
 #include <morula/scene_size.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/math/special_functions/lambert_w.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 
 #include <unistd.h>
 
@@ -40,13 +40,14 @@ namespace Morula
       return 0.;
     }
 
-    /** Number of descendants of a founder at @p X at End time. */
+    /** Expected number of descendants of a founder at @p X at End time. */
     template <int dim>
     class Descendants
     {
     public:
       explicit Descendants(const Scene &scene)
         : proliferates(scene.has_proliferation())
+        , together(scene.cell_cycle.start == "together")
         , end_time(scene.time.end_time)
         , where(section + "Where", scene.cell_cycle.where)
         , duration(section + "Duration", scene.cell_cycle.duration)
@@ -56,55 +57,31 @@ namespace Morula
       {}
 
       double
-      operator()(const Point<dim> &X) const
+      operator()(const Point<dim> &X)
       {
         if (!proliferates || !(where.value(X, 0.) > 0.) ||
             checkpoint.value(X, 0.) > 0.)
           return 1.;
-        const double r = growth_rate(duration.value(X, 0.), rate.value(X, 0.));
-        return 2. * std::exp(r * end_time);
+        const std::pair<double, double> here = {duration.value(X, 0.),
+                                                rate.value(X, 0.)};
+        if (here != last)
+          {
+            last = here;
+            n    = expected_cells(here.first, here.second, end_time, together);
+          }
+        return n;
       }
 
     private:
       static inline const std::string section = "Proliferation/Cell cycle/";
 
-      bool       proliferates;
-      double     end_time;
-      Expression where, duration, rate, checkpoint;
+      const bool   proliferates, together;
+      const double end_time;
+      // most founders are like the one before
+      std::pair<double, double> last = {-1., -1.};
+      double                    n    = 1.;
+      Expression                where, duration, rate, checkpoint;
     };
-
-    template <int dim>
-    double
-    memory(const Scene &scene, const SceneSize &size)
-    {
-      // position, reference position, id, place in the grid, about 200 bytes;
-      // two more copies while points are exchanged, sorted and written
-      const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
-      const double         cell_bytes = 3. * (8. * slots.n_slots + 200.);
-
-      // grid cells of the tissue and of one and a half layers on each side
-      const double L         = std::pow(size.volume, 1. / dim);
-      const double n_splines = std::pow(L / scene.grid.spacing + 3., dim);
-
-      // a matrix row couples with 5^dim splines, 12 bytes an entry; matrix,
-      // preconditioner and positions of the entries
-      const double row_bytes = 3. * 12. * dim * std::pow(5., dim);
-      // boundary points hold less than cells; without a wished number they are
-      // fewer, too
-      double bytes =
-        (size.cells + 1. * scene.tissue.boundary_points) * cell_bytes +
-        n_splines * dim * row_bytes;
-
-      // nested dissection: the top separator is two layers of splines, a dense
-      // block, and all others together need about three times as much
-      if (scene.solver.linear_solver == "direct")
-        {
-          const double separator =
-            2. * dim * std::pow(n_splines, (dim - 1.) / dim);
-          bytes += 4. * 8. * separator * separator / 2.;
-        }
-      return bytes;
-    }
 
     std::string
     gigabytes(const double bytes)
@@ -127,16 +104,28 @@ namespace Morula
 
 
   double
-  growth_rate(const double T, const double Lambda)
+  expected_cells(const double T,
+                 const double Lambda,
+                 const double t,
+                 const bool   together)
   {
-    if (Lambda == 0.)
-      return 0.;
-    // beyond, exp(Lambda T) overflows, and r is ln(2)/T within 0.2 %
-    if (Lambda * T > 500.)
-      return std::log(2.) / T;
-    // (Lambda + r) T exp((Lambda + r) T) = 2 Lambda T exp(Lambda T)
-    return boost::math::lambert_w0(2. * Lambda * T * std::exp(Lambda * T)) / T -
-           Lambda;
+    double n = 1.;
+    for (unsigned int k = 1; (k - 0.5) * T <= t && std::isfinite(n); ++k)
+      {
+        // the k-th division comes after k waits, without the first if all
+        // start together
+        const unsigned int waits = together ? k - 1 : k;
+        const double       share =
+          waits == 0 ?
+                  1. :
+                Lambda == 0. ?
+                  0. :
+                  boost::math::gamma_p(waits, Lambda * (t - (k - 0.5) * T));
+        if (share == 0.)
+          break;
+        n += std::exp2(k - 1.) * share;
+      }
+    return n;
   }
 
 
@@ -146,11 +135,11 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
-    const double           t = scene.time.end_time;
-    const double           V = std::pow(scene.tissue.cell_spacing, dim);
-    const IsotropicGrowth  growth(scene.isotropic_growth);
-    const Descendants<dim> descendants(scene);
-    SceneSize              size;
+    const double          t = scene.time.end_time;
+    const double          V = std::pow(scene.tissue.cell_spacing, dim);
+    const IsotropicGrowth growth(scene.isotropic_growth);
+    Descendants<dim>      descendants(scene);
+    SceneSize             size;
     for (const Point<dim> &X : founders)
       {
         const double n = descendants(X);
@@ -168,14 +157,6 @@ namespace Morula
     if (scene.time.stop_at_cells > 0 && size.cells > limit)
       size = {limit, size.volume * limit / size.cells};
     return size;
-  }
-
-
-  double
-  estimated_memory(const Scene &scene, const SceneSize &size)
-  {
-    return scene.dimension == 2 ? memory<2>(scene, size) :
-                                  memory<3>(scene, size);
   }
 
 

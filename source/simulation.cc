@@ -36,7 +36,9 @@ namespace Morula
     files.emplace(scene, resumed_from, comm);
     if (!resumed_from)
       {
-        row = statistics();
+        for (const std::string &warning : warnings)
+          files->message(warning);
+        begin_rows();
         files->step(row, births);
         output(must_stop());
       }
@@ -130,6 +132,13 @@ namespace Morula
   SplineSpace<dim>
   Simulation<dim>::splines()
   {
+    if (first_splines)
+      {
+        // The cells are where they were when the first row was written.
+        SplineSpace<dim> space = std::move(*first_splines);
+        first_splines.reset();
+        return space;
+      }
     const TimerOutput::Scope section(timer, "grid");
     return tissue.splines();
   }

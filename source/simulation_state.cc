@@ -7,6 +7,7 @@
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene_checks.h>
+#include <morula/scene_warnings.h>
 #include <morula/simulation.h>
 #include <morula/snapshot_check.h>
 
@@ -46,6 +47,16 @@ namespace Morula
           force.vector(Point<dim>(), 0.) == Tensor<1, dim>())
         return {};
       return force;
+    }
+
+    template <int dim>
+    void
+    count_splines(const SplineSpace<dim> &space, StatisticsRow &row)
+    {
+      row.active_grid_cells = space.n_active_cells();
+      row.inner_splines     = space.n_inner_splines();
+      row.outer_splines     = space.n_outer_splines();
+      row.unknowns          = space.n_unknowns();
     }
   } // namespace
 
@@ -89,6 +100,7 @@ namespace Morula
     const SurfacePatches<dim> patches  = seed_surface<dim>(scene.tissue, comm);
     check_at_cells(scene, founders.positions, comm);
     check_at_surface(scene, patches, comm);
+    warnings = scene_warnings(scene, founders, patches, comm);
 
     PointList<dim> cells;
     cells.n_slots = tissue.slots().n_slots;
@@ -136,37 +148,71 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::check_points(const SnapshotData<dim> &data) const
+  {
+    // Ranks without points may not know the number of slots.
+    const auto check = [this, &data](const PointList<dim> &points,
+                                     const std::string    &what,
+                                     const unsigned int    n_slots) {
+      everywhere(comm, [&]() {
+        if (points.size() > 0 && points.n_slots != n_slots)
+          refuse_snapshot(data.file,
+                          "a snapshot whose " + what + " have " +
+                            std::to_string(n_slots) + " numbers each (they " +
+                            "have " + std::to_string(points.n_slots) + ")");
+      });
+    };
+    check(data.cells, "cells", tissue.slots().n_slots);
+    check(data.boundary_points,
+          "boundary points",
+          scene.tissue.refine_surface ?
+            static_cast<unsigned int>(BoundarySlots<dim>::n_slots_with_patch) :
+            static_cast<unsigned int>(BoundarySlots<dim>::n_slots));
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::restore()
   {
     const std::string path = scene.output_directory + "/snapshot.h5";
     check_resumable(scene, read_snapshot_parameters(path, comm));
-    resumed_from        = read_snapshot<dim>(path, comm);
-    const auto &numbers = resumed_from->numbers;
-    const auto &tables  = resumed_from->integer_tables;
+    resumed_from = read_snapshot<dim>(path, comm);
+    check_points(*resumed_from);
 
-    GridIndex<dim> first, n;
+    const std::vector<int> &box_first =
+      resumed_from->integer_table("box_first", dim);
+    const std::vector<int> &box_n = resumed_from->integer_table("box_n", dim);
+    GridIndex<dim>          first, n;
+    std::size_t             n_grid_cells = 1;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        first[d] = tables.at("box_first")[d];
-        n[d]     = tables.at("box_n")[d];
+        first[d] = box_first[d];
+        n[d]     = box_n[d];
+        if (box_n[d] <= 0)
+          refuse_snapshot(path, "a snapshot whose grid has cells");
+        n_grid_cells *= box_n[d];
       }
-    const std::vector<int> &weights = tables.at("box_weights");
+    const std::vector<int> &weights =
+      resumed_from->integer_table("box_weights", n_grid_cells);
+    const auto number = [this](const std::string &name) {
+      return resumed_from->number(name);
+    };
+    next_id = number("next_id");
+    if (scene.tissue.refine_surface)
+      next_boundary_id = number("next_boundary_id");
+    n_steps    = number("steps");
+    n_rejected = number("rejected_steps");
+    time_steps.restore({resumed_from->time,
+                        number("step_length"),
+                        static_cast<unsigned int>(number("step_interval")),
+                        number("step_begin"),
+                        static_cast<unsigned int>(number("step_part")),
+                        static_cast<unsigned int>(number("step_level"))});
     tissue.restore(resumed_from->cells,
                    resumed_from->boundary_points,
                    first,
                    n,
                    std::vector<unsigned int>(weights.begin(), weights.end()));
-    next_id = numbers.at("next_id");
-    if (scene.tissue.refine_surface)
-      next_boundary_id = numbers.at("next_boundary_id");
-    n_steps    = numbers.at("steps");
-    n_rejected = numbers.at("rejected_steps");
-    time_steps.restore({resumed_from->time,
-                        numbers.at("step_length"),
-                        static_cast<unsigned int>(numbers.at("step_interval")),
-                        numbers.at("step_begin"),
-                        static_cast<unsigned int>(numbers.at("step_part")),
-                        static_cast<unsigned int>(numbers.at("step_level"))});
     row = statistics();
     check_resumed_cycle();
   }
@@ -259,21 +305,27 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::begin_rows()
+  {
+    first_splines.emplace(splines());
+    row = statistics();
+    count_splines(*first_splines, row);
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::complete_row(const SplineSpace<dim> &space)
   {
     const TimerOutput::Scope section(timer, "statistics");
     StatisticsRow            complete = statistics();
     complete.dt                       = row.dt;
     complete.dividing                 = row.dividing;
-    complete.active_grid_cells        = space.n_active_cells();
-    complete.inner_splines            = space.n_inner_splines();
-    complete.outer_splines            = space.n_outer_splines();
-    complete.unknowns                 = space.n_unknowns();
-    complete.newton_iterations        = newton_report.newton_iterations;
-    complete.linear_iterations        = newton_report.linear_iterations;
-    complete.rejected_steps           = row.rejected_steps;
-    complete.residual                 = newton_report.residual;
-    row                               = complete;
+    count_splines(space, complete);
+    complete.newton_iterations = newton_report.newton_iterations;
+    complete.linear_iterations = newton_report.linear_iterations;
+    complete.rejected_steps    = row.rejected_steps;
+    complete.residual          = newton_report.residual;
+    row                        = complete;
   }
 
   template <int dim>

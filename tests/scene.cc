@@ -435,3 +435,29 @@ TEST(Scene, HasShorterVectorsAndFewerShapesInThePlane)
                           "Proliferation/Cell cycle/Division axis=fixed"}),
                {"Proliferation/Cell cycle/Fixed axis", "zero"});
 }
+
+
+TEST(Scene, SaysWhereAKeyStands)
+{
+  expect_parts(complaint("subsection Growth\n set Stretch = 2\nend"),
+               {"scene.prm:2: Growth/Stretch",
+                "stands in subsection Growth/Isotropic"});
+  expect_parts(complaint("", {"Growth/Stretch=2"}),
+               {"-s: Growth/Stretch", "stands in subsection Growth/Isotropic"});
+  expect_parts(complaint("subsection Cell cycle\nend"),
+               {"scene.prm:1: Cell cycle",
+                "stands in subsection Proliferation"});
+}
+
+
+TEST(Scene, SuggestsChoices)
+{
+  expect_parts(complaint("subsection Tissue\n set Shape = spere\nend"),
+               {"scene.prm:2: Tissue/Shape",
+                "'spere'",
+                "Did you mean 'sphere'?"});
+  expect_parts(complaint("", {"Output/Formats=csv, vtk"}),
+               {"Did you mean 'vtu'?"});
+  expect_parts(complaint("", {"Grid/Extension=flase"}),
+               {"Did you mean 'false'?"});
+}

@@ -4,6 +4,7 @@
 
 #include <morula/input_error.h>
 #include <morula/scene_checks.h>
+#include <morula/scene_estimates.h>
 #include <morula/scene_size.h>
 
 #include <deal.II/base/mpi.h>
@@ -79,17 +80,33 @@ TEST(SceneSize, KnowsTheVolumeOfTheShapes)
 }
 
 
-TEST(SceneSize, HasTheRateOfTheRenewalEquation)
+TEST(SceneSize, SolvesTheRenewalEquation)
 {
-  EXPECT_NEAR(growth_rate(1., 1.), 0.3748, 1e-4);
+  EXPECT_EQ(expected_cells(1., 1., 0.5, false), 1.);
+  EXPECT_EQ(expected_cells(1., 0., 100., false), 1.);
+  EXPECT_EQ(expected_cells(1., 0., 100., true), 2.);
+  // one wait: divided with probability 1 - exp(-Lambda (t - T/2))
+  EXPECT_NEAR(expected_cells(2., 3., 1.4, false), 2. - std::exp(-1.2), 1e-14);
+  // no waits: all divide at T/2, 3T/2, ...
+  for (const auto &[t, n] : {std::pair(0.4, 1.),
+                             std::pair(0.6, 2.),
+                             std::pair(1.4, 2.),
+                             std::pair(3.6, 16.)})
+    {
+      EXPECT_NEAR(expected_cells(1., 1e9, t, true), n, 1e-6);
+      EXPECT_NEAR(expected_cells(1., 1e9, t, false), n, 1e-6);
+    }
+  // at long times exponential: 2 exp(-rT) Lambda/(Lambda + r) = 1
   for (const double T : {0.5, 1., 2.})
-    for (const double Lambda : {0.1, 1., 10., 200.})
+    for (const double Lambda : {0.1, 0.3, 1.})
       {
-        const double r = growth_rate(T, Lambda);
-        EXPECT_NEAR(2. * std::exp(-r * T) * Lambda / (Lambda + r), 1., 1e-10);
+        const double r = std::log(expected_cells(T, Lambda, 60., false) /
+                                  expected_cells(T, Lambda, 50., false)) /
+                         10.;
+        EXPECT_NEAR(2. * std::exp(-r * T) * Lambda / (Lambda + r), 1., 1e-6)
+          << T << ' ' << Lambda;
       }
-  EXPECT_EQ(growth_rate(1., 0.), 0.);
-  EXPECT_NEAR(growth_rate(1., 1e6), std::log(2.), 1e-3);
+  EXPECT_GT(expected_cells(1e-9, 1e9, 1., false), 1e300);
 }
 
 
@@ -114,7 +131,7 @@ TEST(SceneSize, CountsDescendants)
   scene.proliferation_law = "cell cycle";
   scene.cell_cycle.where  = "X > 0";
   scene.time.end_time     = 10.;
-  const double many       = 1. + 2. * std::exp(10. * growth_rate(1., 1.));
+  const double many       = 1. + expected_cells(1., 1., 10., false);
   EXPECT_NEAR(size().cells, many * n, 1e-9 * many * n);
 
   scene.time.stop_at_cells = 10 * n_ranks();
@@ -155,6 +172,40 @@ TEST(SceneSize, EstimatesTheMatrixOfTheHalfFixedSphere)
   EXPECT_LT(bytes, 1e9);
   scene.grid.spacing = 25.;
   EXPECT_GT(estimated_memory(scene, initial_size(scene)), bytes);
+}
+
+
+TEST(SceneSize, EstimatesRuns)
+{
+  Scene scene;
+  scene.tissue.shape             = "box";
+  scene.growth_law               = "isotropic";
+  scene.isotropic_growth.stretch = "1 + t";
+  scene.time.step                = 0.1;
+  const auto size                = [&](const unsigned int n_unknowns) {
+    return estimated_size(scene,
+                          seed_founders<3>(scene.tissue, MPI_COMM_WORLD),
+                          MPI_COMM_WORLD,
+                          n_unknowns);
+  };
+  const SizeEstimate grown = size(648);
+  EXPECT_EQ(grown.cells, 8000.);
+  EXPECT_EQ(grown.unknowns_at_start, 648.);
+  EXPECT_NEAR(grown.unknowns,
+              648. * 1000. / 216.,
+              1e-9); // (8 + 2)^3, (4 + 2)^3
+  EXPECT_EQ(grown.steps, 10.);
+  EXPECT_NEAR(size(0).unknowns_at_start, 648., 1e-9);
+
+  // twice the steps, twice the time; finer grids and a direct solver cost more
+  scene.time.step = 0.05;
+  EXPECT_NEAR(size(648).seconds, 2. * grown.seconds, 1e-9);
+  EXPECT_EQ(size(648).memory, grown.memory);
+  EXPECT_GT(size(6480).seconds, size(648).seconds);
+  EXPECT_GT(size(6480).memory, size(648).memory);
+  const double iterative     = size(6480).memory;
+  scene.solver.linear_solver = "direct";
+  EXPECT_GT(size(6480).memory, iterative);
 }
 
 
@@ -207,9 +258,17 @@ TEST(SceneChecks, CountTheBoundaryConditions)
   ConditionCounts counts = check();
   EXPECT_EQ(counts.points, 2 * n_ranks());
   EXPECT_EQ(counts.fixed, n_ranks());
-  EXPECT_EQ(counts.slip, 2 * n_ranks());
+  // fixed wins over slip, slip over pressure
+  EXPECT_EQ(counts.slip, n_ranks());
   EXPECT_EQ(counts.traction, 0u);
+  EXPECT_EQ(counts.pressure, 0u);
+
+  given.slip_where = "Z < 0";
+  counts           = check();
+  EXPECT_EQ(counts.fixed, n_ranks());
+  EXPECT_EQ(counts.slip, 0u);
   EXPECT_EQ(counts.pressure, 1u);
+  given.slip_where = "1";
 
   given.slip_normal         = "1, 0, 0";
   const std::string message = complaint(check);

@@ -9,6 +9,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ namespace Morula
     std::string path; // full, separated by '/'
     std::string default_value;
     std::string documentation;
-    std::string allowed;       // noun phrase
-    bool        is_of_numbers; // real ones: one, or a list of them
+    std::string allowed; // noun phrase
+    std::string unit;    // of "Units: " in the documentation, or empty
+    std::vector<std::string> choices;       // words, if it is chosen from some
+    bool                     is_of_numbers; // real ones: one, or a list
   };
 
   /** The declared keys, for messages and for --parameters. */
@@ -40,9 +43,17 @@ namespace Morula
     list() const && = delete; // the list would go with the object
 
     /**
+     * The path that a key has today: that of a renamed key if @p path is its
+     * former one (declared by ParameterHandler::declare_alias), else @p path.
+     */
+    std::string
+    current_name(const std::string &path) const;
+
+    /**
      * Applies a statement to @p prm, the handler of the constructor.
      * @throws InputError for an unknown key or section (with the most similar
-     *         one that exists) or a value that does not match the pattern
+     *         one that exists, or where it stands) or a value that does not
+     *         match the pattern (with the most similar choice)
      */
     void
     apply(const Statement &statement, ParameterHandler &prm) const;
@@ -58,8 +69,9 @@ namespace Morula
     [[noreturn]] void
     refuse_unknown(const Statement &statement) const;
 
-    std::vector<ParameterKey> keys;
-    std::vector<std::string>  sections;
+    std::vector<ParameterKey>          keys;
+    std::vector<std::string>           sections;
+    std::map<std::string, std::string> renamed; // former path -> path
   };
 } // namespace Morula
 

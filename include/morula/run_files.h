@@ -41,6 +41,10 @@ namespace Morula
     void
     step(StatisticsRow row, const std::vector<Birth<dim>> &births);
 
+    /** Onto the terminal and into log.txt: something worth knowing. */
+    void
+    message(const std::string &text);
+
     /** Appends to condition.csv. The scene asks for it. */
     void
     condition(const unsigned int       step,
@@ -85,6 +89,11 @@ namespace Morula
     wall_seconds() const;
 
   private:
+    void
+    tell_of_missing_states(); // of which Output/Formats was another
+    bool
+    continues_conditions(
+      const std::optional<SnapshotData<dim>> &resumed_from) const;
     void
     open_conditions(const std::optional<SnapshotData<dim>> &resumed_from);
 

@@ -64,6 +64,9 @@ namespace Morula
      */
     std::map<std::string, std::string> as_written;
 
+    /** What to say about keys that were written by a former name. */
+    std::vector<std::string> renamed;
+
     /** Whether an effect changes F_g without proliferation. */
     bool
     has_growth() const

@@ -27,7 +27,8 @@ namespace Morula
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm);
 
-  /** At how many boundary points each condition's 'where' holds. */
+  /** At how many boundary points each condition acts: fixed wins over slip,
+   *  slip over traction and pressure. */
   struct ConditionCounts
   {
     types::particle_index points   = 0;
@@ -42,7 +43,7 @@ namespace Morula
    * time, and the stiffness where points are fixed or slip. Refuses values
    * that are not finite and a condition that holds nowhere. Collective; every
    * rank gives its own points, and all throw together.
-   * @return counts over all ranks, before one condition wins over another
+   * @return counts over all ranks
    * @throws InputError
    */
   template <int dim>

@@ -34,10 +34,12 @@ namespace Morula::Refusals
   /**
    * Refuses an expression that is a plain number of the wrong sign; others
    * must be evaluated at the cells.
+   * @param unit e.g. "kPa", for the message
    * @throws InputError
    */
   void
   refuse_constant_unless(const Sign         sign,
+                         const std::string &unit,
                          const Expression  &expression,
                          const std::string &remedy);
 

@@ -29,17 +29,20 @@ namespace Morula
   initial_size(const Scene &scene);
 
   /**
-   * Rate of the exponential growth of the number of cells at long times,
-   * 1/day: the root r of 2 exp(-rT) Λ/(Λ+r) = 1 for a cycle of duration
-   * @p T after a wait in G0 with the exit rate @p Lambda; 0 for rate 0.
+   * Expected number of cells at time @p t, day, that descend from one which
+   * waits in G0 at t = 0, or enters S then if all start @p together: 1 + sum
+   * over k of 2^(k-1) times the probability that k waits, exponential with the
+   * rate @p Lambda, 1/day, and k - 1/2 cycles of duration @p T, day, fit in.
    */
   double
-  growth_rate(const double T, const double Lambda);
+  expected_cells(const double T,
+                 const double Lambda,
+                 const double t,
+                 const bool   together);
 
   /**
-   * Size at End time that the descendants of @p founders are expected not to
-   * exceed: 2 exp(r t) cells for each founder that proliferates, no more than
-   * twice 'Stop at cells' in all. With a size checkpoint, whose effect only
+   * Expected size at End time of the descendants of @p founders, no more than
+   * twice 'Stop at cells'. With a size checkpoint, whose effect only
    * the run can tell, the founders alone are counted: a lower bound.
    * Collective; every rank gives its own founders.
    * @throws InputError, on some ranks only, where an expression has no value
@@ -49,14 +52,6 @@ namespace Morula
   expected_size(const Scene                   &scene,
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm);
-
-  /**
-   * Memory that a run of this size needs on all ranks together, bytes:
-   * particles and what is copied of them, matrix and preconditioner on the
-   * grid around the tissue. An estimate, right within a factor of about two.
-   */
-  double
-  estimated_memory(const Scene &scene, const SceneSize &size);
 
   /** Physical memory of all machines that run ranks, bytes. Collective. */
   double

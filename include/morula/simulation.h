@@ -54,6 +54,8 @@ namespace Morula
     void
     restore();
     void
+    check_points(const SnapshotData<dim> &data) const; // InputError
+    void
     check_resumed_cycle() const; // Step may have changed
 
     bool
@@ -100,6 +102,8 @@ namespace Morula
     StatisticsRow
     statistics() const;
     void
+    begin_rows();
+    void
     complete_row(const SplineSpace<dim> &space);
     SnapshotData<dim>
     snapshot() const;
@@ -140,8 +144,10 @@ namespace Morula
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
 
-    std::optional<SnapshotData<dim>> resumed_from; // until run()
-    std::optional<RunFiles<dim>>     files;        // from run() on
+    std::vector<std::string>         warnings;      // of a new run
+    std::optional<SplineSpace<dim>>  first_splines; // until the first step
+    std::optional<SnapshotData<dim>> resumed_from;  // until run()
+    std::optional<RunFiles<dim>>     files;         // from run() on
   };
 } // namespace Morula
 

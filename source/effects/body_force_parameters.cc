@@ -10,7 +10,7 @@ namespace Morula
   {
     prm.add_parameter("Force density",
                       force_density,
-                      "Force per initial volume, kPa/um: functions of "
-                      "X, Y, Z, t separated by ';'.");
+                      "Force per initial volume: functions of X, Y, Z, t "
+                      "separated by ';'. Units: kPa/um.");
   }
 } // namespace Morula

@@ -17,8 +17,8 @@ namespace Morula
                       "empty: nowhere. Fixed wins over slip.");
     prm.add_parameter("Displacement",
                       displacement,
-                      "Displacement of the fixed points, um: functions of "
-                      "X, Y, Z, t separated by ';'.");
+                      "Displacement of the fixed points: functions of "
+                      "X, Y, Z, t separated by ';'. Units: um.");
     prm.add_parameter(
       "Slip where",
       slip_where,
@@ -34,24 +34,23 @@ namespace Morula
                       traction_where,
                       "Expression of X, Y, Z: traction acts where it is > 0; "
                       "empty: nowhere.");
-    prm.add_parameter(
-      "Traction",
-      traction,
-      "Traction per initial area (dead load), kPa: functions of "
-      "X, Y, Z, t separated by ';'.");
+    prm.add_parameter("Traction",
+                      traction,
+                      "Traction per initial area (dead load): functions of "
+                      "X, Y, Z, t separated by ';'. Units: kPa.");
     prm.add_parameter("Pressure where",
                       pressure_where,
                       "Expression of X, Y, Z: pressure acts where it is > 0; "
                       "empty: nowhere.");
     prm.add_parameter("Pressure",
                       pressure,
-                      "Pressure that follows the surface, kPa, a function of "
-                      "X, Y, Z, t; positive pushes inward.");
+                      "Pressure that follows the surface, a function of "
+                      "X, Y, Z, t; positive pushes inward. Units: kPa.");
     prm.add_parameter("Nitsche penalty",
                       nitsche_penalty,
-                      "Penalty of fixed and slip points in units of E/h; > 0. "
+                      "Penalty of fixed and slip points; > 0. "
                       "The symmetric form uses at least "
-                      "20 (lambda + 2 mu)/h.",
+                      "20 (lambda + 2 mu)/h. Units: E/h.",
                       Patterns::Double());
     prm.add_parameter(
       "Nitsche form",

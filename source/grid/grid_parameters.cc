@@ -12,11 +12,12 @@ namespace Morula
   {
     prm.add_parameter("Spacing",
                       spacing,
-                      "Edge length h of the grid cells, um; > 0.",
+                      "Edge length h of the grid cells; > 0. Units: um.",
                       Patterns::Double());
     prm.add_parameter("Offset",
                       offset,
-                      "Shift of the grid lines, um: they lie at Offset + i h.",
+                      "Shift of the grid lines: they lie at Offset + i h. "
+                      "Units: um.",
                       Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Occupation parameter",
                       occupation_parameter,

@@ -12,8 +12,8 @@ namespace Morula
   {
     prm.add_parameter("Young's modulus",
                       youngs_modulus,
-                      "E, kPa; > 0. A number or an expression of X, Y, Z (the "
-                      "cell's initial position, um).");
+                      "E; > 0. A number or an expression of X, Y, Z (the "
+                      "cell's initial position, um). Units: kPa.");
     prm.add_parameter("Poisson's ratio",
                       poissons_ratio,
                       "nu; -1 < nu < 0.5.",

@@ -11,6 +11,7 @@
 #include <NOX_StatusTest_Generic.H>
 #include <NOX_Utils.H>
 #include <Teuchos_ParameterList.hpp>
+#include <Teuchos_oblackholestream.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -115,8 +116,14 @@ namespace Morula
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
+      // StepFailed says what has failed; NOX prints failed line searches even
+      // where no output information is wanted.
+      const Teuchos::RCP<std::ostream> nowhere =
+        Teuchos::rcp(new Teuchos::oblackholestream);
       parameters->sublist("Printing")
-        .set("Output Information", 0); // StepFailed says what has failed
+        .set("Output Information", 0)
+        .set("Output Stream", nowhere)
+        .set("Error Stream", nowhere);
 
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");

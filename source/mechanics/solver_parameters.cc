@@ -39,8 +39,8 @@ namespace Morula
     prm.add_parameter("Largest gap",
                       largest_gap,
                       "Distance of a fixed or slip point from where it is held "
-                      "at which a step counts as failed, in grid spacings; 0: "
-                      "any is allowed.",
+                      "at which a step counts as failed; 0: any is allowed. "
+                      "Units: grid spacings.",
                       Patterns::Double(0.));
   }
 } // namespace Morula

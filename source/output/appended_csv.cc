@@ -88,6 +88,15 @@ namespace Morula
   }
 
   void
+  AppendedCsv::check(const std::string              &path,
+                     const std::vector<std::string> &names,
+                     const std::uint64_t             n_rows,
+                     const MPI_Comm                  comm)
+  {
+    on_root(comm, [&]() { size_of_rows(path, csv_header(names), n_rows); });
+  }
+
+  void
   AppendedCsv::append(const std::string &rows)
   {
     on_root(comm, [&]() { file->write(rows); });

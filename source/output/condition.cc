@@ -23,6 +23,14 @@ namespace Morula
   {}
 
   void
+  ConditionFile::check(const std::string  &path,
+                       const std::uint64_t n_rows,
+                       const MPI_Comm      comm)
+  {
+    AppendedCsv::check(path, names, n_rows, comm);
+  }
+
+  void
   ConditionFile::append(const unsigned int       step,
                         const double             time,
                         const ConditionEstimate &estimate)

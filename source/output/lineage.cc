@@ -33,6 +33,15 @@ namespace Morula
 
   template <int dim>
   void
+  LineageFile<dim>::check(const std::string  &path,
+                          const std::uint64_t n_rows,
+                          const MPI_Comm      comm)
+  {
+    AppendedCsv::check(path, names(), n_rows, comm);
+  }
+
+  template <int dim>
+  void
   LineageFile<dim>::append(const std::vector<Birth<dim>> &births)
   {
     CsvRows local;

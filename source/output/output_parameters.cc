@@ -12,8 +12,8 @@ namespace Morula
   {
     prm.add_parameter("Interval",
                       interval,
-                      "Time between two outputs of cells and surface, day; "
-                      "0: first and last only.",
+                      "Time between two outputs of cells and surface; "
+                      "0: first and last only. Units: day.",
                       Patterns::Double(0.));
     prm.add_parameter("Formats",
                       formats,
@@ -23,8 +23,8 @@ namespace Morula
                       Patterns::List(Patterns::Selection("vtu|csv|none"), 1));
     prm.add_parameter("Snapshot interval",
                       snapshot_interval,
-                      "Time between two snapshots for --resume, day; 0: at the "
-                      "end only.",
+                      "Time between two snapshots for --resume; 0: at the "
+                      "end only. Units: day.",
                       Patterns::Double(0.));
     prm.add_parameter(
       "Condition estimate",

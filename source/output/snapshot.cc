@@ -14,6 +14,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <type_traits>
@@ -133,16 +134,6 @@ namespace Morula
       return points;
     }
 
-    [[noreturn]] void
-    refuse(const std::string &path, const std::string &allowed)
-    {
-      throw InputError("--resume",
-                       path,
-                       allowed,
-                       "Resume with the program and the scene that wrote the "
-                       "snapshot, or start the run anew.");
-    }
-
     /** Tells missing and foreign files from damaged ones. */
     void
     check_signature(const std::string &path)
@@ -157,7 +148,7 @@ namespace Morula
       std::string       start(signature.size(), '\0');
       in.read(&start[0], start.size());
       if (start != signature)
-        refuse(path, "a snapshot of Morula (this is no HDF5 file)");
+        refuse_snapshot(path, "a snapshot of Morula (this is no HDF5 file)");
     }
 
     /** Checks whose file it is, and lets @p read read it. */
@@ -171,14 +162,17 @@ namespace Morula
           const Hdf5Reader file(path);
           const auto       names = file.attribute_names("/");
           if (std::find(names.begin(), names.end(), format_name) == names.end())
-            refuse(path,
-                   "a snapshot of Morula (this is the HDF5 file of another "
-                   "program)");
+            refuse_snapshot(
+              path,
+              "a snapshot of Morula (this is the HDF5 file of another "
+              "program)");
           const int format = file.attribute<int>("/", format_name);
           if (format != snapshot_format)
-            refuse(path,
-                   "a snapshot of format " + std::to_string(snapshot_format) +
-                     " (this is of format " + std::to_string(format) + ")");
+            refuse_snapshot(path,
+                            "a snapshot of format " +
+                              std::to_string(snapshot_format) +
+                              " (this is of format " + std::to_string(format) +
+                              ")");
           read(file);
         }
       catch (const InputError &)
@@ -187,11 +181,60 @@ namespace Morula
         }
       catch (const std::exception &error)
         {
-          refuse(path,
-                 std::string("an undamaged snapshot (") + error.what() + ")");
+          refuse_snapshot(path,
+                          std::string("an undamaged snapshot (") +
+                            error.what() + ")");
         }
     }
   } // namespace
+
+  void
+  refuse_snapshot(const std::string &path, const std::string &allowed)
+  {
+    throw InputError("--resume",
+                     path,
+                     allowed,
+                     "Resume with the program and the scene that wrote the "
+                     "snapshot, or start the run anew.");
+  }
+
+  template <int dim>
+  double
+  SnapshotData<dim>::number(const std::string &name) const
+  {
+    const auto found = numbers.find(name);
+    if (found == numbers.end() || !std::isfinite(found->second))
+      refuse_snapshot(file,
+                      "a snapshot with the number '" + name +
+                        "' (this one lacks it)");
+    return found->second;
+  }
+
+  template <int dim>
+  const std::vector<double> &
+  SnapshotData<dim>::table(const std::string &name) const
+  {
+    const auto found = tables.find(name);
+    if (found == tables.end())
+      refuse_snapshot(file,
+                      "a snapshot with the table '" + name +
+                        "' (this one lacks it)");
+    return found->second;
+  }
+
+  template <int dim>
+  const std::vector<int> &
+  SnapshotData<dim>::integer_table(const std::string &name,
+                                   const std::size_t  size) const
+  {
+    const auto found = integer_tables.find(name);
+    if (found == integer_tables.end() || found->second.size() != size)
+      refuse_snapshot(file,
+                      "a snapshot with the table '" + name + "' of " +
+                        std::to_string(size) +
+                        " integers (this one lacks it, or has another size)");
+    return found->second;
+  }
 
   template <int dim>
   void
@@ -243,13 +286,14 @@ namespace Morula
   read_snapshot(const std::string &path, const MPI_Comm comm)
   {
     SnapshotData<dim> data;
-    const auto        read = [&](const Hdf5Reader &file) {
+    data.file       = path;
+    const auto read = [&](const Hdf5Reader &file) {
       const int dimension = file.attribute<int>("/", "dimension");
       if (dimension != dim)
-        refuse(path,
-               "a snapshot in " + std::to_string(dim) +
-                 " dimensions (this one has " + std::to_string(dimension) +
-                 ")");
+        refuse_snapshot(path,
+                        "a snapshot in " + std::to_string(dim) +
+                          " dimensions (this one has " +
+                          std::to_string(dimension) + ")");
       data.time            = file.attribute<double>("/", "time");
       data.program_version = file.text("program version");
       data.parameters      = file.text("parameters");
@@ -278,6 +322,8 @@ namespace Morula
     return parameters;
   }
 
+  template struct SnapshotData<2>;
+  template struct SnapshotData<3>;
   template void
   write_snapshot<2>(const std::string &,
                     const SnapshotData<2> &,

@@ -65,6 +65,14 @@ namespace Morula
   {}
 
   void
+  StatisticsFile::check(const std::string  &path,
+                        const std::uint64_t n_rows,
+                        const MPI_Comm      comm)
+  {
+    AppendedCsv::check(path, names(), n_rows, comm);
+  }
+
+  void
   StatisticsFile::append(const StatisticsRow &row)
   {
     std::vector<double> values;

@@ -33,7 +33,7 @@ namespace Morula
             !(std::abs(lower) < 1e15))
           throw InputError("Tissue/Cell spacing",
                            Patterns::Tools::to_string(spacing),
-                           "a spacing that gives fewer than 4e9 cells",
+                           "a spacing in um that gives fewer than 4e9 cells",
                            "Choose a larger spacing or a smaller tissue.");
         first[d]  = static_cast<std::int64_t>(lower);
         counts[d] = static_cast<std::uint64_t>(upper - lower + 1.);
@@ -113,7 +113,7 @@ namespace Morula
     throw InputError(
       "Tissue/Cell spacing",
       Patterns::Tools::to_string(parameters.cell_spacing),
-      "a spacing by which at least one cell's centre lies inside "
+      "a spacing in um by which at least one cell's centre lies inside "
       "the tissue",
       "Choose a smaller spacing, a larger tissue, or another "
       "Lattice offset.");

@@ -119,7 +119,8 @@ namespace Morula
           {
             rows.problem = {rows.n_lines,
                             entries[i],
-                            "a finite number with a decimal point",
+                            "a finite number with a decimal point, in um "
+                            "(volumes: um^3, 2-D: um^2)",
                             "Correct the line."};
             return;
           }
@@ -128,13 +129,13 @@ namespace Morula
     if (!(values[3] > 0.))
       rows.problem = {rows.n_lines,
                       trimmed(text),
-                      "a volume above 0",
+                      "a volume above 0 um^3 (2-D: um^2)",
                       "Correct the volume or drop the cell."};
     if (dim == 2 && values[2] != 0.)
       rows.problem = {
         rows.n_lines,
         trimmed(text),
-        "z = 0 in 2-D",
+        "z = 0 um in 2-D",
         "Project the cells into the plane, or set Dimension = 3."};
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)

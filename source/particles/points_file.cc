@@ -228,7 +228,7 @@ namespace Morula
               {
                 problem = {entries[i].line,
                            Patterns::Tools::to_string(entries[i].position),
-                           "one cell at each place, and line " +
+                           "one cell at each place, in um, and line " +
                              std::to_string(entries[k].line) +
                              " has one there already, nearer than 1e-3 of a "
                              "cell's length",

@@ -184,7 +184,8 @@ namespace Morula
     if (!chosen && !(n_by_spacing < most_ids))
       throw InputError("Tissue/Cell spacing",
                        Patterns::Tools::to_string(parameters.cell_spacing),
-                       "a spacing that gives fewer than 4e9 boundary points",
+                       "a spacing in um that gives fewer than 4e9 boundary "
+                       "points",
                        "Choose a larger spacing, or set Boundary points.");
     const SurfaceTiling<dim> tiling =
       shape->tile(chosen ? parameters.boundary_points :

@@ -28,16 +28,16 @@ namespace Morula
     prm.add_parameter(
       "Center",
       center,
-      "Center of the shape, um. A surface mesh stays where its "
+      "Center of the shape. A surface mesh stays where its "
       "file has it; only the lattice of cells moves with Center. "
-      "Without effect on points.");
-    prm.add_parameter("Radius", radius, "Of a sphere or cylinder, um.");
+      "Without effect on points. Units: um.");
+    prm.add_parameter("Radius", radius, "Of a sphere or cylinder. Units: um.");
     prm.add_parameter(
       "Size",
       size,
       "Full edge lengths of a box, full axes of an ellipsoid; the "
-      "third is the height of a cylinder, which stands along z; "
-      "um.");
+      "third is the height of a cylinder, which stands along z. "
+      "Units: um.");
     prm.add_parameter(
       "Surface mesh",
       surface_mesh,
@@ -50,16 +50,14 @@ namespace Morula
       "line, x,y,z or x,y,z,volume (2-D: z may be missing), um "
       "and um^3 (2-D: um^2). A cell without volume has that of "
       "the Cell spacing. Such a tissue has no surface.");
-    prm.add_parameter(
-      "Cell spacing",
-      cell_spacing,
-      "L_p, um: cells sit on a regular lattice of this spacing, "
-      "each with the volume L_p^3 (2-D: L_p^2).");
-    prm.add_parameter(
-      "Lattice offset",
-      lattice_offset,
-      "Shifts the lattice of cells against the shape, um. Without "
-      "effect on points.");
+    prm.add_parameter("Cell spacing",
+                      cell_spacing,
+                      "L_p: cells sit on a regular lattice of this spacing, "
+                      "each with the volume L_p^3 (2-D: L_p^2). Units: um.");
+    prm.add_parameter("Lattice offset",
+                      lattice_offset,
+                      "Shifts the lattice of cells against the shape. Without "
+                      "effect on points. Units: um.");
     prm.add_parameter(
       "Surface cells",
       surface_cells,
@@ -72,7 +70,8 @@ namespace Morula
     prm.add_parameter("Boundary points",
                       boundary_points,
                       "Number of points on the surface, met as nearly as the "
-                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).");
+                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).",
+                      Patterns::Integer(0));
     prm.add_parameter(
       "Refine surface",
       refine_surface,
@@ -102,14 +101,15 @@ namespace Morula
       if (numbers.size() < dim || numbers.size() > 3)
         throw InputError("Tissue/" + key,
                          Patterns::Tools::to_string(numbers),
-                         dim == 3 ? "a list of 3 numbers" :
-                                    "a list of 2 or 3 numbers (2-D uses two)",
+                         dim == 3 ?
+                           "a list of 3 numbers in um" :
+                           "a list of 2 or 3 numbers in um (2-D uses two)",
                          "Give one number for each direction.");
       for (const double number : numbers)
         if (!std::isfinite(number))
           throw InputError("Tissue/" + key,
                            Patterns::Tools::to_string(numbers),
-                           "a list of finite numbers",
+                           "a list of finite numbers in um",
                            "Give one length in um for each direction.");
     }
 

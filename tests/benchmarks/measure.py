@@ -5,8 +5,10 @@ doc/performance.md, with its header first. All ratios are of runs of one call,
 side by side."""
 import json
 import math
+import re
 import subprocess
 
+from processes import ROOT, overrides
 from runs import environment
 
 NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
@@ -124,7 +126,7 @@ def sizes(runner, largest):
         rows.append((f"{cells:,}", f"{days:g}", f"{1e6 * each:.1f}",
                      f"{each / first[0]:.2f}", f"{run.memory / 1e9:.2f}",
                      f"{more:.2f}" if more else "",
-                     f"{3 * int(run.rows[-1]['unknowns']):,}",
+                     f"{int(run.rows[-1]['unknowns']):,}",
                      f"{run.total('newton_iterations') / (len(run.rows) - 1):.1f}"))
     return rows
 
@@ -200,4 +202,65 @@ def effects(runner):
                      f"{run.total('newton_iterations') / 10:.1f}",
                      f"{max(0, run.memory - first) / cells:.0f}",
                      ", ".join(names)))
+    return rows
+
+
+# What --explain is calibrated with: 2-D and 3-D, with division and without,
+# both solvers, coarse and fine grids.
+DISC = {"Tissue/Radius": 1500, "Time/End time": 1,
+        "Proliferation/Cell cycle/Duration": 1,
+        "Proliferation/Cell cycle/Size checkpoint": 0}
+ESTIMATED = [
+    ("3-D, growth", "prm/paper/fig-2b.prm", {"Time/End time": 2}),
+    ("— fine grid", "prm/paper/fig-2b.prm",
+     {"Time/End time": 2, "Grid/Spacing": 25}),
+    ("— direct solver", "prm/paper/fig-2b.prm",
+     {"Time/End time": 2, "Grid/Spacing": 33,
+      "Solver/Linear solver": "direct"}),
+    ("— ln J_e projected", "prm/paper/fig-2b.prm",
+     {"Time/End time": 2, "Material/Volumetric strain": "projected"}),
+    ("— small cells", "prm/verification/slip-half-3d.prm", {}),
+    ("3-D, division", "prm/paper/fig-4b.prm",
+     {"Time/End time": 0.5, "Time/Step": 0.1,
+      "Proliferation/Cell cycle/Size checkpoint": 0}),
+    ("2-D, body force", "prm/verification/vortex-2d.prm", {}),
+    ("2-D, growth", "prm/hard/growing-ring.prm", {"Time/End time": 0.2}),
+    ("2-D, division", "tests/scenes/proliferating-disc.prm", DISC),
+    ("— direct solver", "tests/scenes/proliferating-disc.prm",
+     {**DISC, "Solver/Linear solver": "direct"}),
+    # judged by the fit, not fitted
+    ("not fitted: Fig. 3b", "prm/paper/fig-3b.prm", {"Time/End time": 2}),
+    ("not fitted: free block", "prm/hard/free-block.prm",
+     {"Time/End time": 0.5}),
+    ("not fitted: patch, 3-D", "prm/verification/patch-3d.prm", {}),
+    ("not fitted: film, 2-D", "prm/hard/wrinkling-film.prm",
+     {"Time/End time": 0.2}),
+    ("not fitted: few cells, 3-D", "prm/hard/division.prm", {}),
+]
+
+
+def explained(runner, scene, keys):
+    """(memory in GB, seconds) that --explain expects."""
+    text = subprocess.run(
+        [str(runner.morula), str(ROOT / scene), "--explain", *overrides(keys)],
+        cwd=ROOT, env=environment(), check=True, text=True,
+        stdout=subprocess.PIPE).stdout
+    memory = re.search(r"memory: about (\S+) GB", text)
+    time = re.search(r"time: about .* \((\S+) s\)", text)
+    return float(memory[1]), float(time[1])
+
+
+def estimates(runner):
+    """Memory and time that --explain expects against those of the run."""
+    rows = [("scene", "cells", "unknowns", "steps", "memory, GB",
+             "--explain, GB", "time, s", "--explain, s")]
+    for name, scene, keys in ESTIMATED:
+        keys = {"Output/Formats": "none", **keys}
+        memory, time = explained(runner, scene, keys)
+        run = runner.run("estimate", scene, keys)
+        rows.append((name, f"{int(run.rows[-1]['cells']):,}",
+                     f"{int(run.rows[-1]['unknowns']):,}",
+                     f"{len(run.rows) - 1}", f"{run.memory / 1e9:.2f}",
+                     f"{memory:.2f}", f"{run.time('total'):.1f}",
+                     f"{time:.1f}"))
     return rows

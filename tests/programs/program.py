@@ -45,8 +45,9 @@ class ProgramTest(unittest.TestCase):
                              *arguments, ranks=ranks)
         return self.run_words(words, code)
 
-    def run_words(self, words, code=0):
-        result = subprocess.run(words, cwd=SCENES, text=True,
+    def run_words(self, words, code=0, cwd=SCENES):
+        result = subprocess.run([str(word) for word in words], cwd=cwd,
+                                text=True,
                                 stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, check=False)

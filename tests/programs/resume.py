@@ -5,6 +5,7 @@
 
 On the same number of ranks they agree bit for bit, on others in the lineage.
 """
+import re
 import signal
 import subprocess
 import time
@@ -138,6 +139,25 @@ class Resume(ProgramTest):
         times = [read_csv(path)["time"][0] for path in
                  sorted((self.work / "output").glob("cells-*.csv"))]
         self.assertEqual(times, [0, 0.125, 0.25, 0.375, 0.5, 0.75, 1])
+
+    def test_other_format(self):
+        """The run says which states are not in the new series."""
+        half = overrides({"Time/End time": "0.5", "Output/Interval": "0.25"})
+        self.execute(SCENE, *half)
+        result = self.execute(SCENE, "--resume", *overrides(
+            {"Output/Formats": "vtu", "Output/Interval": "0.25"}))
+        said = ("3 of the 3 states so far are not there as vtu; cells.pvd and "
+                "surface.pvd are without them.")
+        output = self.work / "output"
+        self.assertIn(said, result.stdout)
+        self.assertIn(said, (output / "log.txt").read_text())
+        for stem in ("cells", "surface"):
+            listed = re.findall(r'file="(.*?)"',
+                                (output / f"{stem}.pvd").read_text())
+            self.assertEqual(listed, [f"{stem}-0003.vtu", f"{stem}-0004.vtu"])
+        self.assertNotIn("states so far", self.execute(
+            SCENE, "--resume", *overrides({
+                "Output/Formats": "csv, vtu", "Time/End time": "1"})).stdout)
 
     def test_failure_is_logged(self):
         result = self.execute(

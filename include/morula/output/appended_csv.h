@@ -42,6 +42,16 @@ namespace Morula
                 const MPI_Comm                  comm);
 
     /**
+     * Refuses what the second constructor would, and changes nothing.
+     * @throws InputError
+     */
+    static void
+    check(const std::string              &path,
+          const std::vector<std::string> &names,
+          const std::uint64_t             n_rows,
+          const MPI_Comm                  comm);
+
+    /**
      * Appends rank 0's @p rows, complete lines; they have left the program on
      * return.
      * @throws std::runtime_error with path and reason

@@ -33,6 +33,12 @@ namespace Morula
                 const std::uint64_t n_rows,
                 const MPI_Comm      comm);
 
+    /** See AppendedCsv. */
+    static void
+    check(const std::string  &path,
+          const std::uint64_t n_rows,
+          const MPI_Comm      comm);
+
     /**
      * Appends all ranks' births since the last call; their ids follow those in
      * the file, in any order and on any rank.

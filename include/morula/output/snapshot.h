@@ -35,7 +35,28 @@ namespace Morula
     std::map<std::string, std::vector<int>>    integer_tables;
     PointList<dim>                             cells;
     PointList<dim>                             boundary_points;
+    /** The file that this was read from. */
+    std::string file;
+
+    /** @throws InputError if the file lacks it, or it is no finite number */
+    double
+    number(const std::string &name) const;
+
+    /** @throws InputError if the file lacks it */
+    const std::vector<double> &
+    table(const std::string &name) const;
+
+    /** @throws InputError if the file lacks it, or it has another size */
+    const std::vector<int> &
+    integer_table(const std::string &name, const std::size_t size) const;
   };
+
+  /**
+   * @param allowed what the file should be, a noun phrase
+   * @throws InputError about a snapshot that cannot be gone on from
+   */
+  [[noreturn]] void
+  refuse_snapshot(const std::string &path, const std::string &allowed);
 
   /**
    * Writes snapshot.h5, all ranks together. Doubles keep their bits. The file

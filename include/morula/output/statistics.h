@@ -51,6 +51,12 @@ namespace Morula
                    const std::uint64_t n_rows,
                    const MPI_Comm      comm);
 
+    /** See AppendedCsv. */
+    static void
+    check(const std::string  &path,
+          const std::uint64_t n_rows,
+          const MPI_Comm      comm);
+
     void
     append(const StatisticsRow &row);
 

@@ -34,7 +34,10 @@ namespace Morula
         place << "It is " << value << " at the cell from (" << X
               << ") um, t = " << t
               << " day. Choose a stretch that stays positive until End time.";
-        throw InputError(theta.key(), theta.text(), "a value > 0", place.str());
+        throw InputError(theta.key(),
+                         theta.text(),
+                         "a value > 0 (a ratio of lengths)",
+                         place.str());
       }
     return value;
   }

@@ -22,14 +22,14 @@ namespace Morula
                       Patterns::Selection("waiting|together"));
     prm.add_parameter("Duration",
                       duration,
-                      "T_cycle, day: total duration of S, G2, M and G1. "
+                      "T_cycle: total duration of S, G2, M and G1. "
                       "Positive, and at least twice Time/Step." +
-                        where_evaluated);
+                        where_evaluated + " Units: day.");
     prm.add_parameter("G0 exit rate",
                       exit_rate,
-                      "Lambda, 1/day: rate of the exponentially distributed "
+                      "Lambda: rate of the exponentially distributed "
                       "wait in G0. Not negative; 0: cells never leave G0." +
-                        where_evaluated);
+                        where_evaluated + " Units: 1/day.");
     prm.add_parameter("Size checkpoint",
                       size_checkpoint,
                       "J_th: a cell enters S only while its elastic volume "

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The keys that a program knows, from what `morula --parameters` prints."""
+import re
+import subprocess
+from dataclasses import dataclass
+
+# Former path of a key -> its path today, e.g. "Grid/Mesh size": "Grid/Spacing".
+# No key has been renamed yet. The program must know the former name, too, by
+# ParameterHandler::declare_alias where the key is declared (both names in one
+# subsection): the test programs/keys.py compares.
+RENAMES = {}
+
+
+@dataclass(frozen=True)
+class Key:
+    """path: full, separated by '/'. allowed: a noun phrase, or empty for
+    expressions and texts. former: paths that it had."""
+
+    path: str
+    default: str
+    unit: str
+    allowed: str
+    meaning: str
+    former: tuple
+
+
+def parse_keys(text):
+    """All keys of the output of `morula --parameters`, in order."""
+    keys, sections, comment, former = [], [], [], []
+    for line in map(str.strip, text.splitlines()):
+        if line.startswith("# Formerly: "):
+            former.append(line[len("# Formerly: "):])
+        elif line.startswith("#"):
+            comment.append(line[1:].strip())
+        elif line.startswith("subsection "):
+            sections.append(line[len("subsection "):])
+        elif line == "end":
+            sections.pop()
+        elif line.startswith("set "):
+            name, _, default = line[len("set "):].partition("=")
+            match = re.fullmatch(
+                r"(?s)(.*?)(?: Units: ([^.]*)\.)?(?: Allowed: (.*)\.)?",
+                " ".join(comment))
+            keys.append(Key("/".join([*sections, name.strip()]),
+                            default.strip(), match[2] or "", match[3] or "",
+                            match[1], tuple(former)))
+            comment, former = [], []
+    return keys
+
+
+def keys_of(morula):
+    """The keys of an executable."""
+    return parse_keys(subprocess.run([str(morula), "--parameters"], check=True,
+                                     text=True, stdin=subprocess.DEVNULL,
+                                     stdout=subprocess.PIPE).stdout)

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Kinds of bad input, and what the program must say about each: the key with its
+full path (or the option, or the file), the value, the limit, and what to do."""
+import struct
+from dataclasses import dataclass, field
+
+CYCLE = "Proliferation/Cell cycle/"
+CONDITIONS = "Boundary conditions/"
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """keys: overrides of tests/programs/small-cube.prm; {files} in a value is the
+    directory of files: name -> text or bytes. key, value, limit and remedy must
+    be in the message."""
+
+    name: str
+    keys: dict
+    key: str
+    value: str
+    limit: str
+    remedy: str
+    files: dict = field(default_factory=dict)
+
+
+def wrong(name, key, value, limit, remedy, **others):
+    """A single key with a bad value; others: further overrides."""
+    return Refusal(name, {key: value, **others.pop("keys", {})}, key,
+                   f"'{value}'", limit, remedy, **others)
+
+
+NUMBERS = [
+    wrong("no number", "Time/End time", "long", "a number", "Correct the value"),
+    wrong("a number with its unit", "Grid/Spacing", "50 um", "a number",
+          "the default is '50' um"),
+    wrong("not a number", "Tissue/Radius", "nan", "a number",
+          "Correct the value"),
+    wrong("infinite", "Time/End time", "inf", "a number", "Correct the value"),
+    wrong("no integer", "Time/Stop at cells", "1.5", "an integer >= 0",
+          "Correct the value"),
+    wrong("negative number of points", "Tissue/Boundary points", "-5",
+          "an integer >= 0", "Correct the value"),
+    wrong("no boolean", "Grid/Extension", "maybe", "true or false",
+          "Correct the value"),
+    wrong("too short a list", "Tissue/Size", "60, 60", "3 numbers in um",
+          "one number for each direction"),
+    wrong("dimension", "Dimension", "4", "from 2 to 3", "Correct the value"),
+    wrong("grid spacing", "Grid/Spacing", "-50", "a length in um > 0",
+          "Choose some cell spacings"),
+    wrong("no grid spacing", "Grid/Spacing", "0", "a length in um > 0",
+          "Choose some cell spacings"),
+    wrong("cell spacing", "Tissue/Cell spacing", "-10", "above 0 um",
+          "Give a positive length"),
+    Refusal("negative size", {"Tissue/Size": "60, -60, 60"}, "Tissue/Size",
+            "'-60'", "above 0 um", "Give a positive length"),
+    wrong("negative radius", "Tissue/Radius", "-1", "above 0 um",
+          "Give a positive length", keys={"Tissue/Shape": "sphere"}),
+    wrong("cells that do not fit", "Tissue/Cell spacing", "130",
+          "in um by which at least one cell's centre lies inside",
+          "Choose a smaller spacing"),
+    Refusal("far away", {"Tissue/Center": "1e300, 0, 0"}, "Tissue/Center",
+            "'1e+300, 0, 0'",
+            "1e+08 grid spacings from the origin, 3.5e+09 um",
+          "Move the scene nearer"),
+    wrong("incompressible", "Material/Poisson's ratio", "0.5", "< 0.5",
+          "0.49 or 0.499"),
+    wrong("ratio too low", "Material/Poisson's ratio", "-1", "> -1",
+          "0.49 or 0.499"),
+    wrong("no stiffness", "Material/Young's modulus", "0", "> 0 kPa",
+          "positive stiffness"),
+    wrong("penalty", CONDITIONS + "Nitsche penalty", "-1",
+          "> 0, in units of E/h", "1e3 is a good choice"),
+    wrong("no step", "Time/Step", "0", "days > 0", "Choose a positive step"),
+    wrong("no end", "Time/End time", "-1", "days > 0", "Choose a later end"),
+    wrong("end at the start", "Time/End time", "0", "days > 0",
+          "Choose a later end"),
+    wrong("smallest step", "Time/Smallest step", "1",
+          "<= Time/Step = 0.125 day", "Lower it, or raise Time/Step"),
+    wrong("steps without number", "Time/Step", "1e-10",
+          "at least Time/End time = 1 day / 1e+09", "Raise it",
+          keys={"Time/Smallest step": "1e-11"}),
+    wrong("occupation", "Grid/Occupation parameter", "1.5", "<= 1",
+          "0.85 is a good choice"),
+    wrong("tolerance", "Solver/Newton tolerance", "0", "> 0 and < 1",
+          "1e-6 is a good choice"),
+    wrong("output interval", "Output/Interval", "-1", "a number >= 0",
+          "the default is '0.25' day"),
+    wrong("cycle of no length", CYCLE + "Duration", "0", "> 0 day",
+          "duration of a cycle"),
+    wrong("negative rate", CYCLE + "G0 exit rate", "-1", ">= 0 1/day",
+          "wait forever"),
+    wrong("negative checkpoint", CYCLE + "Size checkpoint", "-0.5", ">= 0",
+          "0 means no checkpoint"),
+]
+
+CHOICES = [
+    Refusal("unknown key", {"Grid/Spcing": "50"}, "Grid/Spcing", "'50'",
+            "a key that exists", "Did you mean 'Grid/Spacing'?"),
+    Refusal("unknown section", {"Gird/Spacing": "50"}, "Gird/Spacing", "'50'",
+            "a section that exists", "Did you mean 'Grid/Spacing'?"),
+    Refusal("a key in the wrong section", {"Growth/Stretch": "2"},
+            "Growth/Stretch", "'2'", "a key that exists",
+            "That name stands in subsection Growth/Isotropic."),
+    Refusal("a key outside its section", {"Spacing": "50"}, "Spacing", "'50'",
+            "a key that exists", "That name stands in subsection Grid."),
+    wrong("misspelt choice", "Tissue/Shape", "spere", "any one of sphere, box",
+          "Did you mean 'sphere'?"),
+    wrong("misspelt choice in a list", "Output/Formats", "csv, vtuu",
+          "any one of vtu, csv, none", "Did you mean 'vtu'?"),
+    wrong("unknown choice", "Tissue/Shape", "torus", "any one of sphere, box",
+          "Correct the value"),
+    wrong("no cylinder in 2-D", "Tissue/Shape", "cylinder",
+          "sphere, box, ellipsoid or points in 2-D", "set Dimension = 3",
+          keys={"Dimension": "2"}),
+    wrong("contradicting formats", "Output/Formats", "none, csv", "none alone",
+          "Remove 'none' or the others"),
+    wrong("a format twice", "Output/Formats", "csv, csv", "each format once",
+          "Remove what is written twice"),
+]
+
+EXPRESSIONS = [
+    wrong("stiffness negative somewhere", "Material/Young's modulus", "X",
+          "> 0 kPa", "It is -24 kPa at (-24 -24 6) um. Make it positive"),
+    wrong("unknown variable", "Growth/Isotropic/Stretch", "1 + 0.1*tt",
+          "an expression that muParser understands",
+          'character 9: Unexpected token "tt". The variables are X, Y, Z (um) '
+          "and t (day)", keys={"Growth/Law": "isotropic"}),
+    wrong("open bracket", CONDITIONS + "Slip where", "(Z <= 0",
+          "an expression that muParser understands", "Missing parenthesis"),
+    wrong("too few components", CONDITIONS + "Traction", "1",
+          "3 expressions separated by ';'", "There are 1.",
+          keys={CONDITIONS + "Traction where": "Z > 59"}),
+    wrong("growth that ends below zero", "Growth/Isotropic/Stretch",
+          "1 - 1.5*t", "> 0", "stays positive until End time",
+          keys={"Growth/Law": "isotropic"}),
+    wrong("time in a place", CONDITIONS + "Fixed where", "Z < t",
+          "an expression of X, Y, Z", "remove t"),
+    wrong("condition that holds nowhere", CONDITIONS + "Fixed where",
+          "Z < -100", "holds at some boundary point",
+          "correct it, or leave it empty"),
+    wrong("no value", "Body force/Force density", "0; 0; log(-1)",
+          "a finite value", "t = 0 day"),
+]
+
+CONTRADICTIONS = [
+    wrong("growth without its law", "Growth/Isotropic/Stretch", "1 + t",
+          "its default, as Growth/Law is not set",
+          "Set Growth/Law = isotropic, or remove this key"),
+    wrong("pressure nowhere", CONDITIONS + "Pressure", "1",
+          "its default, as Boundary conditions/Pressure where is not set",
+          "Say where it acts"),
+    wrong("normal without direction", CONDITIONS + "Slip normal", "0, 0, 0",
+          "not all zero", "Write for example 0, 1, 0"),
+    wrong("axis without direction", CYCLE + "Fixed axis", "0, 0, 0",
+          "is not zero", "set Division axis = random",
+          keys={CYCLE + "Division axis": "fixed"}),
+    wrong("step above T/2", "Time/Step", "0.6",
+          "half the shortest cell cycle, 0.5 day",
+          "lengthen Proliferation/Cell cycle/Duration"),
+    Refusal("step above T/2 of some founder",
+            {CYCLE + "Duration": "1 - 0.9*(X > 0)"}, "Time/Step", "'0.125'",
+            "half the shortest cell cycle, 0.05 day", "Shorten the step"),
+    wrong("points have no surface", CONDITIONS + "Slip where", "Z <= 0",
+          "nothing for Tissue/Shape = points", "remove the condition",
+          keys={"Tissue/Shape": "points",
+                "Tissue/Points file": "scattered-cells.csv"}),
+    wrong("a mesh for a box", "Tissue/Surface mesh", "octahedron.off",
+          "nothing, as Tissue/Shape = box", "Set Shape = mesh"),
+    wrong("too many cells", "Tissue/Cell spacing", "0.01",
+          "in um that gives fewer than 4e9 cells", "Choose a larger spacing"),
+    Refusal("more than memory", {"Tissue/Cell spacing": "0.04"}, "The scene",
+            "3.375e+09 cells of 0.04 um on a grid of 35 um", "GB of memory here",
+            "Raise Tissue/Cell spacing or Grid/Spacing"),
+    Refusal("a grid larger than memory", {"Grid/Spacing": "0.02"}, "The scene",
+            "on a grid of 0.02 um", "GB of memory here",
+            "Raise Tissue/Cell spacing or Grid/Spacing"),
+]
+
+OFF = """OFF
+4 4 0
+0 0 0
+64 0 0
+0 64 0
+0 0 64
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+NO_SLIP = {CONDITIONS + "Slip where": "", CONDITIONS + "Slip normal": ""}
+
+
+def mesh(name, file, content, limit, remedy, value=None):
+    path = "{files}/" + file
+    return Refusal(name, {**NO_SLIP, "Tissue/Shape": "mesh",
+                          "Tissue/Surface mesh": path}, "Tissue/Surface mesh",
+                   value or path, limit, remedy,
+                   {} if content is None else {file: content})
+
+
+def points(name, content, key, value, limit, remedy):
+    return Refusal(name, {**NO_SLIP, "Tissue/Shape": "points",
+                          "Tissue/Points file": "{files}/cells.csv"},
+                   "Tissue/Points file" + key, value, limit, remedy,
+                   {} if content is None else {"cells.csv": content})
+
+
+BINARY_STL = bytes(80) + struct.pack("<I", 4) + bytes(120)
+
+FILES = [
+    mesh("missing mesh", "nowhere.stl", None, "a file that can be read",
+         "Check its name"),
+    mesh("mesh of another format", "mesh.vtk", OFF,
+         ".stl, .off, .ply or .obj", "Convert the surface"),
+    mesh("foreign mesh", "mesh.obj", "once upon a time\n", "a closed surface",
+         "Tissue/Surface mesh"),
+    mesh("empty mesh", "mesh.ply", "", "a closed surface", "file is empty"),
+    mesh("truncated mesh", "mesh.off", OFF[:-12], "a closed surface",
+         "cannot be read"),
+    mesh("truncated binary mesh", "mesh.stl", BINARY_STL, "a closed surface",
+         "cut off"),
+    mesh("open mesh", "mesh.off", OFF.replace("4 4 0", "4 3 0", 1)
+         .replace("3 1 2 3\n", ""), "a closed surface", "open: 3 edges"),
+    mesh("mesh with a fin", "mesh.off", OFF.replace("4 4 0", "5 5 0", 1)
+         .replace("0 0 64\n", "0 0 64\n90 90 90\n") + "3 0 1 4\n",
+         "a closed surface", "non-manifold: 1 edges"),
+    mesh("mesh that intersects itself", "mesh.off",
+         OFF.replace("4 4 0", "8 8 0").replace(
+             "3 0 2 1", "10 10 10\n74 10 10\n10 74 10\n10 10 74\n3 0 2 1")
+         + "3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n",
+         "does not intersect itself", "pairs of triangles"),
+    mesh("mesh of no numbers", "mesh.off", OFF.replace("64 0 0", "nan 0 0"),
+         "a closed surface", "Tissue/Surface mesh"),
+    mesh("mesh in metres", "mesh.off", OFF.replace("64", "64e-6"),
+         "a surface in um", "1e6 from m"),
+    points("missing points", None, "", "cells.csv", "a file that can be read",
+           "Check its name"),
+    points("empty points", "", " ({files}/cells.csv, line 1)", "''",
+           "a header line and one line per cell", "The file is empty"),
+    points("points without cells", "x,y,z\n", "", "cells.csv",
+           "a file with 1 to 4e9 cells", "It has 0."),
+    points("bad columns", "x,y,w\n1,2,3\n", " ({files}/cells.csv, line 1)",
+           "x,y,w", "the columns x, y, z", "Name the columns"),
+    points("a column too few", "x,y,z\n1,2\n", " ({files}/cells.csv, line 2)",
+           "'1,2'", "3 numbers separated by commas", "Correct the line"),
+    points("points of no numbers", "x,y,z\n1,nan,3\n",
+           " ({files}/cells.csv, line 2)", "'nan'",
+           "a finite number with a decimal point, in um", "Correct the line"),
+    points("a cell of no volume", "x,y,z,volume\n1,2,3,0\n",
+           " ({files}/cells.csv, line 2)", "'1,2,3,0'",
+           "a volume above 0 um^3", "drop the cell"),
+    points("the same point twice", "x,y,z\n0,0,0\n30,0,0\n0,0,0\n",
+           " ({files}/cells.csv, line 4)", "'0, 0, 0'",
+           "one cell at each place, in um, and line 2",
+           "Drop one of the two cells"),
+]
+
+KEYS = NUMBERS + CHOICES + EXPRESSIONS + CONTRADICTIONS + FILES
+
+# Scenes of their own: (name, text or None, words that must be in the message).
+SCENES = [
+    ("missing", None, ("The scene file", "a .prm file that can be read",
+                       "Correct its name")),
+    ("directory", "", ("The scene file", "a .prm file that can be read",
+                       "Correct its name")),
+    ("foreign", b"PK\x03\x04\0\0", ("foreign.prm:1", "'PK'", "text",
+                                   "Is this a scene?")),
+    ("word", b"sett Dimension = 3\n", ("word.prm:1", "'sett Dimension = 3'",
+                                       "'set Key = value'",
+                                       "Correct the line")),
+    ("equals", b"set Dimension 3\n", ("equals.prm:1", "'set Dimension 3'",
+                                      "'set Key = value'", "Put '='")),
+    ("truncated", b"subsection Grid\n  set Spacing = 5\n",
+     ("truncated.prm:2", "Grid", "closed by 'end'", "Add the missing 'end'")),
+    ("end", b"set Dimension = 3\nend\n", ("end.prm:2", "'end'",
+                                          "an 'end' for every 'subsection'",
+                                          "remove the 'end'")),
+    ("key", b"subsection Grid\n  set Spacng = 5\nend\n",
+     ("key.prm:2: Grid/Spacng", "'5'", "a key that exists",
+      "Did you mean 'Grid/Spacing'?")),
+    ("section", b"\nsubsection Grwoth\nend\n",
+     ("section.prm:2: Grwoth", "'subsection'", "a section that exists",
+      "Did you mean 'Growth'?")),
+    ("choice", b"subsection Tissue\n  set Shape = spere\nend\n",
+     ("choice.prm:2: Tissue/Shape", "'spere'", "any one of sphere",
+      "Did you mean 'sphere'?")),
+    ("include", b"include nowhere.prm\n",
+     ("include.prm:1", "'include nowhere.prm'", "a file that can be read",
+      "Correct the name")),
+    ("circle", b"include circle.prm\n",
+     ("circle.prm:1", "'include circle.prm'",
+      "files that do not include themselves", "Break the circle")),
+]

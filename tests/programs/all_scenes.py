@@ -1,0 +1,110 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Every scene of prm/ runs: one step, on a coarser lattice and grid where it has
+many cells, so that no scene rots. The figures they are for are judged elsewhere."""
+import math
+import sys
+from pathlib import Path
+
+from program import ProgramTest, main, overrides, read_csv
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "contrib/python"), str(ROOT / "tests/hard"),
+                str(ROOT / "tests/hard/cases")]
+# flake8: noqa: E402
+import small_and_thin
+from morula_runs.prm import parse
+
+MOST_CELLS = 3000
+
+# What cannot be told from the keys: shapes from files.
+COARSER = {"hard/cook.prm": {"Tissue/Cell spacing": "2", "Grid/Spacing": "8",
+                             "Grid/Offset": "0, 0, 4",
+                             "Tissue/Boundary points": "2000"},
+           "verification/patch-3d.prm": {"Tissue/Cell spacing": "8",
+                                         "Grid/Spacing": "40"}}
+
+# Files of scenes that their hard cases write.
+MADE = {"hard/close-bodies.prm": ("Tissue/Points file", "cells.csv",
+                                  small_and_thin.two_blocks(60)),
+        "hard/tearing-neck.prm": ("Tissue/Surface mesh", "dumbbell.off",
+                                  small_and_thin.dumbbell)}
+
+# Few cells per grid spacing, or tissue thinner than a grid cell: these scenes
+# are there to show how far that goes.
+WARNED = {f"hard/{name}.prm": ["Grid/Spacing"] for name in (
+    "breaking-off", "division", "enclosed-sphere", "from-27-cells",
+    "small-and-thin", "solver", "thin-strip", "twelve-generations")}
+
+
+def volume(keys, dim):
+    """Of the shape, um^dim; 0 for shapes from files."""
+    numbers = [float(x) for x in
+               keys.get("Tissue/Size", "200, 200, 200").split(",")]
+    product = math.prod(numbers[:dim])
+    radius = float(keys.get("Tissue/Radius", 250))
+    ball = {2: math.pi * radius**2, 3: 4 / 3 * math.pi * radius**3}[dim]
+    return {"sphere": ball, "box": product,
+            "ellipsoid": product * math.pi / (4 if dim == 2 else 6),
+            "cylinder": math.pi * radius**2 * numbers[-1]
+            }.get(keys.get("Tissue/Shape", "sphere"), 0)
+
+
+def shortened(scene):
+    """Overrides for one step of a few cells; h / L_p stays."""
+    keys = parse(scene.read_text(), scene.parent)
+    dim = int(keys.get("Dimension", 3))
+    step = keys.get("Time/Step", "0.05")
+    spacing = float(keys.get("Tissue/Cell spacing", 10))
+    n = volume(keys, dim) / spacing**dim
+    factor = max(1.0, (n / MOST_CELLS)**(1 / dim))
+    return {"Time/End time": step, "Output/Interval": "0",
+            "Output/Snapshot interval": "0",
+            "Tissue/Cell spacing": f"{factor * spacing:.10g}",
+            "Grid/Spacing":
+            f"{factor * float(keys.get('Grid/Spacing', 50)):.10g}",
+            **COARSER.get(str(scene.relative_to(ROOT / "prm")), {})}
+
+
+class AllScenes(ProgramTest):
+    def made(self, name):
+        """The key of a file that the scene needs, with the file written."""
+        if name not in MADE:
+            return {}
+        key, file, text = MADE[name]
+        return {key: str(self.write(file, text()))}
+
+    def test_every_scene_runs(self):
+        scenes = sorted((ROOT / "prm").rglob("*.prm"))
+        self.assertGreater(len(scenes), 50)
+        for scene in scenes:
+            name = str(scene.relative_to(ROOT / "prm"))
+            with self.subTest(name):
+                keys = {**shortened(scene), **self.made(name)}
+                output = self.work / "output"
+                self.run_words(self.command(
+                    scene, *overrides({**keys, "Output directory": output})),
+                    cwd=ROOT)
+                rows = read_csv(output / "statistics.csv")
+                self.assertEqual(rows["time"][-1], float(keys["Time/End time"]))
+                self.assertGreater(rows["unknowns"][0], 0)
+                for column in rows.dtype.names:
+                    self.assertTrue(math.isfinite(rows[column][-1]), column)
+
+    def test_warnings(self):
+        """At full size, none but those that are deserved."""
+        for scene in sorted((ROOT / "prm").rglob("*.prm")):
+            name = str(scene.relative_to(ROOT / "prm"))
+            with self.subTest(name):
+                text = self.run_words(
+                    self.command(scene, "--explain",
+                                 *overrides(self.made(name))), cwd=ROOT).stdout
+                found = [line.split(" = ")[0][len("Warning: "):]
+                         for line in text.splitlines()
+                         if line.startswith("Warning: ")]
+                self.assertEqual(found, WARNED.get(name, []))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Runs that cannot be resumed: exit code 1, the option or key, the value, the limit
+and the remedy on stderr, and no file of the earlier run changed.
+"""
+import shutil
+from pathlib import Path
+
+import h5py
+from program import ProgramTest, main, overrides
+
+SCENE = Path(__file__).resolve().parent / "small-cube.prm"
+HALF = overrides({"Time/End time": "0.25"})
+ANEW = "or start the run anew"
+
+
+def cut_rows(path, n):
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[:n]))
+
+
+def without(name):
+    """Removes a table or a number of the snapshot."""
+    def damage(output):
+        with h5py.File(output / "snapshot.h5", "r+") as file:
+            group, _, item = name.partition("/")
+            if group == "numbers":
+                del file["numbers"].attrs[item]
+            else:
+                del file[name]
+    return damage
+
+
+def fewer_slots(output):
+    with h5py.File(output / "snapshot.h5", "r+") as file:
+        properties = file["cells/properties"][:, :-1]
+        del file["cells/properties"]
+        file["cells/properties"] = properties
+
+
+def truncated(output):
+    data = (output / "snapshot.h5").read_bytes()
+    (output / "snapshot.h5").write_bytes(data[:len(data) // 2])
+
+
+def foreign(output):
+    with h5py.File(output / "snapshot.h5", "w") as file:
+        file["numbers"] = [1, 2, 3]
+
+
+def text(output):
+    (output / "snapshot.h5").write_text("x,y,z\n")
+
+
+# name -> (what is done to the finished run, what must be said)
+DAMAGES = {
+    "no snapshot": (lambda output: (output / "snapshot.h5").unlink(),
+                    ("a snapshot that can be read",
+                     "start the run without --resume")),
+    "truncated": (truncated, ("an undamaged snapshot", ANEW)),
+    "foreign": (foreign, ("the HDF5 file of another program", ANEW)),
+    "no HDF5": (text, ("this is no HDF5 file", ANEW)),
+    "no box": (without("integer tables/box_n"),
+               ("the table 'box_n' of 3 integers", "lacks it", ANEW)),
+    "no weights": (without("integer tables/box_weights"),
+                   ("the table 'box_weights'", ANEW)),
+    "no output times": (without("tables/output_times"),
+                        ("the table 'output_times'", "lacks it", ANEW)),
+    "no id": (without("numbers/next_id"), ("the number 'next_id'", ANEW)),
+    "no row count": (without("numbers/statistics_rows"),
+                     ("the number 'statistics_rows'", ANEW)),
+    "no step": (without("numbers/step_level"),
+                ("the number 'step_level'", ANEW)),
+    "no cells": (without("cells/positions"), ("an undamaged snapshot", ANEW)),
+    "no parameters": (without("parameters"), ("an undamaged snapshot", ANEW)),
+    "cells of another kind": (fewer_slots, ("a snapshot whose cells have",
+                                            "numbers each", ANEW)),
+    "statistics cut": (lambda output: cut_rows(output / "statistics.csv", 2),
+                       ("statistics.csv", "at least the 3 rows",
+                        "there are 1", "Restore the file")),
+    "lineage cut": (lambda output: cut_rows(output / "lineage.csv", 5),
+                    ("lineage.csv", "rows that the snapshot counts",
+                     "Restore the file")),
+    "lineage missing": (lambda output: (output / "lineage.csv").unlink(),
+                        ("lineage.csv", "a readable file next to the snapshot",
+                         "Restore the file")),
+    "statistics of another run": (
+        lambda output: (output / "statistics.csv").write_text("a,b\n1,2\n"),
+        ("statistics.csv", "a file with the header", "Restore the file")),
+}
+
+KEYS = {"Grid/Spacing": ("34", "'35', as in the snapshot"),
+        "Random seed": ("5", "'4', as in the snapshot"),
+        "Material/Young's modulus": ("2", "as in the snapshot"),
+        "Tissue/Cell spacing": ("10", "'12', as in the snapshot"),
+        "Proliferation/Cell cycle/Duration": ("1.5", "as in the snapshot")}
+
+
+class ResumeRefusals(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.execute(SCENE, *HALF, output=self.work / "good")
+
+    def refused(self, output, texts, *arguments):
+        """Resumes; nothing may change but by what is said."""
+        before = {path: path.read_bytes() for path in output.iterdir()}
+        result = self.execute(SCENE, "--resume", *arguments, output=output,
+                              code=1)
+        for expected in texts:
+            self.assertIn(expected, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(before,
+                         {path: path.read_bytes() for path in output.iterdir()})
+
+    def test_damages(self):
+        for name, (damage, texts) in DAMAGES.items():
+            with self.subTest(name):
+                output = self.work / name.replace(" ", "-")
+                shutil.copytree(self.work / "good", output)
+                damage(output)
+                self.refused(output, ("--resume = '" + str(output), *texts))
+
+    def test_damage_on_two_ranks(self):
+        output = self.work / "two"
+        shutil.copytree(self.work / "good", output)
+        DAMAGES["no box"][0](output)
+        result = self.execute(SCENE, "--resume", output=output, ranks=2,
+                              code=1)
+        self.assertIn("'box_n'", result.stderr)
+        self.assertEqual(result.stderr.count("morula: "), 1)
+
+    def test_changed_keys(self):
+        for key, (value, limit) in KEYS.items():
+            with self.subTest(key):
+                self.refused(self.work / "good",
+                             (f"{key} = '{value}'", limit,
+                              "Put the old value back"),
+                             *overrides({key: value}))
+
+
+if __name__ == "__main__":
+    main()

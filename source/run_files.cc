@@ -42,10 +42,12 @@ namespace Morula
   template <int dim>
   RunFiles<dim>::RunFiles(const Scene                            &scene,
                           const std::optional<SnapshotData<dim>> &resumed_from,
+                          const Timer                            &clock,
                           const MPI_Comm                          comm)
     : scene(scene)
     , comm(comm)
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
+    , clock(clock)
     , next_output(resumed_from ? next_multiple(resumed_from->time,
                                                scene.output.interval,
                                                scene.time.step) :
@@ -166,7 +168,7 @@ namespace Morula
   double
   RunFiles<dim>::wall_seconds() const
   {
-    return wall_seconds_before + timer.wall_time();
+    return wall_seconds_before + clock.wall_time();
   }
 
   template <int dim>
@@ -181,7 +183,7 @@ namespace Morula
                     row.dt,
                     row.cells,
                     row.newton_iterations,
-                    timer.wall_time()});
+                    clock.wall_time()});
   }
 
   template <int dim>

@@ -33,7 +33,7 @@ namespace Morula
                     << " day: nothing to resume.\n";
         return;
       }
-    files.emplace(scene, resumed_from, comm);
+    files.emplace(scene, resumed_from, clock, comm);
     if (!resumed_from)
       {
         for (const std::string &warning : warnings)

@@ -31,10 +31,13 @@ namespace Morula
   public:
     /**
      * Makes the directory ready: for a new run, or to go on behind a snapshot.
+     * @param clock runs since the program began with this run; kept as a
+     *        reference
      * @throws InputError, or std::runtime_error with path and reason
      */
     RunFiles(const Scene                            &scene,
              const std::optional<SnapshotData<dim>> &resumed_from,
+             const Timer                            &clock,
              const MPI_Comm                          comm);
 
     /** Appends to statistics.csv and lineage.csv, and shows the step. */
@@ -111,7 +114,7 @@ namespace Morula
     const Scene         scene;
     const MPI_Comm      comm;
     const double        wall_seconds_before;
-    Timer               timer;
+    const Timer        &clock;
     std::vector<double> output_times;
     // Due at these multiples of their intervals.
     unsigned int                    next_output;

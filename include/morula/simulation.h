@@ -122,6 +122,7 @@ namespace Morula
 
     const Scene    scene;
     const MPI_Comm comm;
+    const Timer    clock;
     TimerOutput    timer;
 
     const TissueMaterial            material;

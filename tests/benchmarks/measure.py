@@ -9,6 +9,7 @@ import re
 import subprocess
 
 from processes import ROOT, overrides
+import scaling
 from runs import environment
 
 NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
@@ -16,6 +17,7 @@ NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
 NO_STEP = ("total", "seeding", "output", "snapshot", "statistics")
 HALF_FIXED = "prm/paper/fig-2b.prm"
 PROLIFERATING = "prm/paper/fig-4b.prm"
+CYCLE = "Proliferation/Cell cycle/"
 
 
 def google_benchmark(program, blas, pattern="."):
@@ -108,8 +110,8 @@ def sphere(n_cells, **keys):
 
 def sizes(runner, largest):
     rows = [("cells", "days", "µs a cell and step", "of the first",
-             "memory, GB", "kB a cell beyond the smallest run", "unknowns",
-             "Newton iterations a step")]
+             "memory, GB", "kB a cell", "kB a cell without linear system",
+             "unknowns", "Newton and linear iterations a step")]
     first = None
     for n in (8000, 65000, 200000, 1000000):
         if n > largest:
@@ -119,16 +121,59 @@ def sizes(runner, largest):
                          sphere(n, **{"Time/Step": 0.1, "Time/End time": days}))
         time = run.time("total") - run.time("seeding", "output", "snapshot")
         each = time / run.cell_steps()
-        first = first or (each, run.memory, int(run.rows[-1]["cells"]))
-        cells = int(run.rows[-1]["cells"])
-        more = ((run.memory - first[1]) / (cells - first[2]) / 1e3
-                if cells > first[2] else 0.0)
-        rows.append((f"{cells:,}", f"{days:g}", f"{1e6 * each:.1f}",
+        # At rest nothing is solved for: all is there but the linear system.
+        rest = runner.run(f"rest-{n}", PROLIFERATING,
+                          sphere(n, **{"Time/Step": 0.1, "Time/End time": 0.2,
+                                       CYCLE + "G0 exit rate": 0}))
+        first = first or (each, run, rest)
+        steps = len(run.rows) - 1
+        rows.append((f"{last_cells(run):,}", f"{days:g}", f"{1e6 * each:.1f}",
                      f"{each / first[0]:.2f}", f"{run.memory / 1e9:.2f}",
-                     f"{more:.2f}" if more else "",
+                     memory_of_cell(run, first[1]),
+                     memory_of_cell(rest, first[2]),
                      f"{int(run.rows[-1]['unknowns']):,}",
-                     f"{run.total('newton_iterations') / (len(run.rows) - 1):.1f}"))
+                     f"{run.total('newton_iterations') / steps:.1f}, "
+                     f"{run.total('linear_iterations') / steps:.0f}"))
     return rows
+
+
+def last_cells(run):
+    return int(run.rows[-1]["cells"])
+
+
+def memory_of_cell(run, small):
+    """kB of each cell that a run has more than a small one."""
+    more = last_cells(run) - last_cells(small)
+    return f"{(run.memory - small.memory) / more / 1e3:.2f}" if more else ""
+
+
+def spacings(runner):
+    """The half-fixed sphere of 65,752 cells on finer and coarser grids."""
+    rows = [("h, µm", "cells a grid cell", "unknowns", "µs a cell and step",
+             "tangent, µs a cell", "preconditioner and solver", "grid",
+             "linear iterations of a Newton iteration", "memory, GB")]
+    for h in (100, 70, 50, 35, 25):
+        run = runner.run(f"spacing-{h}", HALF_FIXED, {"Grid/Spacing": h})
+        time = run.time("total") - run.time("seeding", "output", "snapshot")
+        steps = run.cell_steps()
+        rows.append((f"{h}", f"{(h / 10)**3:.0f}",
+                     f"{int(run.rows[-1]['unknowns']):,}",
+                     f"{1e6 * time / steps:.1f}",
+                     f"{1e6 * run.time('tangent') / run.calls['tangent'] / last_cells(run):.2f}",
+                     f"{1e6 * run.time('preconditioner', 'linear solver', 'sparsity pattern') / steps:.1f}",
+                     f"{1e6 * run.time('grid') / steps:.2f}",
+                     f"{run.total('linear_iterations') / run.total('newton_iterations'):.0f}",
+                     f"{run.memory / 1e9:.2f}"))
+    return rows
+
+
+def rank_counts(runner):
+    return scaling.counts(runner, PROLIFERATING, sphere)
+
+
+def model(runner):
+    found = scaling.counts(runner, PROLIFERATING, sphere)
+    return scaling.model(runner, PROLIFERATING, sphere, float(found[-1][2]))
 
 
 def concurrent(program, blas, name, counter):
@@ -160,6 +205,11 @@ def ranks(runner, program, blas):
     rows += [(f"— {name}", f"{runs[0].time(name) / runs[1].time(name):.2f}")
              for name in NEWTON + ("commit", "grid", "division")
              if runs[1].time(name) > 0]
+    half = runner.run("ranks-half", PROLIFERATING,
+                      sphere(100000, **{"Time/Step": 0.1, "Time/End time": 0.5}))
+    time = half.time("total") - half.time("seeding", "output", "snapshot")
+    rows.append(("10⁵ cells on one rank over 2·10⁵ on two, time",
+                 f"{time / times[1]:.2f}"))
     rows.append(("cells at the end", " and ".join(f"{int(n):,}" for n in same)))
     return rows
 

@@ -34,7 +34,7 @@ def counters(output):
                         (output / "parameters.prm").read_text())[1])
 
     def total(name):
-        return sum(int(row[name]) for row in rows)
+        return sum(int(row[name]) for row in rows[1:])
     points = sum(int(before["cells"]) * int(row["newton_iterations"])
                  for before, row in zip(rows, rows[1:]))
     return {"unknowns": total("unknowns"),

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What more ranks cost, and a model of runs on a cluster. See the tables ranks,
+rank_counts and model of doc/performance.md."""
+import math
+
+CELLS = ("tangent", "residual", "commit", "growth", "points", "nitsche",
+         "division", "strays", "statistics")
+ROWS = ("preconditioner", "linear solver", "sparsity pattern")
+# What the model takes a cluster to be.
+LATENCY = 2e-6       # s, of a message
+BANDWIDTH = 1e10     # bytes a second and rank
+MESSAGES = 3         # reductions of a CG iteration
+OVERLAP = 3          # layers of splines of a block's border
+
+
+def counts(runner, proliferating, sphere):
+    """Work by number of ranks; more ranks than cores only count."""
+    rows = [("ranks", "linear iterations", "of one rank's", "Newton iterations",
+             "cells at the end")]
+    first = None
+    for n in (1, 2, 4, 8):
+        run = runner.run(f"counts-{n}", proliferating,
+                         sphere(200000, **{"Time/Step": 0.1,
+                                           "Time/End time": 0.3}), n)
+        iterations = run.total("linear_iterations")
+        first = first or iterations
+        rows.append((f"{n}", f"{iterations:.0f}", f"{iterations / first:.2f}",
+                     f"{run.total('newton_iterations'):.0f}",
+                     f"{int(run.rows[-1]['cells']):,}"))
+    return rows
+
+
+def last(run, column):
+    return float(run.rows[-1][column])
+
+
+def step_time(run, names):
+    return run.time(*names) / (len(run.rows) - 1)
+
+
+class Model:
+    """Seconds of a step, from two runs on one core of small and large."""
+
+    def __init__(self, small, large):
+        cells = last(large, "cells")
+        self.newton = large.total("newton_iterations") / (len(large.rows) - 1)
+        self.per_cell = step_time(large, CELLS) / cells
+        self.per_row = step_time(large, ROWS) / last(large, "unknowns")
+        self.per_grid_cell = (step_time(large, ("grid",))
+                              / last(large, "active_grid_cells"))
+        self.rows = last(large, "unknowns") / cells
+        self.grid_cells = last(large, "active_grid_cells") / cells
+        per_newton = [run.total("linear_iterations")
+                      / run.total("newton_iterations")
+                      for run in (small, large)]
+        self.cells, self.iterations = cells, per_newton[1]
+        self.growth = (math.log(per_newton[1] / per_newton[0])
+                       / math.log(cells / last(small, "cells")))
+
+    def step(self, cells, ranks, penalty):
+        """Parts of a step's seconds: by cell, by row, the grid, messages.
+        penalty: iterations over those of one rank."""
+        more = ((cells / self.cells)**self.growth
+                * (penalty if ranks > 1 else 1))
+        rows = self.rows * cells / ranks
+        # A block's border: layers of splines around a cube of them.
+        edge = (rows / 3)**(1 / 3)
+        block = ((edge + OVERLAP) / edge)**3 if ranks > 1 else 1
+        iterations = self.newton * self.iterations * more
+        messages = iterations * (
+            MESSAGES * LATENCY * math.log2(max(ranks, 1))
+            + (6 * edge**2 * 3 * 8 / BANDWIDTH if ranks > 1 else 0))
+        return (self.per_cell * cells / ranks, self.per_row * rows * block * more,
+                # Every rank numbers all splines.
+                self.per_grid_cell * self.grid_cells * cells, messages)
+
+
+def model(runner, proliferating, sphere, penalty):
+    keys = {"Time/Step": 0.1, "Time/End time": 0.3}
+    small, large = (runner.run(f"model-{n}", proliferating, sphere(n, **keys))
+                    for n in (20000, 400000))
+    fitted = Model(small, large)
+    rows = [("cells", "ranks", "s a step", "by cell", "by row of the matrix",
+             "grid", "messages", "efficiency")]
+    for cells in (1e6, 1e7, 1e8):
+        alone = sum(fitted.step(cells, 1, penalty))
+        for ranks in (1, 16, 128, 1024):
+            parts = fitted.step(cells, ranks, penalty)
+            rows.append((f"10^{math.log10(cells):.0f}".replace("^6", "⁶")
+                         .replace("^7", "⁷").replace("^8", "⁸"), f"{ranks}",
+                         f"{sum(parts):.2f}", *(f"{part:.3f}" for part in parts),
+                         f"{100 * alone / sum(parts) / ranks:.0f} %"))
+    return rows

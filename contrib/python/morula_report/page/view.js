@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+"use strict";
+
+// The picture: which state it shows, in which colours, what is cut away.
+
+class View {
+  /** Throws if there is no WebGL 2. */
+  constructor(stage, about, palettes, lineage) {
+    this.canvas = stage.querySelector("canvas");
+    const context = this.canvas.getContext("webgl2", {antialias: false});
+    if (!context) throw new Error("no WebGL 2");
+    this.stage = stage;
+    this.about = about;
+    this.lineage = lineage;
+    this.palettes = palettes;
+    this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, context});
+    this.spheres = new Spheres(about);
+    this.surface = new SurfacePoints(this.spheres,
+      3 * about.radii[1]);
+    this.scene = new THREE.Scene();
+    this.scene.add(this.spheres.object, this.surface.object);
+    this.camera = new Camera(this.canvas, about, () => this.turned());
+    this.cut = {axis: "off", place: 0.5, flip: false};
+    this.bytes = new Map();
+    this.frames = 0;
+    this.coarse = 1;  // fewer pixels while a slow picture moves
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change",
+      () => this.request());
+    new ResizeObserver(() => this.resize()).observe(stage);
+    this.resize();
+  }
+
+  /** Loads what a state needs; the last call wins. */
+  async show(number, field, founder, onlyClone) {
+    const wanted = this.wanted = {number, field, founder, onlyClone};
+    const state = this.about.states[number];
+    const cells = await this.once(`cells-${number}`,
+      (bytes) => cellsOf(bytes, state.shown));
+    const ids = this.lineage && state.divisions !== null
+      ? this.lineage.alive(state.divisions, this.about.stride) : null;
+    const values = field.clone ? this.lineage.colours(ids)
+      : await this.once(`field-${field.name}-${number}`, (bytes) => bytes);
+    const surface = state.surface && await this.once(`surface-${number}`,
+      (bytes) => surfaceOf(bytes, state.surface));
+    if (this.wanted !== wanted) return false;
+    Object.assign(this, {state, cells, ids, values, field});
+    const chosen = ids ? this.lineage.membersOf(founder, ids)
+      : new Uint8Array(state.shown).fill(255);
+    this.spheres.show(cells, values, chosen);
+    this.chosen = chosen;
+    this.surface.show(surface || new Uint16Array(0));
+    this.spheres.uniforms.onlyChosen.value = onlyClone && ids ? 1 : 0;
+    this.spheres.uniforms.steps.value = field.whole
+      ? field.high - field.low + 1 : 0;
+    this.spheres.palette(this.palettes[field.palette]);
+    this.request();
+    return true;
+  }
+
+  /** A block, decoded once. */
+  async once(name, decode) {
+    if (!this.bytes.has(name)) this.bytes.set(name, decode(await unpack(name)));
+    return this.bytes.get(name);
+  }
+
+  /** Ends of the colours as parts (0 to 1) of what the values can be. */
+  range(low, high) {
+    this.spheres.uniforms.range.value.set(low, Math.max(high, low + 1e-4));
+    this.request();
+  }
+
+  /** What is cut away: all beyond a plane. Returns its place in µm. */
+  cutAt(axis, place, flip) {
+    this.cut = {axis, place, flip};
+    const {cut, place: limit} = this.spheres.uniforms;
+    if (axis === "off") {
+      cut.value.set(0, 0, 0);
+      limit.value = 1;
+      this.request();
+      return null;
+    }
+    const normal = axis === "view" ? this.camera.axes[2]
+      : new THREE.Vector3(+(axis === "x"), +(axis === "y"), +(axis === "z"));
+    const {low, size} = this.about;
+    const middle = this.camera.middle.dot(normal);
+    const reach = axis === "view" ? 0.5 * Math.hypot(...size)
+      : 0.5 * size["xyz".indexOf(axis)];
+    const where = middle + (2 * place - 1) * reach;
+    const sign = flip ? -1 : 1;
+    cut.value.copy(normal).multiplyScalar(sign);
+    limit.value = sign * where;
+    this.request();
+    return where;
+  }
+
+  turned() {
+    if (this.cut && this.cut.axis === "view")
+      this.cutAt("view", this.cut.place, this.cut.flip);
+    this.request(true);
+  }
+
+  resize() {
+    const {clientWidth: width, clientHeight: height} = this.stage;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(devicePixelRatio / this.coarse);
+    this.renderer.setSize(width, height, false);
+    this.surface.uniforms.pixels.value = 5 * devicePixelRatio / this.coarse;
+    this.camera.resize(width, height);
+    this.request();
+  }
+
+  /** Draws before the next frame; moving pictures may be coarse. */
+  request(moving = false) {
+    if (moving) {
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => this.sharpen(), 250);
+    }
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame((now) => {
+      this.requested = false;
+      if (moving) this.pace(now);
+      this.draw();
+    });
+  }
+
+  /** Below ten pictures a second, moving ones get a quarter of the pixels,
+   * and a sixteenth if that is not enough. */
+  pace(now) {
+    const since = now - this.before;
+    this.before = now;
+    this.slow = since > 100 && since < 2000 ? (this.slow || 0) + 1 : 0;
+    if (this.slow < 3 || this.coarse > 2) return;
+    this.coarse *= 2;
+    this.slow = 0;
+    this.resize();
+  }
+
+  sharpen() {
+    if (this.coarse === 1) return;
+    this.coarse = 1;
+    this.resize();
+  }
+
+  draw() {
+    if (!this.stage.clientWidth) return;  // in a tab that is not shown
+    const style = getComputedStyle(document.documentElement);
+    this.renderer.setClearColor(style.getPropertyValue("--canvas").trim());
+    this.renderer.render(this.scene, this.camera.camera);
+    drawTriad(this.stage.querySelector("#triad"), this.camera.axes);
+    drawScale(this.stage.querySelector("#scale"), this.camera.pixel,
+      this.stage.clientWidth);
+    ++this.frames;
+  }
+
+  /** The picture as a PNG in a data: address. */
+  picture() {
+    this.draw();
+    return this.canvas.toDataURL("image/png");
+  }
+
+  /** Number of the cell in the state that is seen at a place of the page,
+   * or -1. */
+  at(clientX, clientY) {
+    const box = this.canvas.getBoundingClientRect();
+    const [right, up, near] = this.camera.axes;
+    const pixel = this.camera.pixel, target = this.camera.controls.target;
+    const across = pixel * (clientX - box.left - box.width / 2);
+    const over = pixel * (box.top + box.height / 2 - clientY);
+    const {low, size, radii} = this.about, point = new THREE.Vector3();
+    const {cut, place, onlyChosen} = this.spheres.uniforms;
+    let found = -1, nearest = -Infinity;
+    for (let i = 0; i < this.state.shown; ++i) {
+      if (onlyChosen.value && !this.chosen[i]) continue;
+      point.set(...[0, 1, 2].map((k) =>
+        low[k] + size[k] * this.cells[4 * i + k] / 65535));
+      if (cut.value.dot(point) > place.value) continue;
+      const radius = radii[0] + (radii[1] - radii[0])
+        * this.cells[4 * i + 3] / 65535;
+      point.sub(target);
+      const square = radius * radius - (point.dot(right) - across) ** 2
+        - (point.dot(up) - over) ** 2;
+      if (square < 0) continue;
+      const height = point.dot(near) + Math.sqrt(square);
+      if (height > nearest) [found, nearest] = [i, height];
+    }
+    return found;
+  }
+}

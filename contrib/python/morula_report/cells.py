@@ -12,7 +12,7 @@ from drawing.points import radii_of
 from morula_accuracy.columns import POINTS, STRESS, unit_in
 from morula_runs.states import NoStates
 
-from . import selection
+from . import selection, shell
 from .packing import block, packed, quantised
 
 PERCENTILES = (0.5, 99.5)
@@ -108,9 +108,12 @@ class Packed:
         cells, surface = self.run.cells(i), self._surface(i)
         every = self.selection.stride
         radii = radii_of(cells["volume"][::every], flat)
+        seen, depth = shell.of(np.array([cells[c] for c in "xyz"]).T,
+                               cells["volume"], flat or every > 1)
         self.blocks.append(block(f"cells-{shown}", packed(
             *self._positions(cells, every),
-            quantised(radii, *self.radii, np.uint8))))
+            quantised(radii, *self.radii, np.uint8),
+            seen[::every].astype(np.uint8))))
         for name in self.selection.fields:
             low, high = self.ranges[name][:2]
             self.blocks.append(block(f"field-{name}-{shown}", packed(
@@ -121,6 +124,7 @@ class Packed:
                 surface["condition"].astype(np.uint8))))
         return {"number": int(i), "time": float(self.run.times[i]),
                 "cells": len(cells["id"]), "shown": len(radii),
+                "shell": depth,
                 "surface": 0 if surface is None else len(surface["id"]),
                 "divisions": self._divisions(cells["id"])}
 

@@ -24,15 +24,16 @@ function twoBytes(bytes, offset, n, i) {
   return bytes[offset + i] | (bytes[offset + n + i] << 8);
 }
 
-/** Three positions and the radius of n cells, 16 bits each, side by side. */
+/** Of n cells: positions and radius, 16 bits each, side by side (`places`),
+ * and which can be seen from outside (`shell`). */
 function cellsOf(bytes, n) {
-  const cells = new Uint16Array(4 * n);
+  const places = new Uint16Array(4 * n);
   for (let i = 0; i < n; ++i) {
     for (let k = 0; k < 3; ++k)
-      cells[4 * i + k] = twoBytes(bytes, 2 * k * n, n, i);
-    cells[4 * i + 3] = 257 * bytes[6 * n + i];
+      places[4 * i + k] = twoBytes(bytes, 2 * k * n, n, i);
+    places[4 * i + 3] = 257 * bytes[6 * n + i];
   }
-  return cells;
+  return {places, shell: bytes.subarray(7 * n, 8 * n)};
 }
 
 /** Positions of n boundary points, and in the fourth place their condition. */

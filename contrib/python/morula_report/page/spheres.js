@@ -2,15 +2,15 @@
 // Copyright (C) 2026 by the Morula authors
 "use strict";
 
-// Every cell is a square that faces the viewer, on which the sphere is
-// computed: exact at any size, and four corners a cell.
+// Every cell is a triangle that faces the viewer, on which the sphere is
+// computed: exact at any size, and three corners a cell.
 
 const CELL_VERTEX = `
 attribute vec4 cell;
-attribute float value, chosen;
-uniform vec3 low, size, cut;
+attribute float value;
+uniform vec3 low, size;
 uniform vec2 radii, range;
-uniform float place, steps, onlyChosen;
+uniform float steps, swell;
 uniform sampler2D palette;
 varying vec3 colour;
 varying vec2 corner;
@@ -18,13 +18,11 @@ varying float depth, halfDepth;
 
 void main() {
   vec3 centre = low + size * cell.xyz;
-  float radius = mix(radii.x, radii.y, cell.w);
+  float radius = swell * mix(radii.x, radii.y, cell.w);
   corner = position.xy;
-  bool hidden = dot(cut, centre) > place
-    || (onlyChosen > 0.5 && chosen < 0.5);
   vec4 seen = modelViewMatrix * vec4(centre, 1.0);
   seen.xy += radius * corner;
-  gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
+  gl_Position = projectionMatrix * seen;
   // a parallel camera: depth is linear
   depth = 0.5 * (projectionMatrix[2][2] * seen.z + projectionMatrix[3][2])
     + 0.5;
@@ -88,30 +86,43 @@ class Spheres {
       size: {value: new THREE.Vector3(...about.size)},
       radii: {value: new THREE.Vector2(...about.radii)},
       range: {value: new THREE.Vector2(0, 1)},
-      cut: {value: new THREE.Vector3()}, place: {value: 1},
-      steps: {value: 0}, onlyChosen: {value: 0}, palette: {value: texture}};
+      steps: {value: 0}, swell: {value: 1}, palette: {value: texture}};
     this.material = new THREE.ShaderMaterial({
       uniforms: this.uniforms, vertexShader: CELL_VERTEX,
       fragmentShader: CELL_FRAGMENT, extensions: {fragDepth: true}});
     this.object = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.object.frustumCulled = false;
+    this.count = 0;
   }
 
-  /** Takes over positions and radii (see cellsOf), values and which cells
-   * are chosen, a byte each. */
-  show(cells, values, chosen) {
+  /** Takes over the cells with these numbers: positions and radii (see
+   * cellsOf), and values, a byte each. */
+  show(places, values, numbers) {
+    const n = numbers.length;
+    const cell = new Uint16Array(4 * n), value = new Uint8Array(n);
+    for (let j = 0; j < n; ++j) {
+      const i = numbers[j];
+      for (let k = 0; k < 4; ++k) cell[4 * j + k] = places[4 * i + k];
+      value[j] = values[i];
+    }
     const geometry = new THREE.InstancedBufferGeometry();
+    const root = Math.sqrt(3);  // round the unit circle
     geometry.setAttribute("position", new THREE.BufferAttribute(
-      new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]), 3));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    const each = (array, n) =>
-      new THREE.InstancedBufferAttribute(array, n, true);
-    geometry.setAttribute("cell", each(cells, 4));
-    geometry.setAttribute("value", each(values, 1));
-    geometry.setAttribute("chosen", each(chosen, 1));
-    geometry.maxInstancedCount = values.length;
+      new Float32Array([-root, -1, 0, root, -1, 0, 0, 2, 0]), 3));
+    const each = (array, size) =>
+      new THREE.InstancedBufferAttribute(array, size, true);
+    geometry.setAttribute("cell", each(cell, 4));
+    geometry.setAttribute("value", each(value, 1));
     this.object.geometry.dispose();
     this.object.geometry = geometry;
+    this.count = n;
+    this.thin(1);
+  }
+
+  /** Draws one of so many cells, the larger for it. */
+  thin(by) {
+    this.object.geometry.maxInstancedCount = Math.ceil(this.count / by);
+    this.uniforms.swell.value = Math.sqrt(Math.min(by, 4));
   }
 
   palette(colours) {

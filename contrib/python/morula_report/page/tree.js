@@ -56,7 +56,7 @@ class Lineage {
   }
 
   membersOf(founder, ids) {
-    return Uint8Array.from(ids, (id) => this.founder[id] === founder ? 255 : 0);
+    return Uint8Array.from(ids, (id) => this.founder[id] === founder);
   }
 }
 

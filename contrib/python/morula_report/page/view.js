@@ -21,10 +21,10 @@ class View {
     this.scene = new THREE.Scene();
     this.scene.add(this.spheres.object, this.surface.object);
     this.camera = new Camera(this.canvas, about, () => this.turned());
-    this.cut = {axis: "off", place: 0.5, flip: false};
+    this.cut = {axis: "off"};
     this.bytes = new Map();
     this.frames = 0;
-    this.coarse = 1;  // fewer pixels while a slow picture moves
+    this.coarse = 1;  // one of so many cells while a slow picture moves
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change",
       () => this.request());
     new ResizeObserver(() => this.resize()).observe(stage);
@@ -45,16 +45,13 @@ class View {
       (bytes) => surfaceOf(bytes, state.surface));
     if (this.wanted !== wanted) return false;
     Object.assign(this, {state, cells, ids, values, field});
-    const chosen = ids ? this.lineage.membersOf(founder, ids)
-      : new Uint8Array(state.shown).fill(255);
-    this.spheres.show(cells, values, chosen);
-    this.chosen = chosen;
+    this.members = ids && onlyClone ? this.lineage.membersOf(founder, ids)
+      : null;
     this.surface.show(surface || new Uint16Array(0));
-    this.spheres.uniforms.onlyChosen.value = onlyClone && ids ? 1 : 0;
     this.spheres.uniforms.steps.value = field.whole
       ? field.high - field.low + 1 : 0;
     this.spheres.palette(this.palettes[field.palette]);
-    this.request();
+    this.choose();
     return true;
   }
 
@@ -72,26 +69,55 @@ class View {
 
   /** What is cut away: all beyond a plane. Returns its place in µm. */
   cutAt(axis, place, flip) {
-    this.cut = {axis, place, flip};
-    const {cut, place: limit} = this.spheres.uniforms;
     if (axis === "off") {
-      cut.value.set(0, 0, 0);
-      limit.value = 1;
-      this.request();
+      this.cut = {axis};
+      this.choose();
       return null;
     }
     const normal = axis === "view" ? this.camera.axes[2]
       : new THREE.Vector3(+(axis === "x"), +(axis === "y"), +(axis === "z"));
-    const {low, size} = this.about;
-    const middle = this.camera.middle.dot(normal);
+    const {size} = this.about;
     const reach = axis === "view" ? 0.5 * Math.hypot(...size)
       : 0.5 * size["xyz".indexOf(axis)];
-    const where = middle + (2 * place - 1) * reach;
+    const where = this.camera.middle.dot(normal) + (2 * place - 1) * reach;
     const sign = flip ? -1 : 1;
-    cut.value.copy(normal).multiplyScalar(sign);
-    limit.value = sign * where;
-    this.request();
+    this.cut = {axis, place, flip, normal: normal.multiplyScalar(sign),
+      limit: sign * where};
+    this.choose();
     return where;
+  }
+
+  /** How far a cell lies before the cut (µm); infinite without one. */
+  beforeCut(i) {
+    if (this.cut.axis === "off") return Infinity;
+    const {low, size} = this.about, {normal, limit} = this.cut;
+    const places = this.cells.places;
+    return limit
+      - normal.x * (low[0] + size[0] * places[4 * i] / 65535)
+      - normal.y * (low[1] + size[1] * places[4 * i + 1] / 65535)
+      - normal.z * (low[2] + size[2] * places[4 * i + 2] / 65535);
+  }
+
+  /** Whether a cell is drawn: it belongs to what is asked for, is not cut
+   * away, and is not buried below others. */
+  visible(i) {
+    if (this.members && !this.members[i]) return false;
+    const before = this.beforeCut(i);
+    return before >= 0 && (this.members !== null || before < this.state.shell
+      || this.cells.shell[i] === 1);
+  }
+
+  /** The visible cells in an order in which every part of them is spread
+   * over the whole tissue. */
+  choose() {
+    if (!this.state) return;
+    const n = this.state.shown, numbers = [];
+    const step = coprime(Math.round(0.6180339887 * n), n);
+    for (let j = 0, i = 0; j < n; ++j, i = (i + step) % n)
+      if (this.visible(i)) numbers.push(i);
+    this.numbers = numbers;
+    this.spheres.show(this.cells.places, this.values, numbers);
+    this.request();
   }
 
   turned() {
@@ -103,18 +129,18 @@ class View {
   resize() {
     const {clientWidth: width, clientHeight: height} = this.stage;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(devicePixelRatio / this.coarse);
+    this.renderer.setPixelRatio(devicePixelRatio);
     this.renderer.setSize(width, height, false);
-    this.surface.uniforms.pixels.value = 5 * devicePixelRatio / this.coarse;
+    this.surface.uniforms.pixels.value = 5 * devicePixelRatio;
     this.camera.resize(width, height);
     this.request();
   }
 
-  /** Draws before the next frame; moving pictures may be coarse. */
+  /** Draws before the next frame. */
   request(moving = false) {
     if (moving) {
       clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.sharpen(), 250);
+      this.rest = setTimeout(() => this.refine(), 400);
     }
     if (this.requested) return;
     this.requested = true;
@@ -125,27 +151,28 @@ class View {
     });
   }
 
-  /** Below ten pictures a second, moving ones get a quarter of the pixels,
-   * and a sixteenth if that is not enough. */
+  /** Below ten pictures a second, moving ones show half of the cells, a
+   * quarter if that is not enough, and so on. */
   pace(now) {
     const since = now - this.before;
     this.before = now;
-    this.slow = since > 100 && since < 2000 ? (this.slow || 0) + 1 : 0;
-    if (this.slow < 3 || this.coarse > 2) return;
+    this.slow = since > 100 && since < 5000 ? (this.slow || 0) + 1 : 0;
+    if (this.slow < 2 || this.coarse > 8) return;
     this.coarse *= 2;
     this.slow = 0;
-    this.resize();
   }
 
-  sharpen() {
+  /** All cells again, once nothing moves. */
+  refine() {
     if (this.coarse === 1) return;
     this.coarse = 1;
-    this.resize();
+    this.request();
   }
 
   draw() {
     if (!this.stage.clientWidth) return;  // in a tab that is not shown
     const style = getComputedStyle(document.documentElement);
+    this.spheres.thin(this.coarse);
     this.renderer.setClearColor(style.getPropertyValue("--canvas").trim());
     this.renderer.render(this.scene, this.camera.camera);
     drawTriad(this.stage.querySelector("#triad"), this.camera.axes);
@@ -169,16 +196,13 @@ class View {
     const across = pixel * (clientX - box.left - box.width / 2);
     const over = pixel * (box.top + box.height / 2 - clientY);
     const {low, size, radii} = this.about, point = new THREE.Vector3();
-    const {cut, place, onlyChosen} = this.spheres.uniforms;
+    const places = this.cells.places;
     let found = -1, nearest = -Infinity;
-    for (let i = 0; i < this.state.shown; ++i) {
-      if (onlyChosen.value && !this.chosen[i]) continue;
+    for (const i of this.numbers) {
       point.set(...[0, 1, 2].map((k) =>
-        low[k] + size[k] * this.cells[4 * i + k] / 65535));
-      if (cut.value.dot(point) > place.value) continue;
+        low[k] + size[k] * places[4 * i + k] / 65535)).sub(target);
       const radius = radii[0] + (radii[1] - radii[0])
-        * this.cells[4 * i + 3] / 65535;
-      point.sub(target);
+        * places[4 * i + 3] / 65535;
       const square = radius * radius - (point.dot(right) - across) ** 2
         - (point.dot(up) - over) ** 2;
       if (square < 0) continue;
@@ -187,4 +211,12 @@ class View {
     }
     return found;
   }
+}
+
+/** The first number from this one on that has no divisor in common with n. */
+function coprime(number, n) {
+  const divisor = (a, b) => b ? divisor(b, a % b) : a;
+  let found = Math.max(1, number);
+  while (divisor(found, n) > 1) ++found;
+  return found;
 }

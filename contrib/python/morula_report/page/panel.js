@@ -60,10 +60,11 @@ class Panel {
 
   chooseField() {
     this.field = this.fields[byId("field").selectedIndex];
-    const plain = this.field.clone || this.field.whole;
+    const fixed = Boolean(this.field.clone || this.field.whole);
     for (const id of ["lowest", "highest", "full-range"])
-      byId(id).disabled = plain;
-    this.fullRange();
+      byId(id).disabled = fixed;
+    if (this.field.clone) this.wholeRange();
+    else this.fullRange();
     this.show();
   }
 
@@ -71,6 +72,13 @@ class Panel {
     byId("lowest").value = plainNumber(this.field.low);
     byId("highest").value = plainNumber(this.field.high);
     this.setRange();
+  }
+
+  /** Colours that stand for no number. */
+  wholeRange() {
+    for (const id of ["lowest", "highest"]) byId(id).value = "";
+    this.view.range(0, 1);
+    this.bar();
   }
 
   setRange() {

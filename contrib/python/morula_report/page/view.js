@@ -181,8 +181,9 @@ class View {
     ++this.frames;
   }
 
-  /** The picture as a PNG in a data: address. */
+  /** The picture of all cells as a PNG in a data: address. */
   picture() {
+    this.coarse = 1;
     this.draw();
     return this.canvas.toDataURL("image/png");
   }

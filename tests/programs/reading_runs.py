@@ -6,10 +6,14 @@ and its lineage is what the file says, row by row."""
 import csv
 import importlib.util
 import math
+import os
+import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
+import matplotlib.image
 import numpy as np
 from program import SCENES, ProgramTest, main
 
@@ -114,6 +118,24 @@ class ReadingRuns(ProgramTest):
             if int(row["parent"]) >= 0:
                 self.assertEqual(lineage.end_time[int(row["parent"])],
                                  float(row["birth_time"]))
+
+    def test_documented_example(self):
+        """The code of doc/looking-at-results.md, on this run."""
+        run = self.run_with("vtu", "output/demo")
+        text = (ROOT / "doc/looking-at-results.md").read_text()
+        code = re.search(r"<!-- example: clone -->\n```python\n(.*?)```", text,
+                         re.DOTALL)[1]
+        (self.work / "contrib").symlink_to(ROOT / "contrib")
+        (self.work / "example.py").write_text(code)
+        said = subprocess.run(
+            [sys.executable, "example.py"], cwd=self.work, text=True,
+            env={**os.environ, "MPLBACKEND": "Agg"}, check=True,
+            stdout=subprocess.PIPE).stdout
+        founder, cells, alive = map(int, re.findall(r"\d+", said))
+        self.assertEqual(cells, len(run.clone(founder)))
+        self.assertEqual(alive, max(run.lineage.clone_sizes))
+        picture = matplotlib.image.imread(self.work / "clone.png")
+        self.assertGreater(picture[:, :, :3].std(), 0.03)
 
     def test_refusals(self):
         with self.assertRaisesRegex(Refused, "no parameters.prm"):

@@ -1,74 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The page of contrib/report in a browser: what it shows is what the run's
-files say, every control does what it says, and nothing is loaded."""
-import sys
-from pathlib import Path
-
+"""The 3-D view of contrib/report in a browser: it shows the cells of the run's
+files, every control does what it says, and nothing is loaded."""
 import matplotlib
 import numpy as np
-from program import SCENES, ProgramTest, main, overrides
+from program import main
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from browser import Browser, image_of  # noqa: E402
-from morula_runs.run import Run  # noqa: E402
-from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
-from selenium.webdriver.common.actions.action_builder import (  # noqa: E402
-    ActionBuilder)
-from selenium.webdriver.common.actions.wheel_input import (  # noqa: E402
-    ScrollOrigin)
-from selenium.webdriver.common.by import By  # noqa: E402
-from selenium.webdriver.common.keys import Keys  # noqa: E402
+from browser import image_of  # noqa: I100 (program.py finds it)
+from report_test import ReportTest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 
-SCENE = SCENES.parent / "programs/small-cube.prm"
-KEYS = {"Time/End time": "2", "Time/Step": "0.25", "Output/Formats": "vtu",
-        "Output/Interval": "0.5", "Grid/Spacing": "60",
-        "Proliferation/Cell cycle/Start": "together"}
 BACKGROUND = 255  # of the light page
-TABS = ("overview", "three", "curves", "lineage", "cost", "accuracy")
-
-
-class ReportTest(ProgramTest):
-    """One run and one page for all tests, one browser for those of a
-    class."""
-
-    options_of_browser, pages = (), {}
-
-    @classmethod
-    def setUpClass(cls):
-        if not cls.pages:
-            cls.pages["vtu"] = cls.make_page()
-        cls.page, cls.run_read = cls.pages["vtu"]
-        cls.browser = Browser(*cls.options_of_browser)
-        cls.addClassCleanup(cls.browser.__exit__)
-
-    @classmethod
-    def make_page(cls):
-        test = cls("setUp")
-        test.work = cls.options.work / "report_browser"
-        test.work.mkdir(parents=True, exist_ok=True)
-        output = test.work / "run"
-        test.execute(SCENE, *overrides(KEYS), output=output)
-        page = test.work / "page.html"
-        test.run_words([ROOT / "contrib/report", output, "--output", page,
-                        "--no-pictures", "--morula", cls.options.morula])
-        return page, Run(output)
-
-    def setUp(self):
-        self.browser.open(self.page)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
-        self.assertEqual(set(self.browser.requests()),
-                         {self.page.resolve().as_uri()})
-
-    def element(self, name):
-        return self.browser.driver.find_element(By.ID, name)
-
-    def click(self, name):
-        self.element(name).click()
 
 
 class View(ReportTest):
@@ -344,23 +291,6 @@ class View(ReportTest):
         self.assertTrue(words.startswith(
             f"Cell {cell}, founder {run.lineage.founder[cell]}, generation "
             f"{run.lineage.generation[cell]},"), words)
-
-
-class WithoutWebGl(ReportTest):
-    options_of_browser = ("--disable-3d-apis",)
-
-    def tearDown(self):
-        """Here the browser itself complains of WebGL."""
-        for line in self.browser.complaints():
-            self.assertIn("WebGL", line)
-
-    def test_says_so(self):
-        self.click("tab-three")
-        self.assertIn("WebGL 2", self.browser.text("view-message"))
-        self.assertFalse(self.element("view").is_displayed())
-        self.click("tab-lineage")
-        self.assertIn("living cells after", self.browser.text("tree-words"))
-        self.assertFalse(self.element("to-view").is_enabled())
 
 
 if __name__ == "__main__":

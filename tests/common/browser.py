@@ -26,16 +26,21 @@ class Browser:
     """`driver` is Selenium's; use it in a with statement."""
 
     def __init__(self, *options, width=720, height=640, dark=False):
+        programs = [shutil.which(name) for name in
+                    ("chromium", "chromedriver")]
+        if None in programs:
+            raise RuntimeError("chromium or chromedriver is missing; "
+                               "contrib/setup installs both")
         self.profile = tempfile.mkdtemp(prefix="morula-browser-")
         chosen = webdriver.ChromeOptions()
-        chosen.binary_location = shutil.which("chromium")
+        chosen.binary_location = programs[0]
         for option in (*OPTIONS, *options, f"--window-size={width},{height}",
                        f"--user-data-dir={self.profile}"):
             chosen.add_argument(option)
         chosen.set_capability("goog:loggingPrefs",
                               {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(
-            service=Service(shutil.which("chromedriver")), options=chosen)
+            service=Service(programs[1]), options=chosen)
         self.driver.set_script_timeout(60)
         scheme = {"name": "prefers-color-scheme",
                   "value": "dark" if dark else "light"}

@@ -37,7 +37,7 @@ class ReportTest(ProgramTest):
     def make_page(cls, name, scene, keys):
         """Runs a scene; the page, and the run read."""
         test = cls("setUp")
-        test.work = cls.options.work / cls.__module__
+        test.work = cls.options.work / Path(sys.argv[0]).stem
         test.work.mkdir(parents=True, exist_ok=True)
         output = test.work / name
         test.execute(scene, *overrides(keys), output=output)

@@ -147,6 +147,33 @@ class Report(ProgramTest):
         self.assertEqual([f.name for f in self.output.iterdir()
                           if "html" in f.name], [])
 
+    def test_damaged(self):
+        """A message, exit code 1 and the old page; a run that has stopped
+        has a page without what it lacks."""
+        self.grow(**{"Output/Formats": "vtu"})
+        self.report("--no-pictures", "--states", "1")
+        page = self.page()
+        for name, content, words in (
+                ("cells-0001.vtu", None, "not there"),
+                ("cells-0002.vtu", "<VTKFile", "damaged"),
+                ("lineage.csv", "id,parent\n0,-1\n1", "lineage.csv"),
+                ("statistics.csv", "step,time\n", "Has the run begun?")):
+            file = self.output / name
+            whole = file.read_bytes()
+            file.unlink()
+            if content is not None:
+                file.write_text(content)
+            said = self.report("--no-pictures", code=1).stderr
+            self.assertIn(words, said)
+            self.assertNotIn("Traceback", said)
+            self.assertTrue(self.page() == page)
+            file.write_bytes(whole)
+        for name in ("lineage.csv", "timings.csv", "log.txt"):
+            (self.output / name).unlink()
+        self.report("--no-pictures", "--states", "1")
+        self.assertIsNone(self.about()["lineage"])
+        self.assertTrue("There is no timings.csv" in self.page())
+
     def test_choices(self):
         """Fewer fields and states, and the words that say so; no address of
         the network anywhere in the page."""

@@ -11,6 +11,7 @@ from pathlib import Path
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.run import Run
+from morula_runs.states import NoStates
 
 from .cells import scalar_fields
 from .document import page
@@ -111,7 +112,7 @@ def main(words=None):
         content = page(run, program, options,
                        lambda line: print(line, file=sys.stderr))
         write(content, options.output)
-    except Refused as refusal:
+    except (Refused, NoStates) as refusal:
         print(f"report: {refusal}", file=sys.stderr)
         return 1
     size = options.output.stat().st_size / 1e6

@@ -57,7 +57,12 @@ class Run:
     def statistics(self):
         """statistics.csv, a structured array: columns by name, a row a step
         and row 0 for the initial state."""
-        return read_csv(self.directory / "statistics.csv")
+        file = self.directory / "statistics.csv"
+        table = read_csv(file) if file.stat().st_size else ()
+        if not len(table):
+            raise Refused("The table", file, "a table with the initial state "
+                          "and a row a step", "Has the run begun?")
+        return table
 
     @cached_property
     def timings(self):

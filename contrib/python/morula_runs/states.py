@@ -32,7 +32,10 @@ def states(directory, name):
 
 def read_points(file):
     """Positions (n, 3) in um and the named columns of a VTU, PVTU or CSV
-    file, in the file's order."""
+    file, in the file's order. Throws NoStates if the file is not there or
+    damaged."""
+    if not file.is_file():
+        raise NoStates(f"{file} is not there, though a .pvd file lists it")
     if file.suffix == ".csv":
         data = read_csv(file)
         columns = {name: data[name] for name in data.dtype.names}
@@ -46,6 +49,8 @@ def read_points(file):
     reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
+    if reader.GetErrorCode() or grid.GetPoints() is None:
+        raise NoStates(f"{file} is damaged: VTK cannot read it")
     point_data = grid.GetPointData()
     columns = {
         point_data.GetArrayName(i): vtk_to_numpy(point_data.GetArray(i))

@@ -36,7 +36,7 @@ class Curve:
     columns: dict
     grown: str = ""
     log: bool = False
-    bars: bool = False
+    zero: bool = False  # the axis begins at zero
     only_steps: bool = False  # not of the initial state
 
 
@@ -71,14 +71,16 @@ def results(run):
 
 def effort():
     return [
-        Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True),
+        Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True,
+              zero=True),
         Curve("Iterations in a step", "", {
             "linear_iterations": "linear", "newton_iterations": "Newton"},
-            only_steps=True, log=True),
+            only_steps=True, zero=True),
         Curve("Wall time", "s", {"wall_seconds": "since the start"}),
         Curve("Last residual of a step, relative", "",
               {"residual": "residual"}, only_steps=True, log=True),
-        Curve("Length of a step", "day", {"dt": "step"}, only_steps=True)]
+        Curve("Length of a step", "day", {"dt": "step"}, only_steps=True,
+              zero=True)]
 
 
 def figure(run, curve):
@@ -130,6 +132,8 @@ def draw(rows, curve, fit):
                       label="exponential fit", linewidth=2.2, linestyle="--")
         if curve.log and np.any(rows[list(curve.columns)[0]] > 0):
             axes.set_yscale("log")
+        if curve.zero:
+            axes.set_ylim(bottom=0)
         if axes.lines and len(axes.get_legend_handles_labels()[1]) > 1:
             axes.legend(ncols=2 if len(axes.lines) > 3 else 1)
         axes.set_xlabel("day")

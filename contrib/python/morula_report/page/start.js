@@ -32,9 +32,8 @@ async function startView(about) {
     report.view = new View(byId("stage"), about.view, palettes,
       report.lineage);
   } catch (error) {
-    sayOfView(`This browser gives no 3-D (WebGL 2): ${error.message}. The `
-      + "rest of the page is complete; the picture of the first tab stands "
-      + "in for it.");
+    sayOfView(`There is no 3-D view here: ${error.message}. The rest of the `
+      + "page is complete.");
     return;
   }
   byId("canvas").addEventListener("webglcontextlost", () => sayOfView(

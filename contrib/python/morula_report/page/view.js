@@ -9,7 +9,7 @@ class View {
   constructor(stage, about, palettes, lineage) {
     this.canvas = stage.querySelector("canvas");
     const context = this.canvas.getContext("webgl2", {antialias: false});
-    if (!context) throw new Error("no WebGL 2");
+    if (!context) throw new Error("this browser has no WebGL 2");
     this.stage = stage;
     this.about = about;
     this.lineage = lineage;

@@ -140,7 +140,9 @@ class View {
   request(moving = false) {
     if (moving) {
       clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.refine(), 400);
+      // a slow picture may take longer than that itself
+      this.rest = setTimeout(() => this.refine(),
+        Math.max(400, 2.5 * (this.since || 0)));
     }
     if (this.requested) return;
     this.requested = true;
@@ -156,7 +158,8 @@ class View {
   pace(now) {
     const since = now - this.before;
     this.before = now;
-    this.slow = since > 100 && since < 5000 ? (this.slow || 0) + 1 : 0;
+    this.since = since < 5000 ? since : 0;
+    this.slow = this.since > 100 ? (this.slow || 0) + 1 : 0;
     if (this.slow < 2 || this.coarse > 8) return;
     this.coarse *= 2;
     this.slow = 0;

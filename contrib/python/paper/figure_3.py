@@ -15,7 +15,7 @@ ENERGIES = (0.0, 1.2)  # kPa
 def draw_3a(runs, path):
     """The cube at every stretch that was written."""
     run = runs["fig-3a"]
-    times = run.output_times
+    times = run.times
     camera = Camera(common_view([(run, times[-1])]), 200)
     images, colours = zip(*(camera.cells(run, time, "volume", VOLUMES_3A)
                             for time in times))

@@ -1,37 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What the run of a scene has left, read on demand."""
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from drawing import points
-from morula_runs.prm import parse
+from morula_runs import run
 
 
-class Run:
+class Run(run.Run):
     """The output directory of a scene. Times up to `end` belong to the panel;
     what comes later was added to reach a number of cells."""
-
-    def __init__(self, directory):
-        self.directory = Path(directory)
-        self.name = self.directory.name
-        self.latest = None, None  # file and what it holds
-
-    @cached_property
-    def keys(self):
-        """All keys as used, as text, by full path."""
-        return parse((self.directory / "parameters.prm").read_text())
-
-    def number(self, key):
-        return float(self.keys[key])
-
-    @cached_property
-    def statistics(self):
-        """The columns of statistics.csv by name, a row a step."""
-        return np.atleast_1d(np.genfromtxt(
-            self.directory / "statistics.csv", delimiter=",", names=True,
-            encoding="utf-8"))
 
     def until(self, end):
         """The rows of the statistics up to this time (days)."""
@@ -49,20 +27,15 @@ class Run:
     @property
     def last_output(self):
         """The time of the last output, in days."""
-        return self.output_times[-1]
-
-    @cached_property
-    def output_times(self):
-        """When cells and surface were written, in days."""
-        return [time for time, _ in points.states(self.directory, "cells")]
+        return self.times[-1]
 
     def output_nearest(self, time):
         """The time of the output nearest to a time (days)."""
-        return min(self.output_times, key=lambda t: abs(t - time))
+        return min(self.times, key=lambda t: abs(t - time))
 
     def output_with_cells(self, wanted):
         """The time of the output whose number of cells is nearest."""
-        return min(self.output_times,
+        return min(self.times,
                    key=lambda t: abs(self.cells_at(t) - wanted))
 
     def stretch(self, time):
@@ -73,18 +46,9 @@ class Run:
     def read(self, kind, time):
         """Positions (n, 3) and columns of the 'cells' or the 'surface' in the
         output nearest to a time (days), in order of their ids."""
-        _, file = min(points.states(self.directory, kind),
-                      key=lambda state: abs(state[0] - time))
-        # Several pictures in a row are of the same state.
-        if self.latest[0] != file:
-            self.latest = file, in_order_of_ids(*points.read_points(file))
-        return self.latest[1]
-
-
-def in_order_of_ids(positions, columns):
-    order = np.argsort(columns["id"])
-    return positions[order], {name: values[order]
-                              for name, values in columns.items()}
+        found = self._states(kind)
+        return self._read(kind, min(range(len(found)), key=lambda i:
+                                    abs(found[i][0] - time)))
 
 
 class Runs(dict):

@@ -31,7 +31,7 @@ def write(video, runs, path):
     """One frame for each output of the run."""
     run = runs[video.scene]
     end = video.last_time(run)
-    times = [time for time in run.output_times if time <= end + 1e-9]
+    times = [time for time in run.times if time <= end + 1e-9]
     camera = Camera(common_view([(run, end)]), video.width)
     frames = (frame(video, run, time, camera) for time in times)
     unfinished = path.with_name(path.name + ".part")

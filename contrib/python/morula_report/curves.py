@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The columns of statistics.csv over time, as pictures within the page."""
+import io
+import re
+from dataclasses import dataclass
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
+
+from .growth_fit import fit_growth  # noqa: E402
+from .markup import Markup, number  # noqa: E402
+from .scene import volume_unit  # noqa: E402
+
+# Colours that the page replaces by its own, light or dark.
+SERIES = ("#010101", "#020202", "#030303", "#040404", "#050505", "#060606")
+TEXT, GRID = "#070707", "#080808"
+RC = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
+      "axes.spines.top": False, "axes.spines.right": False,
+      "axes.edgecolor": TEXT, "axes.labelcolor": TEXT, "text.color": TEXT,
+      "xtick.color": TEXT, "ytick.color": TEXT, "legend.frameon": False,
+      "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6,
+      "axes.formatter.use_mathtext": True, "axes.axisbelow": True,
+      "axes.formatter.limits": (-3, 5), "legend.fontsize": 9}
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Columns drawn together; `grown` may be exponential."""
+
+    title: str
+    unit: str
+    columns: dict
+    grown: str = ""
+    log: bool = False
+    zero: bool = False  # the axis begins at zero
+    only_steps: bool = False  # not of the initial state
+
+
+def results(run):
+    volume = volume_unit(run)
+    curves = [
+        Curve("Number of cells", "", {"cells": "cells"}, grown="cells"),
+        Curve("Volume", volume, {
+            "total_volume": "of the cells, deformed",
+            "grown_volume": "of the cells, were they free"},
+            grown="total_volume"),
+        Curve("Strain energy density", "kPa", {
+            "mean_energy_density": "mean, weighted by volume",
+            "cell_mean_energy_density": "mean, each cell once"}),
+        Curve("Largest strain energy density", "kPa",
+              {"max_energy_density": "largest"}),
+        Curve("Elastic volume ratio", "", {
+            "min_elastic_volume_ratio": "smallest",
+            "max_elastic_volume_ratio": "largest"})]
+    if np.any(run.statistics["dividing"]):
+        curves.append(Curve("Divisions in a step", "",
+                            {"dividing": "divisions"}, only_steps=True))
+    if np.any(run.statistics["held_at_checkpoint"]):
+        curves.append(Curve("Cells held at the size checkpoint", "",
+                            {"held_at_checkpoint": "held"}))
+    curves.append(Curve("Extent of the surface", "µm", {
+        f"{axis}{end}": f"{axis}, {word}"
+        for axis in "xyz"[:run.dimension]
+        for end, word in (("min", "least"), ("max", "most"))}))
+    return curves
+
+
+def effort():
+    return [
+        Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True,
+              zero=True),
+        Curve("Iterations in a step", "", {
+            "linear_iterations": "linear", "newton_iterations": "Newton"},
+            only_steps=True, zero=True),
+        Curve("Wall time", "s", {"wall_seconds": "since the start"}),
+        Curve("Last residual of a step, relative", "",
+              {"residual": "residual"}, only_steps=True, log=True),
+        Curve("Length of a step", "day", {"dt": "step"}, only_steps=True,
+              zero=True)]
+
+
+def figure(run, curve):
+    """The curve as HTML: picture, words on the fit, the last values."""
+    rows = run.statistics[1:] if curve.only_steps else run.statistics
+    if not len(rows):
+        return Markup("")
+    fit = fit_growth(rows["time"], rows[curve.grown]) if curve.grown else None
+    picture = draw(rows, curve, fit)
+    words = [f"{label}: {number(rows[name][-1])} {curve.unit}".strip()
+             for name, label in curve.columns.items()]
+    caption = f"Day {rows['time'][-1]:g}: " + "; ".join(words) + "."
+    return Markup(
+        f'<figure id="curve-{next(iter(curve.columns))}">'
+        f"<figcaption><b>{curve.title}{', ' * bool(curve.unit)}{curve.unit}"
+        f"</b></figcaption>{picture}<p>{caption}{words_on(fit, curve)}</p>"
+        "</figure>")
+
+
+def words_on(fit, curve):
+    if not curve.grown:
+        return ""
+    if fit is None:
+        return (" No exponential was fitted: too few steps, or it hardly "
+                "grows.")
+    where = (f"days {fit.low:g} to {fit.high:g} ({fit.rows} steps, least "
+             "squares of the logarithm)")
+    if not fit.exponential:
+        return (f" Not exponential over {where}: r² = {fit.r2:.5f}, of a "
+                f"straight line {fit.r2_line:.5f}.")
+    return (f' <span class="fit">Fit over {where}: {fit.factor:.4g} · '
+            f"exp({fit.rate:.4f} t/day), r² = {fit.r2:.5f}; of a straight "
+            f"line r² = {fit.r2_line:.5f}.</span>")
+
+
+def draw(rows, curve, fit):
+    with plt.rc_context({**RC, "svg.hashsalt": curve.title}):
+        canvas, axes = plt.subplots(figsize=(4.6, 2.7), layout="constrained")
+        for (name, label), colour in zip(curve.columns.items(), SERIES):
+            values = np.where(rows[name] > 0, rows[name], np.nan) \
+                if curve.log else rows[name]
+            marker = "o" if len(rows) < 25 else ""
+            axes.plot(rows["time"], values, color=colour, label=label,
+                      linewidth=1.6, marker=marker, markersize=3)
+        if fit is not None and fit.exponential:
+            time = np.linspace(fit.low, fit.high, 100)
+            axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)
+                                                    == 1 else 2],
+                      label="exponential fit", linewidth=2.2, linestyle="--")
+        if curve.log and np.any(rows[list(curve.columns)[0]] > 0):
+            axes.set_yscale("log")
+        if curve.zero:
+            axes.set_ylim(bottom=0)
+        if axes.lines and len(axes.get_legend_handles_labels()[1]) > 1:
+            axes.legend(ncols=2 if len(axes.lines) > 3 else 1)
+        axes.set_xlabel("day")
+        return svg(canvas, curve.title)
+
+
+def svg(canvas, title):
+    """The picture as an element of the page, which gives the colours."""
+    stream = io.StringIO()
+    canvas.savefig(stream, format="svg", transparent=True,
+                   metadata={"Date": None, "Creator": None, "Format": None,
+                             "Type": None})
+    plt.close(canvas)
+    text = stream.getvalue()
+    text = text[text.index("<svg"):]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r'^<svg [^>]*?(viewBox="[^"]*")[^>]*>',
+                  rf'<svg \1 role="img" aria-label="{title}" '
+                  'xmlns:xlink="http://www.w3.org/1999/xlink">', text)
+    for i, colour in enumerate(SERIES):
+        text = text.replace(colour, f"var(--series-{i})")
+    return Markup(text.replace(TEXT, "var(--text)")
+                  .replace(GRID, "var(--line)"))
+
+
+def figures(run, curves):
+    return Markup("".join(figure(run, curve) for curve in curves))

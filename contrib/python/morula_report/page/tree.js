@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+"use strict";
+
+// Who descends from whom, and the tree of one founder.
+
+/** Daughters of division k have the ids founders + 2k and the next one. */
+class Lineage {
+  constructor(about, bytes) {
+    const n = about.divisions;
+    this.founders = about.founders;
+    this.end = about.end;
+    this.mothers = new Uint32Array(bytes.buffer, 0, n);
+    this.times = new Float32Array(bytes.buffer, 4 * n, n);
+    const ever = this.founders + 2 * n;
+    this.division = new Int32Array(ever).fill(-1);
+    this.founder = new Uint32Array(ever);
+    this.generation = new Uint16Array(ever);
+    for (let id = 0; id < this.founders; ++id) this.founder[id] = id;
+    this.mothers.forEach((mother, k) => {
+      this.division[mother] = k;
+      for (const id of this.daughters(k)) {
+        this.founder[id] = this.founder[mother];
+        this.generation[id] = this.generation[mother] + 1;
+      }
+    });
+  }
+
+  daughters(k) {
+    const id = this.founders + 2 * k;
+    return [id, id + 1];
+  }
+
+  birth(id) {
+    return id < this.founders ? 0
+      : this.times[(id - this.founders) >> 1];
+  }
+
+  /** Ids of the cells that live after so many divisions, every n-th. */
+  alive(divisions, every) {
+    const ids = [];
+    const ever = this.founders + 2 * divisions;
+    for (let id = 0, i = 0; id < ever; ++id) {
+      const k = this.division[id];
+      if (k >= 0 && k < divisions) continue;
+      if (i++ % every === 0) ids.push(id);
+    }
+    return Uint32Array.from(ids);
+  }
+
+  /** A colour (0 to 255) for every cell, that of its founder. */
+  colours(ids) {
+    // multiples of the golden ratio differ much from each other
+    return Uint8Array.from(ids, (id) =>
+      (this.founder[id] * 0.6180339887 % 1) * 256);
+  }
+
+  membersOf(founder, ids) {
+    return Uint8Array.from(ids, (id) => this.founder[id] === founder);
+  }
+}
+
+const ROWS = 400;
+
+class Tree {
+  constructor(lineage, about) {
+    this.lineage = lineage;
+    byId("tree-part").hidden = false;
+    byId("founder").max = lineage.founders - 1;
+    byId("founder").addEventListener("change", () => this.draw());
+    byId("largest").addEventListener("click", () => this.of(about.largest));
+    byId("another").addEventListener("click", () =>
+      this.of(Math.floor(Math.random() * lineage.founders)));
+    this.of(about.largest);
+  }
+
+  get founder() { return Number(byId("founder").value); }
+
+  of(founder) {
+    byId("founder").value = founder;
+    this.draw();
+  }
+
+  /** The cells of the clone: id, born, end, place from above, in the order
+   * in which they are drawn. */
+  cells() {
+    const lineage = this.lineage, cells = new Map(), order = [];
+    const stack = [this.founder];
+    while (stack.length) {
+      const id = stack.pop(), k = lineage.division[id];
+      const cell = {id, born: lineage.birth(id), divided: k >= 0,
+        end: k >= 0 ? lineage.times[k] : lineage.end,
+        daughters: k >= 0 ? lineage.daughters(k) : []};
+      cells.set(id, cell);
+      order.push(cell);
+      stack.push(...[...cell.daughters].reverse());
+    }
+    let leaves = 0;
+    for (const cell of order) if (!cell.divided) cell.row = leaves++;
+    // daughters come after their mother: from the last to the first
+    for (const cell of [...order].reverse()) {
+      if (!cell.divided) continue;
+      cell.rows = cell.daughters.map((id) => cells.get(id).row);
+      cell.row = (cell.rows[0] + cell.rows[1]) / 2;
+    }
+    return {order, leaves};
+  }
+
+  draw() {
+    const last = this.lineage.founders - 1;
+    byId("founder").value = Math.min(Math.max(0,
+      Math.floor(this.founder) || 0), last);
+    const {order, leaves} = this.cells();
+    byId("tree-words").textContent = `Founder ${this.founder}: ${leaves} `
+      + `living cells after ${leaves - 1} divisions.`;
+    this.picture(order, leaves);
+    this.table(order);
+  }
+
+  picture(order, leaves) {
+    const width = 760, left = 16, right = 70, foot = 34;
+    const height = leaves > 60 ? 5 : 20;
+    const x = (time) => left + (width - left - right) * time
+      / (this.lineage.end || 1);
+    const y = (row) => 14 + height * row;
+    const bottom = y(leaves - 1) + 12, parts = [];
+    for (let i = 0; i <= 5; ++i) {
+      const time = this.lineage.end * i / 5;
+      parts.push(line(x(time), 4, x(time), bottom, "axis"),
+        `<text x="${x(time)}" y="${bottom + 14}" text-anchor="middle">`
+        + `${shown(time)}</text>`);
+    }
+    parts.push(`<text x="${x(this.lineage.end) + 8}" y="${bottom + 14}">`
+      + "day</text>");
+    for (const cell of order) {
+      parts.push(line(x(cell.born), y(cell.row), x(cell.end), y(cell.row),
+        cell.divided ? "ended" : "living"));
+      if (cell.divided)
+        parts.push(line(x(cell.end), y(cell.rows[0]), x(cell.end),
+          y(cell.rows[1]), "ended"));
+      else if (leaves <= 60)
+        parts.push(`<text x="${x(cell.end) + 6}" y="${y(cell.row) + 4}">`
+          + `${cell.id}</text>`);
+    }
+    byId("tree").innerHTML = `<svg width="${width}" height="${bottom + foot}" `
+      + `role="img" aria-label="${byId("tree-words").textContent}">`
+      + `${parts.join("")}</svg>`;
+  }
+
+  table(order) {
+    const rows = [...order].sort((a, b) => a.id - b.id).slice(0, ROWS);
+    byId("tree-table").innerHTML = '<table><thead><tr><th scope="col">cell'
+      + '</th><th scope="col">generation</th><th scope="col">born, day</th>'
+      + '<th scope="col">divided, day</th></tr></thead><tbody>'
+      + rows.map((cell) => `<tr><td>${cell.id}</td><td>`
+        + `${this.lineage.generation[cell.id]}</td><td>${shown(cell.born)}`
+        + `</td><td>${cell.divided ? shown(cell.end) : "lives"}</td></tr>`)
+        .join("") + "</tbody></table>"
+      + (order.length > ROWS ? `<p>The first ${ROWS} of ${order.length}.</p>`
+        : "");
+  }
+}
+
+function line(x1, y1, x2, y2, kind) {
+  const [a, b, c, d] = [x1, y1, x2, y2].map((n) => n.toFixed(1));
+  return `<line x1="${a}" y1="${b}" x2="${c}" y2="${d}" class="${kind}"/>`;
+}

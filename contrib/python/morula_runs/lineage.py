@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Who descends from whom."""
+from functools import cached_property
+
+import numpy as np
+
+from .refusal import Refused
+
+
+class Lineage:
+    """lineage.csv: a row for every cell that ever lived, in order of its id.
+    Ids count from 0; those of daughters are larger than their mother's.
+
+    `table` is a structured array with id, parent (-1 for founders),
+    generation, birth_time (days) and x, y, z (um) where the cell was born."""
+
+    def __init__(self, table):
+        self.table = table[np.argsort(table["id"], kind="stable")]
+        if not np.array_equal(self.table["id"], np.arange(len(self.table))):
+            raise Refused("lineage.csv", "its ids", "0, 1, 2, ... without a "
+                          "gap", "Is the file whole?")
+        self.parent = self.table["parent"].astype(np.int64)
+        self.generation = self.table["generation"].astype(np.int64)
+        self.birth_time = self.table["birth_time"]
+
+    def __len__(self):
+        return len(self.parent)
+
+    @cached_property
+    def founders(self):
+        """Number of founders; their ids come first."""
+        return int((self.parent < 0).sum())
+
+    @cached_property
+    def founder(self):
+        """The founder of every cell (n)."""
+        found = np.arange(len(self))
+        for born in self._generations():
+            found[born] = found[self.parent[born]]
+        return found
+
+    @cached_property
+    def end_time(self):
+        """When every cell divided, days; infinity for those that have not."""
+        end = np.full(len(self), np.inf)
+        later = self.parent >= 0
+        end[self.parent[later]] = self.birth_time[later]
+        return end
+
+    @property
+    def living(self):
+        """Ids of the cells that have not divided until the end of the run."""
+        return np.flatnonzero(np.isinf(self.end_time))
+
+    def clone(self, cell):
+        """Ids of a cell and all its descendants, in order."""
+        self._require(cell)
+        member = np.zeros(len(self), dtype=bool)
+        member[cell] = True
+        for born in self._generations():
+            member[born] |= member[self.parent[born]]
+        return np.flatnonzero(member)
+
+    def ancestors(self, cell):
+        """Ids from a cell's founder to the cell itself."""
+        self._require(cell)
+        path = [cell]
+        while self.parent[path[-1]] >= 0:
+            path.append(int(self.parent[path[-1]]))
+        return path[::-1]
+
+    @cached_property
+    def clone_sizes(self):
+        """Living cells of every founder (founders)."""
+        return np.bincount(self.founder[self.living],
+                           minlength=self.founders)
+
+    def _generations(self):
+        """Ids of the cells of generation 1, 2, ..."""
+        order = np.argsort(self.generation, kind="stable")
+        ends = np.cumsum(np.bincount(self.generation))
+        return [order[a:b] for a, b in zip(ends, ends[1:])]
+
+    def _require(self, cell):
+        if not 0 <= cell < len(self):
+            raise Refused("The cell", cell, f"an id from 0 to {len(self) - 1}")

@@ -171,11 +171,11 @@ namespace Morula
     }
   } // namespace
 
-  // deal.II writes such files as well, but encoded and compressed: that takes
-  // twenty times as long, a third of a whole run of Fig. 4b, for files four
-  // fifths same size (doc/performance.md, Five days of Fig. 4b). Rank 0 writes:
-  // when the disk is full, MPI I/O fails on some ranks only, and the others
-  // wait for them for ever.
+  // deal.II writes such files as well, but encoded and compressed: output then
+  // takes five times as long, a third of a whole run of Fig. 4b, for files that
+  // are a fifth smaller (doc/performance.md, Five days of Fig. 4b). Rank 0
+  // writes: when the disk is full, MPI I/O fails on some ranks only, and the
+  // others wait for them for ever.
   template <int dim>
   void
   write_vtu(const std::string      &path,

@@ -108,6 +108,7 @@ namespace Morula
       if (surface.deformations[p].norm() <= limit.f)
         deform_boundary_point<dim>(tissue.boundary_properties(p),
                                    surface.deformations[p]);
+    growth_of_step = {};
     tissue.move(cells.positions, surface.positions);
   }
 

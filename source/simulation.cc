@@ -24,7 +24,7 @@ namespace Morula
 {
   template <int dim>
   void
-  Simulation<dim>::run()
+  Simulation<dim>::run(const std::function<void()> &observe)
   {
     if (resumed_from && must_stop())
       {
@@ -44,12 +44,16 @@ namespace Morula
 
     try
       {
+        if (observe)
+          observe();
         while (!must_stop())
           {
             step();
             files->step(row, births);
             write_condition();
             output(must_stop());
+            if (observe)
+              observe();
           }
       }
     catch (const std::bad_alloc &)
@@ -72,6 +76,20 @@ namespace Morula
                   row,
                   n_rejected,
                   timer);
+  }
+
+  template <int dim>
+  const Tissue<dim> &
+  Simulation<dim>::state() const
+  {
+    return tissue;
+  }
+
+  template <int dim>
+  const StatisticsRow &
+  Simulation<dim>::last_row() const
+  {
+    return row;
   }
 
   template <int dim>

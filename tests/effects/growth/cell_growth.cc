@@ -40,7 +40,8 @@ namespace
   void
   check_isotropic()
   {
-    const CellGrowth<dim> growth(isotropic_growth("1 + t*(1 + X/100)"), {});
+    const CellGrowth<dim> growth(isotropic_growth<dim>("1 + t*(1 + X/100)"),
+                                 {});
     EXPECT_TRUE(growth.present());
     EXPECT_EQ(growth.cycle(), nullptr);
     Ball<dim>  tissue(growth, true);
@@ -104,7 +105,7 @@ namespace
   void
   check_both()
   {
-    const CellGrowth<dim> both(isotropic_growth("1 + t"),
+    const CellGrowth<dim> both(isotropic_growth<dim>("1 + t"),
                                cell_cycle<dim>("waiting"));
     const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
     Ball<dim>             tissue(both, false);

@@ -26,7 +26,9 @@
 
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <sstream>
 
 namespace Step1
 {
@@ -77,7 +79,7 @@ namespace Step1
     }
 
     double
-    condition_number() const;
+    condition_number(const bool scaled) const;
 
     template <typename Function>
     double
@@ -183,20 +185,19 @@ namespace Step1
 
 
   // How much an error in the right-hand side is amplified, at most: the ratio
-  // of the largest to the smallest singular value. The rows are scaled to a
-  // unit diagonal first, $M_{st} / \sqrt{M_{ss} M_{tt}}$, as any preconditioner
-  // would: what is left is not a matter of units, or of small functions, but of
-  // functions that are nearly the same on the disc.
+  // of the largest to the smallest singular value. If scaled, of the matrix
+  // with a unit diagonal, $M_{st} / \sqrt{M_{ss} M_{tt}}$, which is what a
+  // preconditioner makes of it at least.
   double
-  Projection::condition_number() const
+  Projection::condition_number(const bool scaled) const
   {
     const FullMatrix<double> M = mass_matrix();
-    LAPACKFullMatrix<double> scaled(n_unknowns);
+    LAPACKFullMatrix<double> A(n_unknowns);
     for (unsigned int s = 0; s < n_unknowns; ++s)
       for (unsigned int t = 0; t < n_unknowns; ++t)
-        scaled(s, t) = M(s, t) / std::sqrt(M(s, s) * M(t, t));
-    scaled.compute_svd();
-    return scaled.singular_value(0) / scaled.singular_value(n_unknowns - 1);
+        A(s, t) = scaled ? M(s, t) / std::sqrt(M(s, s) * M(t, t)) : M(s, t);
+    A.compute_svd();
+    return A.singular_value(0) / A.singular_value(n_unknowns - 1);
   }
 
 
@@ -283,29 +284,33 @@ namespace Step1
   {
     constexpr unsigned int n_offsets = 16;
 
-    TableHandler table;
-    double       largest[2] = {0., 0.};
+    TableHandler                  table;
+    std::map<std::string, double> largest;
     for (unsigned int i = 0; i < n_offsets; ++i)
       {
         Scene        shifted(scene);
-        const double offset = scene.grid.spacing * i / n_offsets;
+        const double offset = scene.grid.spacing * (i + 0.5) / n_offsets;
         shifted.grid.offset = {offset, 0.6 * offset, 0.};
         table.add_value("offset", offset);
         for (const bool extension : {false, true})
-          {
-            shifted.grid.extension = extension;
-            const double condition = Projection(shifted).condition_number();
-            largest[extension]     = std::max(largest[extension], condition);
-            const std::string name = extension ? "extended" : "plain";
-            table.add_value(name, condition);
-            table.set_scientific(name, true);
-            table.set_precision(name, 2);
-          }
+          for (const bool scaled : {false, true})
+            {
+              shifted.grid.extension = extension;
+              const double condition =
+                Projection(shifted).condition_number(scaled);
+              const std::string name =
+                std::string(extension ? "extended" : "plain") +
+                (scaled ? ", scaled" : "");
+              largest[name] = std::max(largest[name], condition);
+              table.add_value(name, condition);
+              table.set_scientific(name, true);
+              table.set_precision(name, 2);
+            }
       }
     out << "Condition number\n";
     table.write_text(out, TableHandler::org_mode_table);
-    out << "Largest: plain " << largest[0] << ", extended " << largest[1]
-        << '\n';
+    for (const auto &[name, condition] : largest)
+      out << "Largest, " << name << ": " << condition << '\n';
   }
 
 
@@ -313,11 +318,11 @@ namespace Step1
   run(const Scene &scene, const bool /*resume*/)
   {
     // All ranks compute, the first one speaks.
-    const bool    first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    std::ostream  nowhere(nullptr);
-    std::ostream &out = first ? std::cout : nowhere;
+    std::ostringstream out;
     show_errors(scene, out);
     show_condition_numbers(scene, out);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << out.str();
   }
 } // namespace Step1
 

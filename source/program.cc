@@ -75,6 +75,11 @@ namespace Morula
       const Scene scene =
         Scene::read(command.scene_file, command.overrides, program.catalogue);
       scene.check();
+      if (program.dimension != 0 && scene.dimension != program.dimension)
+        throw InputError("Dimension",
+                         std::to_string(scene.dimension),
+                         std::to_string(program.dimension),
+                         "This program knows no other dimension.");
       if (command.explain)
         {
           explain(scene, std::cout, MPI_COMM_WORLD);

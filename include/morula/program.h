@@ -28,6 +28,9 @@ namespace Morula
     /** What is done with a scene that has been read and accepted. */
     std::function<void(const Scene &, const bool resume)> work = simulate;
 
+    /** The only value of Dimension that @ref work can do with; 0: any. */
+    unsigned int dimension = 0;
+
     /** Whether @ref work can --resume. */
     bool resumes = true;
 

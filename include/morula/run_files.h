@@ -37,9 +37,10 @@ namespace Morula
              const std::optional<SnapshotData<dim>> &resumed_from,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv and lineage.csv, and shows the step. */
+    /** Appends to statistics.csv and lineage.csv, and shows the step. Completes
+     *  @p row with the wall time. */
     void
-    step(StatisticsRow row, const std::vector<Birth<dim>> &births);
+    step(StatisticsRow &row, const std::vector<Birth<dim>> &births);
 
     /** Appends to condition.csv. The scene asks for it. */
     void

@@ -334,7 +334,8 @@ int
 main(int argc, char *argv[])
 {
   Morula::Program program;
-  program.work    = Step1::run;
-  program.resumes = false;
+  program.work      = Step1::run;
+  program.dimension = Step1::dim;
+  program.resumes   = false;
   return program.run(argc, argv);
 }

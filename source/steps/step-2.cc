@@ -193,7 +193,8 @@ int
 main(int argc, char *argv[])
 {
   Morula::Program program;
-  program.work    = Step2::run;
-  program.resumes = false;
+  program.work      = Step2::run;
+  program.dimension = Step2::dim;
+  program.resumes   = false;
   return program.run(argc, argv);
 }

@@ -31,6 +31,8 @@ namespace Morula
         if (Utilities::MPI::this_mpi_process(comm) == 0)
           std::cout << "Already finished at t = " << time_steps.time()
                     << " day: nothing to resume.\n";
+        if (observe)
+          observe();
         return;
       }
     files.emplace(scene, resumed_from, comm);

@@ -38,8 +38,8 @@ namespace Morula
 
     /**
      * Runs to End time.
-     * @param observe called with the initial state, or that of the snapshot,
-     *        and after every step; it may read this object. Collective.
+     * @param observe called on all ranks with the initial state, or that of the
+     *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
      */

@@ -12,6 +12,7 @@
 //
 //   build/step-2 prm/step-2.prm
 
+#include <morula/expression.h>
 #include <morula/mechanics/material.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/program.h>
@@ -76,7 +77,9 @@ namespace Step2
   Scene
   scene_of(const Waves &waves, Scene scene, const double refinement)
   {
-    const Lame lame = Morula::lame(std::stod(scene.material.youngs_modulus),
+    const Lame lame = Morula::lame(Expression("Material/Young's modulus",
+                                              scene.material.youngs_modulus)
+                                     .value(Point<dim>(), 0.),
                                    scene.material.poissons_ratio);
 
     std::ostringstream sine, displacement, force;

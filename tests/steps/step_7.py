@@ -13,7 +13,9 @@ RULE = "Proliferation/Cell cycle/Division axis"
 LAW = "Growth/Crowding limited/"
 
 # A rigid box: all of its surface is held, and all cells grow alike. So F = I.
-BOX = {"Tissue/Size": "100, 100", "Tissue/Cell spacing": "10",
+BOX = {"Tissue/Size": "100, 100",
+       "Boundary conditions/Nitsche form": "symmetric",
+       "Boundary conditions/Nitsche penalty": "1e3",
        "Boundary conditions/Fixed where": "1",
        "Boundary conditions/Displacement": "0; 0; 0",
        "Proliferation/Law": "none", RULE: "random",
@@ -25,32 +27,30 @@ SHORT = {"Tissue/Cell spacing": "20", "Grid/Spacing": "50",
 
 
 class Step7(StepTest):
-    def elastic_volume(self, step):
-        self.step(*overrides({**BOX, "Time/Step": step}))
+    def elastic_volume(self, step, time):
+        """J at a time, the same in all cells."""
+        self.step(*overrides({**BOX, "Time/Step": step,
+                              "Time/End time": time}))
         row = read_csv(self.work / "output/statistics.csv")[-1]
-        self.assertEqual(row["time"], 2)
+        self.assertEqual(row["time"], time)
         self.assertAlmostEqual(row["min_elastic_volume_ratio"],
-                               row["max_elastic_volume_ratio"], delta=1e-6)
+                               row["max_elastic_volume_ratio"], delta=1e-8)
         return row["min_elastic_volume_ratio"]
 
     def test_rigid_box(self):
         """J = 1/det F_g obeys dJ/dt = -(2 k/c) J (J - (1-c)), a logistic
         equation; the law is first order in the time step."""
-        a, k, t = 0.8, 0.5, 2.0
-        exact = a / (1 - (1 - a) * math.exp(-2 * k * a / (1 - a) * t))
-        self.assertAlmostEqual(exact, 0.8000, delta=1e-3)
-        errors = []
-        for step in (0.2, 0.1, 0.05):
-            # Halfway, where it has not come to rest.
-            self.step(*overrides({**BOX, "Time/Step": step,
-                                  "Time/End time": 0.2}))
-            row = read_csv(self.work / "output/statistics.csv")[-1]
-            at = a / (1 - (1 - a) * math.exp(-2 * k * a / (1 - a) * 0.2))
-            errors.append(abs(row["min_elastic_volume_ratio"] - at))
-        self.assertLess(errors[-1], 0.01)
+        def exact(t):
+            return a / (1 - (1 - a) * math.exp(-2 * k * a / (1 - a) * t))
+
+        a, k = 0.8, 0.5
+        errors = [abs(self.elastic_volume(step, 0.2) - exact(0.2))
+                  for step in (0.05, 0.025, 0.0125)]
+        self.assertLess(errors[-1], 0.0025)
         for coarse, fine in zip(errors, errors[1:]):
-            self.assertGreater(coarse / fine, 1.6)
-        self.assertAlmostEqual(self.elastic_volume(0.1), exact, delta=1e-4)
+            self.assertAlmostEqual(coarse / fine, 2, delta=0.2)
+        # It comes to rest at 1 - c.
+        self.assertAlmostEqual(self.elastic_volume(0.1, 2), a, delta=1e-4)
 
     def daughters(self, rule):
         """|cos| of the angles between daughters' distances and the x axis."""
@@ -58,6 +58,9 @@ class Step7(StepTest):
         lineage = read_csv(self.work / "output/lineage.csv")
         born = lineage[lineage["parent"] >= 0]
         first, second = born[0::2], born[1::2]
+        # Cells that entered S before the pull could be felt take any axis.
+        late = first["birth_time"] > 0.75
+        first, second = first[late], second[late]
         self.assertGreater(len(first), 30)
         numpy.testing.assert_array_equal(first["parent"], second["parent"])
         x = first["x"] - second["x"]

@@ -4,6 +4,7 @@
 
 The way through the package: `program` is the executable, `scene` what a .prm
 file says, `ladder` which keys take which values, `runner` runs what is not
-there yet and measures what it costs, `results` reads what a run has written.
+there yet and measures what it costs, `results` reads what a run has written,
+`org_tables` what a step program has printed.
 Mistakes of the user raise `Refused`.
 """

@@ -75,7 +75,7 @@ namespace Morula
       throw std::invalid_argument("'" + name +
                                   "' cannot name an effect: small letters, "
                                   "blanks and '-' may.");
-    for (const std::string &own : {"none", "isotropic", "random", "fixed"})
+    for (const char *own : {"none", "isotropic", "random", "fixed"})
       if (name == own)
         throw std::invalid_argument("'" + name + "' is Morula's own.");
     if (find_choice(growth_laws, name) != nullptr ||

@@ -158,16 +158,16 @@ TEST(Catalogue, RefusesInTheScene)
 
 TEST(Catalogue, RefusesNames)
 {
-  for (const std::string &name : {"",
-                                  "none",
-                                  "isotropic",
-                                  "random",
-                                  "By",
-                                  "a|b",
-                                  " a",
-                                  "a ",
-                                  "by factor",
-                                  "some axis"})
+  for (const std::string name : {"",
+                                 "none",
+                                 "isotropic",
+                                 "random",
+                                 "By",
+                                 "a|b",
+                                 " a",
+                                 "a ",
+                                 "by factor",
+                                 "some axis"})
     {
       Catalogue full = catalogue();
       EXPECT_THROW(full.add_growth_law<Law>(name), std::invalid_argument);

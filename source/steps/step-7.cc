@@ -31,10 +31,13 @@ namespace Step7
   // The growth law. A squeezed cell has $J_e < 1$, (1.3). The growth stretch
   // theta of each cell obeys
   //
-  //   $\dot\theta / \theta = k \max(0,\; 1 - (1 - J_e) / c)$:
+  //   $\dot\theta / \theta = k\, r$, with the room $r = 1 - (1 - J_e) / c$
+  //   between
+  // 0 and 1:
   //
-  // with the rate k where there is no pressure, slower under pressure, and not
-  // at all once the cell has lost the part c of its volume.
+  // it grows with the rate k where there is no pressure, slower under pressure,
+  // and not at all once it has lost the part c of its volume. A cell that is
+  // pulled grows with the rate k.
 
   // Its keys are the members of a struct, as for all effects of the library.
   // declare() binds each to its text in the .prm file; what stands there is
@@ -101,13 +104,12 @@ namespace Step7
            const double            t1) const override
     {
       const double J_e  = determinant(cell.elastic);
-      const double room = std::max(0., 1. - (1. - J_e) / crowding);
+      const double room = std::clamp(1. - (1. - J_e) / crowding, 0., 1.);
       const double k    = rate.value(cell.founder_position, 0.);
       return std::exp(k * room * (t1 - t0)) * cell.growth;
     }
 
-    // For the estimate of memory: as much as without pressure at most. Cells
-    // that are pulled, $J_e > 1$, may grow faster; that is rare enough.
+    // For the estimate of memory: as much as without pressure at most.
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override
     {

@@ -96,7 +96,7 @@ class Step7(StepTest):
                      "subsection Long axis", "set Least elongation = 1.02"):
             self.assertIn(line, keys)
         text = self.step("--explain")
-        self.assertIn("crowding limited, Rate = 0.05, Crowding = 0.2", text)
+        self.assertIn("crowding limited, Rate = 0.1, Crowding = 0.2", text)
         self.assertIn("long axis axis, Least elongation = 1.02", text)
         for key, value in ((LAW + "Crowding", "0"), (LAW + "Crowding", "1"),
                            (LAW + "Rate", "1 +"),

@@ -118,7 +118,7 @@ def step_6(layers, path):
                       label=f"$J_{{th}}$ = {threshold:g}")
         axes.axhline(0, color="0.7", linewidth=0.8, zorder=0)
         axes.set(xlabel=label, ylabel="founder's height Z, µm")
-    panels[0].annotate("clamp below", (0.03, 0.43), xycoords="axes fraction",
+    panels[0].annotate("clamp below", (0.6, 0.43), xycoords="axes fraction",
                        fontsize=8, color="0.4")
     panels[1].legend(fontsize=8)
     canvas.savefig(path)
@@ -129,10 +129,10 @@ def step_7(runs, path):
     canvas, panels = figure(2)
     for i, (name, rows) in enumerate(runs.items()):
         panels[0].plot(rows["time"], rows["mean_energy_density"],
-                       color=COLOURS[i], label=name)
-        panels[1].plot(rows["time"], rows["ymax"] - rows["ymin"],
                        color=COLOURS[i])
+        panels[1].plot(rows["time"], rows["ymax"] - rows["ymin"],
+                       color=COLOURS[i], label=name)
     panels[0].set(xlabel="time, days", ylabel="mean energy density, kPa")
     panels[1].set(xlabel="time, days", ylabel="largest width, µm")
-    panels[0].legend(fontsize=7)
+    panels[1].legend(fontsize=7)
     canvas.savefig(path)

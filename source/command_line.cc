@@ -121,9 +121,9 @@ namespace Morula
 
 
   void
-  print_parameters(std::ostream &out)
+  print_parameters(std::ostream &out, const Catalogue &catalogue)
   {
-    Scene            scene;
+    Scene            scene(catalogue);
     ParameterHandler prm;
     scene.declare(prm);
     ParameterKeys(prm).print(out);

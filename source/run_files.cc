@@ -173,7 +173,7 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::step(StatisticsRow row, const std::vector<Birth<dim>> &births)
+  RunFiles<dim>::step(StatisticsRow &row, const std::vector<Birth<dim>> &births)
   {
     row.wall_seconds = wall_seconds();
     statistics->append(row);

@@ -25,26 +25,6 @@ namespace Morula
       prm.leave_subsection();
     }
 
-    /**
-     * Declares a section that chooses one of several laws, and the law's own
-     * section inside.
-     */
-    template <typename Parameters>
-    void
-    declare_law(ParameterHandler  &prm,
-                const std::string &section,
-                std::string       &law,
-                const std::string &documentation,
-                const std::string &laws,
-                const std::string &law_section,
-                Parameters        &parameters)
-    {
-      prm.enter_subsection(section);
-      prm.add_parameter("Law", law, documentation, Patterns::Selection(laws));
-      declare_section(prm, law_section, parameters);
-      prm.leave_subsection();
-    }
-
     /** Default value of each key, as deal.II prints it, by full path. */
     std::map<std::string, std::string>
     defaults(const ParameterKeys &keys)
@@ -100,20 +80,8 @@ namespace Morula
     declare_section(prm, "Tissue", tissue);
     declare_section(prm, "Grid", grid);
     declare_section(prm, "Material", material);
-    declare_law(prm,
-                "Growth",
-                growth_law,
-                "How cells grow without dividing.",
-                "none|isotropic",
-                "Isotropic",
-                isotropic_growth);
-    declare_law(prm,
-                "Proliferation",
-                proliferation_law,
-                "How cells grow and divide.",
-                "none|cell cycle",
-                "Cell cycle",
-                cell_cycle);
+    declare_growth(prm);
+    declare_proliferation(prm);
     declare_section(prm, "Boundary conditions", boundary_conditions);
     declare_section(prm, "Body force", body_force);
     declare_section(prm, "Solver", solver);
@@ -121,11 +89,46 @@ namespace Morula
   }
 
 
+  void
+  Scene::declare_growth(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Growth");
+    prm.add_parameter("Law",
+                      growth_law,
+                      "How cells grow without dividing.",
+                      Patterns::Selection(
+                        "none|isotropic" +
+                        as_alternatives(catalogue.growth_laws)));
+    declare_section(prm, "Isotropic", isotropic_growth);
+    for (auto &law : catalogue.growth_laws)
+      law.declare(prm);
+    prm.leave_subsection();
+  }
+
+
+  void
+  Scene::declare_proliferation(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Proliferation");
+    prm.add_parameter("Law",
+                      proliferation_law,
+                      "How cells grow and divide.",
+                      Patterns::Selection("none|cell cycle"));
+    prm.enter_subsection("Cell cycle");
+    cell_cycle.declare(prm, as_alternatives(catalogue.division_rules));
+    for (auto &rule : catalogue.division_rules)
+      rule.declare(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
   Scene
   Scene::read(const std::string              &file,
-              const std::vector<std::string> &overrides)
+              const std::vector<std::string> &overrides,
+              const Catalogue                &catalogue)
   {
-    Scene            scene;
+    Scene            scene(catalogue);
     ParameterHandler prm;
     scene.declare(prm);
     const ParameterKeys keys(prm);
@@ -156,7 +159,7 @@ namespace Morula
   {
     // the members as they are, and as they were when they had just been read
     ParameterHandler prm, prm_read, prm_read_again;
-    Scene            now(*this), read;
+    Scene            now(*this), read(with_defaults());
     now.declare(prm);
     const ParameterKeys keys(prm);
     read.declare(prm_read);
@@ -176,4 +179,39 @@ namespace Morula
                            ParameterHandler::KeepDeclarationOrder);
     return out.str();
   }
+
+
+  template <int dim>
+  std::unique_ptr<const GrowthLaw<dim>>
+  growth_law_of(const Scene &scene)
+  {
+    if (!scene.has_growth())
+      return nullptr;
+    const auto added =
+      find_choice(scene.catalogue.growth_laws, scene.growth_law);
+    if (added != nullptr)
+      return added->make<dim>();
+    return std::make_unique<const IsotropicGrowth<dim>>(scene.isotropic_growth);
+  }
+
+
+  template <int dim>
+  std::unique_ptr<const DivisionRule<dim>>
+  division_rule_of(const Scene &scene)
+  {
+    if (!scene.has_proliferation())
+      return nullptr;
+    const auto added = find_choice(scene.catalogue.division_rules,
+                                   scene.cell_cycle.division_axis);
+    return added == nullptr ? nullptr : added->make<dim>();
+  }
+
+
+#define INSTANTIATE(dim)                                                       \
+  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &); \
+  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(          \
+    const Scene &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

@@ -38,21 +38,21 @@ namespace Morula
     void
     check_founders(const Scene &scene, const std::vector<Point<dim>> &founders)
     {
-      const Expression      stiffness("Material/Young's modulus",
+      const Expression stiffness("Material/Young's modulus",
                                  scene.material.youngs_modulus);
-      const Expression      force("Body force/Force density",
+      const Expression force("Body force/Force density",
                              scene.body_force.force_density,
                              3,
                              dim);
-      const IsotropicGrowth growth(scene.isotropic_growth);
+      const auto       law = growth_law_of<dim>(scene);
       for (const Point<dim> &X : founders)
         {
           require_stiffness(stiffness, X);
           for (const double t : {0., scene.time.end_time})
             {
               force.vector(X, t);
-              if (scene.has_growth())
-                growth.stretch(X, t);
+              if (law)
+                law->expected_volume_ratio(X, t);
             }
         }
       if (scene.has_proliferation())

@@ -15,6 +15,36 @@ namespace Morula
 
   namespace
   {
+    /** Makes the effect of the catalogue that the scene names, for what it
+     *  refuses, and refuses values of those that it does not. */
+    template <int dim, template <int> class Interface>
+    void
+    check_choices(const Scene                          &scene,
+                  const std::vector<Choice<Interface>> &choices,
+                  const std::string                    &section,
+                  const std::string                    &switch_key,
+                  const std::string                    &chosen)
+    {
+      for (const auto &choice : choices)
+        {
+          if (choice.name() == chosen)
+            {
+              choice.template make<dim>();
+              continue;
+            }
+          const auto values   = choice.keys();
+          const auto defaults = choice.with_defaults().keys();
+          for (std::size_t i = 0; i < values.size(); ++i)
+            refuse_forgotten(scene,
+                             switch_key,
+                             section + choice.section() + "/" + values[i].path,
+                             values[i].default_value,
+                             same_value(values[i].default_value,
+                                        defaults[i].default_value),
+                             "Set " + switch_key + " = " + choice.name());
+        }
+    }
+
     void
     check_cell_cycle_unused(const Scene &scene)
     {
@@ -77,10 +107,16 @@ namespace Morula
       CellCycle<dim>(cycle, scene.random_seed, 1e-9 * scene.time.step);
     }
 
+    template <int dim>
     void
     check_growth(const Scene &scene)
     {
-      if (scene.has_growth())
+      check_choices<dim>(scene,
+                         scene.catalogue.growth_laws,
+                         "Growth/",
+                         "Growth/Law",
+                         scene.growth_law);
+      if (scene.growth_law == "isotropic")
         refuse_constant_unless(Sign::positive,
                                "(a ratio of lengths)",
                                Expression("Growth/Isotropic/Stretch",
@@ -189,11 +225,18 @@ namespace Morula
   void
   check_effects(const Scene &scene)
   {
-    check_growth(scene);
+    check_growth<dim>(scene);
     if (scene.has_proliferation())
       check_cell_cycle<dim>(scene);
     else
       check_cell_cycle_unused(scene);
+    check_choices<dim>(scene,
+                       scene.catalogue.division_rules,
+                       "Proliferation/Cell cycle/",
+                       "Proliferation/Cell cycle/Division axis",
+                       scene.has_proliferation() ?
+                         scene.cell_cycle.division_axis :
+                         "none");
     check_boundary_conditions<dim>(scene);
     Expression("Body force/Force density",
                scene.body_force.force_density,

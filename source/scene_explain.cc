@@ -42,6 +42,21 @@ namespace Morula
              what;
     }
 
+    /** ", Key = value" for all keys of the chosen effect, if it is one of the
+     *  catalogue. */
+    template <template <int> class Interface>
+    std::string
+    values_of(const std::vector<Choice<Interface>> &choices,
+              const std::string                    &chosen)
+    {
+      std::string text;
+      const auto *choice = find_choice(choices, chosen);
+      if (choice != nullptr)
+        for (const ParameterKey &key : choice->keys())
+          text += ", " + key.path + " = " + key.default_value;
+      return text;
+    }
+
     bool
     has_checkpoint(const Scene &scene)
     {
@@ -69,7 +84,10 @@ namespace Morula
                    "growth",
                    scene.has_growth(),
                    scene.growth_law +
-                     ", theta = " + scene.isotropic_growth.stretch);
+                     (scene.growth_law == "isotropic" ?
+                        ", theta = " + scene.isotropic_growth.stretch :
+                        values_of(scene.catalogue.growth_laws,
+                                  scene.growth_law)));
       print_effect(out,
                    "proliferation",
                    divides,
@@ -84,6 +102,8 @@ namespace Morula
                    "division (Voronoi)",
                    divides,
                    cycle.division_axis + " axis" +
+                     values_of(scene.catalogue.division_rules,
+                               cycle.division_axis) +
                      (cycle.axis_follows_rotation ? ", follows rotation" : ""));
       print_effect(out,
                    "fixed points (Nitsche)",

@@ -135,18 +135,16 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
-    const double          t = scene.time.end_time;
-    const double          V = std::pow(scene.tissue.cell_spacing, dim);
-    const IsotropicGrowth growth(scene.isotropic_growth);
-    Descendants<dim>      descendants(scene);
-    SceneSize             size;
+    const double           t   = scene.time.end_time;
+    const double           V   = std::pow(scene.tissue.cell_spacing, dim);
+    const auto             law = growth_law_of<dim>(scene);
+    Descendants<dim>       descendants(scene);
+    SceneSize              size;
     for (const Point<dim> &X : founders)
       {
         const double n = descendants(X);
         size.cells += n;
-        size.volume +=
-          n * V *
-          (scene.has_growth() ? std::pow(growth.stretch(X, t), dim) : 1.);
+        size.volume += n * V * (law ? law->expected_volume_ratio(X, t) : 1.);
       }
     size.cells  = Utilities::MPI::sum(size.cells, comm);
     size.volume = Utilities::MPI::sum(size.volume, comm);

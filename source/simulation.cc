@@ -24,13 +24,15 @@ namespace Morula
 {
   template <int dim>
   void
-  Simulation<dim>::run()
+  Simulation<dim>::run(const std::function<void()> &observe)
   {
     if (resumed_from && must_stop())
       {
         if (Utilities::MPI::this_mpi_process(comm) == 0)
           std::cout << "Already finished at t = " << time_steps.time()
                     << " day: nothing to resume.\n";
+        if (observe)
+          observe();
         return;
       }
     files.emplace(scene, resumed_from, clock, comm);
@@ -46,12 +48,16 @@ namespace Morula
 
     try
       {
+        if (observe)
+          observe();
         while (!must_stop())
           {
             step();
             files->step(row, births);
             write_condition();
             output(must_stop());
+            if (observe)
+              observe();
           }
       }
     catch (const std::bad_alloc &)
@@ -74,6 +80,20 @@ namespace Morula
                   row,
                   n_rejected,
                   timer);
+  }
+
+  template <int dim>
+  const Tissue<dim> &
+  Simulation<dim>::state() const
+  {
+    return tissue;
+  }
+
+  template <int dim>
+  const StatisticsRow &
+  Simulation<dim>::last_row() const
+  {
+    return row;
   }
 
   template <int dim>

@@ -24,15 +24,14 @@ namespace Morula
     CellGrowth<dim>
     growth_of(const Scene &scene)
     {
-      std::optional<IsotropicGrowth> isotropic;
-      if (scene.has_growth())
-        isotropic.emplace(scene.isotropic_growth);
       std::optional<CellCycle<dim>> cycle;
       if (scene.has_proliferation())
         cycle.emplace(scene.cell_cycle,
                       scene.random_seed,
                       1e-9 * scene.time.step);
-      return CellGrowth<dim>(std::move(isotropic), std::move(cycle));
+      return CellGrowth<dim>(growth_law_of<dim>(scene),
+                             std::move(cycle),
+                             division_rule_of<dim>(scene));
     }
 
     template <int dim>
@@ -272,6 +271,15 @@ namespace Morula
   }
 
   template <int dim>
+  CellQuantities
+  Simulation<dim>::quantities(const CellView<dim, const double> &cell) const
+  {
+    return cell_quantities(cell,
+                           material.lame_at(cell.founder_position()),
+                           material.per_grown_volume());
+  }
+
+  template <int dim>
   StatisticsRow
   Simulation<dim>::statistics() const
   {
@@ -282,10 +290,7 @@ namespace Morula
       {
         const auto       cell = tissue.cell(particle);
         const Point<dim> X    = cell.founder_position();
-        sums.add_cell(cell_quantities(cell,
-                                      material.lame_at(X),
-                                      material.per_grown_volume()),
-                      particle->get_location());
+        sums.add_cell(quantities(cell), particle->get_location());
         if (growth.cycle() != nullptr)
           held += growth.cycle()->is_held(CycleState<dim>::load(cell),
                                           X,
@@ -344,9 +349,7 @@ namespace Morula
                       cell,
                       particle->get_location(),
                       phase(cell),
-                      cell_quantities(cell,
-                                      material.lame_at(cell.founder_position()),
-                                      material.per_grown_volume()));
+                      quantities(cell));
           }
         SurfaceFields<dim> surface(t);
         for (const auto &point : tissue.boundary_points().order())

@@ -39,7 +39,8 @@ namespace Morula
     // A key that the program of the snapshot did not have yet stands for its
     // default: a new key's default is what was done before.
     auto before = values(parameters, "the snapshot's scene");
-    before.merge(values(Scene().parameters(), "the default scene"));
+    before.merge(
+      values(scene.with_defaults().parameters(), "the default scene"));
     const auto now = values(scene.parameters(), "the scene");
     for (const auto &[path, value] : before)
       if (now.count(path) == 0)

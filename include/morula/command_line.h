@@ -4,6 +4,8 @@
 #ifndef morula_command_line_h
 #define morula_command_line_h
 
+#include <morula/catalogue.h>
+
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -40,7 +42,7 @@ namespace Morula
   /** Every key with meaning, unit, allowed values and default, as a .prm file.
    */
   void
-  print_parameters(std::ostream &out);
+  print_parameters(std::ostream &out, const Catalogue &catalogue = Catalogue());
 } // namespace Morula
 
 #endif

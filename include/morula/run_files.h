@@ -40,9 +40,10 @@ namespace Morula
              const Timer                            &clock,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv and lineage.csv, and shows the step. */
+    /** Appends to statistics.csv and lineage.csv, and shows the step. Completes
+     *  @p row with the wall time. */
     void
-    step(StatisticsRow row, const std::vector<Birth<dim>> &births);
+    step(StatisticsRow &row, const std::vector<Birth<dim>> &births);
 
     /** Onto the terminal and into log.txt: something worth knowing. */
     void

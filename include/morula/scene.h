@@ -4,6 +4,7 @@
 #ifndef morula_scene_h
 #define morula_scene_h
 
+#include <morula/catalogue.h>
 #include <morula/effects/body_force.h>
 #include <morula/effects/boundary_conditions.h>
 #include <morula/effects/growth/isotropic.h>
@@ -15,6 +16,7 @@
 #include <morula/particles/seeding.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,12 @@ namespace Morula
    */
   struct Scene
   {
+    /** @param catalogue effects that the scene may name besides the library's
+     *         own, with their defaults */
+    explicit Scene(const Catalogue &catalogue = Catalogue())
+      : catalogue(catalogue)
+    {}
+
     unsigned int dimension        = 3;
     std::string  output_directory = "output";
     unsigned int random_seed      = 1;
@@ -55,6 +63,9 @@ namespace Morula
     BodyForceParameters         body_force;
     SolverParameters            solver;
     OutputParameters            output;
+
+    /** Effects that the program has added, with the values of their keys. */
+    Catalogue catalogue;
 
     /**
      * The values of the keys as the file and the overrides wrote them, by full
@@ -90,7 +101,16 @@ namespace Morula
      * @throws InputError with the key's full path, the file and the line
      */
     static Scene
-    read(const std::string &file, const std::vector<std::string> &overrides);
+    read(const std::string              &file,
+         const std::vector<std::string> &overrides,
+         const Catalogue                &catalogue = Catalogue());
+
+    /** The scene of an empty file, with the same effects to choose from. */
+    Scene
+    with_defaults() const
+    {
+      return Scene(catalogue.with_defaults());
+    }
 
     /** All keys as used, as a .prm file that read() reads back exactly. */
     std::string
@@ -105,7 +125,24 @@ namespace Morula
      */
     void
     check() const;
+
+  private:
+    void
+    declare_growth(ParameterHandler &prm);
+    void
+    declare_proliferation(ParameterHandler &prm);
   };
+
+  /** The scene's growth law, or null. @throws InputError */
+  template <int dim>
+  std::unique_ptr<const GrowthLaw<dim>>
+  growth_law_of(const Scene &scene);
+
+  /** The scene's rule for the axes of divisions, or null where the cell cycle
+   *  draws them. @throws InputError */
+  template <int dim>
+  std::unique_ptr<const DivisionRule<dim>>
+  division_rule_of(const Scene &scene);
 } // namespace Morula
 
 #endif

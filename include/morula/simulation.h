@@ -38,11 +38,25 @@ namespace Morula
 
     /**
      * Runs to End time.
+     * @param observe called on all ranks with the initial state, or that of the
+     *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
      */
     void
-    run();
+    run(const std::function<void()> &observe = {});
+
+    /** Cells and boundary points as they are now. */
+    const Tissue<dim> &
+    state() const;
+
+    /** What statistics.csv says of the present state, and of the step to it. */
+    const StatisticsRow &
+    last_row() const;
+
+    /** Mechanics of a cell of the present state, as in cells-NNNN.csv. */
+    CellQuantities
+    quantities(const CellView<dim, const double> &cell) const;
 
     /** Size of the first step's equations, for --explain. Collective. */
     unsigned int

@@ -48,11 +48,11 @@ namespace
     std::unique_ptr<SplineSpace<dim>> space;
 
     Problem(const BoundaryConditionParameters &parameters,
-            const CellGrowth<dim>             &growth,
+            CellGrowth<dim>                    growth_of_cells,
             const Tensor<1, dim>              &moved = Tensor<1, dim>(),
             const Tensor<2, dim>              &F     = unit_tensor<dim>())
       : conditions(parameters)
-      , growth(growth)
+      , growth(std::move(growth_of_cells))
       , tissue(GridParameters(),
                CellSlots<dim>(growth.present(), false),
                MPI_COMM_WORLD)
@@ -211,11 +211,14 @@ namespace
     parameters.fixed_where = at_top;
     // At X = 70, the nearest cells, and elsewhere.
     const std::string stretch = "1 + t*(X > 65 && Y*Y + Z*Z < 500 ? 0.2 : 7)";
-    const CellGrowth<dim> growth(isotropic_growth(stretch), {});
-    Tensor<2, dim>        F = unit_tensor<dim>();
-    F[0][0]                 = 1.1;
-    F[0][1]                 = 0.2;
-    const Problem<dim> problem(parameters, growth, Tensor<1, dim>(), F);
+    Tensor<2, dim>    F       = unit_tensor<dim>();
+    F[0][0]                   = 1.1;
+    F[0][1]                   = 0.2;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>(isotropic_growth<dim>(stretch),
+                                               {}),
+                               Tensor<1, dim>(),
+                               F);
     for (const bool grown : {false, true})
       for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
         {

@@ -5,6 +5,7 @@
 #define morula_tests_effects_small_tissue_h
 
 #include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/growth/isotropic.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/tissue.h>
 
@@ -18,12 +19,13 @@
 
 namespace Morula
 {
-  inline std::optional<IsotropicGrowth>
+  template <int dim>
+  std::unique_ptr<const GrowthLaw<dim>>
   isotropic_growth(const std::string &stretch)
   {
     IsotropicGrowthParameters parameters;
     parameters.stretch = stretch;
-    return IsotropicGrowth(parameters);
+    return std::make_unique<const IsotropicGrowth<dim>>(parameters);
   }
 
   template <int dim>

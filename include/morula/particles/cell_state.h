@@ -217,6 +217,14 @@ namespace Morula
     return cell.initial_volume() * determinant(cell.deformation());
   }
 
+  /** F_e = F F_g⁻¹, equation (1.3). */
+  template <int dim, typename Number>
+  Tensor<2, dim>
+  elastic_deformation(const CellView<dim, Number> &cell)
+  {
+    return cell.deformation() * invert(cell.growth());
+  }
+
   /** J_e = det F / det F_g. */
   template <int dim, typename Number>
   double

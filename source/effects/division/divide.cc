@@ -29,13 +29,11 @@ namespace Morula
         {
           const auto &particle                   = tissue.cells().order()[i];
           const CellView<dim, const double> cell = tissue.cell(particle);
-          const Tensor<2, dim>              F    = cell.deformation();
-          const Tensor<2, dim>              F_e  = F * invert(cell.growth());
-          list.push_back(
-            {particle->get_id(),
-             particle->get_location(),
-             cycle.placement_axis(CycleState<dim>::load(cell), F_e),
-             std::pow(volume(cell), 1. / dim)});
+          list.push_back({particle->get_id(),
+                          particle->get_location(),
+                          cycle.placement_axis(CycleState<dim>::load(cell),
+                                               elastic_deformation(cell)),
+                          std::pow(volume(cell), 1. / dim)});
         }
       return list;
     }

@@ -6,17 +6,19 @@
 namespace Morula
 {
   template <int dim>
-  CellGrowth<dim>::CellGrowth(std::optional<IsotropicGrowth> isotropic,
-                              std::optional<CellCycle<dim>>  cycle)
-    : isotropic(std::move(isotropic))
+  CellGrowth<dim>::CellGrowth(std::unique_ptr<const GrowthLaw<dim>>    law,
+                              std::optional<CellCycle<dim>>            cycle,
+                              std::unique_ptr<const DivisionRule<dim>> rule)
+    : law(std::move(law))
     , cycle_(std::move(cycle))
+    , rule(std::move(rule))
   {}
 
   template <int dim>
   bool
   CellGrowth<dim>::present() const
   {
-    return isotropic || cycle_;
+    return law || cycle_;
   }
 
   template <int dim>
@@ -39,7 +41,40 @@ namespace Morula
       return;
     cell.set_scalar(cell.layout().parent, -1.);
     cell.set_scalar(cell.layout().generation, 0.);
-    cycle_->founder(id, cell.founder_position()).store(cell);
+    const Point<dim> X     = cell.founder_position();
+    CycleState<dim>  state = cycle_->founder(id, X);
+    choose_axis(CycleState<dim>(), X, unit_symmetric_tensor<dim>(), state);
+    state.store(cell);
+  }
+
+  template <int dim>
+  template <typename Number>
+  CycleState<dim>
+  CellGrowth<dim>::advance(const CellView<dim, Number> &cell,
+                           const double                 t0,
+                           const double                 t1) const
+  {
+    const CycleState<dim> before = CycleState<dim>::load(cell);
+    const Point<dim>      X      = cell.founder_position();
+    CycleState<dim>       after =
+      cycle_->advance(before, X, t0, t1, elastic_volume_ratio(cell));
+    if (rule)
+      choose_axis(before, X, elastic_deformation(cell), after);
+    return after;
+  }
+
+  template <int dim>
+  void
+  CellGrowth<dim>::choose_axis(const CycleState<dim> &before,
+                               const Point<dim>      &X,
+                               const Tensor<2, dim>  &F_e,
+                               CycleState<dim>       &after) const
+  {
+    if (!rule || after.phase != CyclePhase::growing ||
+        before.phase == CyclePhase::growing)
+      return;
+    const Tensor<1, dim> axis = rule->axis({X, F_e, after.axis});
+    after.axis                = axis / axis.norm();
   }
 
   template <int dim>
@@ -50,18 +85,19 @@ namespace Morula
                           const double                 t1) const
   {
     const Point<dim> X = cell.founder_position();
-    Tensor<2, dim>   F_g(unit_symmetric_tensor<dim>());
+    Tensor<2, dim>   of_cycle(unit_symmetric_tensor<dim>());
+    Tensor<2, dim>   of_law = cell.growth(); // at t0
     if (cycle_)
-      F_g = cycle_->growth(cycle_->advance(CycleState<dim>::load(cell),
-                                           X,
-                                           t0,
-                                           t1,
-                                           elastic_volume_ratio(cell)),
-                           X,
-                           t1);
-    if (isotropic)
-      F_g *= isotropic->stretch(X, t1);
-    return F_g;
+      {
+        if (law)
+          of_law =
+            of_law * invert(cycle_->growth(CycleState<dim>::load(cell), X, t0));
+        of_cycle = cycle_->growth(advance(cell, t0, t1), X, t1);
+      }
+    if (!law)
+      return of_cycle;
+    return law->growth({X, of_law, elastic_deformation(cell)}, t0, t1) *
+           of_cycle;
   }
 
   template <int dim>
@@ -95,13 +131,7 @@ namespace Morula
     if (!present())
       return;
     if (cycle_)
-      cycle_
-        ->advance(CycleState<dim>::load(cell),
-                  cell.founder_position(),
-                  t0,
-                  t1,
-                  elastic_volume_ratio(cell))
-        .store(cell);
+      advance(cell, t0, t1).store(cell);
     cell.set_tensor(cell.layout().growth, F_g);
   }
 

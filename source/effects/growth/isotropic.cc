@@ -4,6 +4,9 @@
 #include <morula/effects/growth/isotropic.h>
 #include <morula/input_error.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
 #include <sstream>
 
 namespace Morula
@@ -18,14 +21,16 @@ namespace Morula
   }
 
 
-  IsotropicGrowth::IsotropicGrowth(const IsotropicGrowthParameters &parameters)
+  template <int dim>
+  IsotropicGrowth<dim>::IsotropicGrowth(
+    const IsotropicGrowthParameters &parameters)
     : theta("Growth/Isotropic/Stretch", parameters.stretch)
   {}
 
 
   template <int dim>
   double
-  IsotropicGrowth::stretch(const Point<dim> &X, const double t) const
+  IsotropicGrowth<dim>::stretch(const Point<dim> &X, const double t) const
   {
     const double value = theta.value(X, t);
     if (value <= 0.)
@@ -43,8 +48,26 @@ namespace Morula
   }
 
 
-  template double
-  IsotropicGrowth::stretch(const Point<2> &, const double) const;
-  template double
-  IsotropicGrowth::stretch(const Point<3> &, const double) const;
+  template <int dim>
+  Tensor<2, dim>
+  IsotropicGrowth<dim>::growth(const GrowingCell<dim> &cell,
+                               const double /*t0*/,
+                               const double t1) const
+  {
+    return stretch(cell.founder_position, t1) *
+           Tensor<2, dim>(unit_symmetric_tensor<dim>());
+  }
+
+
+  template <int dim>
+  double
+  IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
+                                              const double      t) const
+  {
+    return std::pow(stretch(X, t), dim);
+  }
+
+
+  template class IsotropicGrowth<2>;
+  template class IsotropicGrowth<3>;
 } // namespace Morula

@@ -63,7 +63,7 @@ namespace Morula
     , size_checkpoint(section + "Size checkpoint", parameters.size_checkpoint)
     , where(section + "Where", parameters.where)
     , start_together(parameters.start == "together")
-    , random_axis(parameters.division_axis == "random")
+    , random_axis(parameters.division_axis != "fixed")
     , axis_follows_rotation(parameters.axis_follows_rotation)
     , seed(seed)
     , slack(slack)

@@ -8,7 +8,8 @@
 namespace Morula
 {
   void
-  CellCycleParameters::declare(ParameterHandler &prm)
+  CellCycleParameters::declare(ParameterHandler  &prm,
+                               const std::string &more_axes)
   {
     const std::string where_evaluated =
       " An expression of X, Y, Z (um), evaluated at the founder's initial "
@@ -43,8 +44,11 @@ namespace Morula
     prm.add_parameter("Division axis",
                       division_axis,
                       "n_s: 'random': uniform on the sphere (2-D: circle), "
-                      "drawn at every onset of S; 'fixed': along Fixed axis.",
-                      Patterns::Selection("random|fixed"));
+                      "drawn at every onset of S; 'fixed': along Fixed axis." +
+                        std::string(more_axes.empty() ?
+                                      "" :
+                                      " Others: by a rule of this program."),
+                      Patterns::Selection("random|fixed" + more_axes));
     prm.add_parameter("Fixed axis",
                       fixed_axis,
                       "Direction of n_s for Division axis = fixed, of any "

@@ -40,7 +40,8 @@ namespace
   void
   check_isotropic()
   {
-    const CellGrowth<dim> growth(isotropic_growth("1 + t*(1 + X/100)"), {});
+    const CellGrowth<dim> growth(isotropic_growth<dim>("1 + t*(1 + X/100)"),
+                                 {});
     EXPECT_TRUE(growth.present());
     EXPECT_EQ(growth.cycle(), nullptr);
     Ball<dim>  tissue(growth, true);
@@ -104,7 +105,7 @@ namespace
   void
   check_both()
   {
-    const CellGrowth<dim> both(isotropic_growth("1 + t"),
+    const CellGrowth<dim> both(isotropic_growth<dim>("1 + t"),
                                cell_cycle<dim>("waiting"));
     const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
     Ball<dim>             tissue(both, false);
@@ -124,6 +125,95 @@ namespace
           }
       }
     EXPECT_GT(n_growing, 0u);
+  }
+
+  /** Grows by a tenth of what it was in each step. */
+  template <int dim>
+  class Compounding : public GrowthLaw<dim>
+  {
+  public:
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double,
+           const double) const override
+    {
+      EXPECT_LE((cell.elastic - unit_tensor<dim>()).norm(), 0.7);
+      return 1.1 * cell.growth;
+    }
+
+    double
+    expected_volume_ratio(const Point<dim> &, const double) const override
+    {
+      return 1.;
+    }
+  };
+
+  /** A law sees its own growth, without that of the cycle. */
+  template <int dim>
+  void
+  check_law_with_memory()
+  {
+    const CellGrowth<dim> both(std::make_unique<const Compounding<dim>>(),
+                               cell_cycle<dim>("waiting"));
+    const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
+    Ball<dim>             tissue(both, false);
+    Ball<dim>             other(cycle, false);
+    double                factor = 1.;
+    for (const double t : {0., 0.2, 0.4, 0.6})
+      {
+        grow(tissue, both, t, t + 0.2);
+        grow(other, cycle, t, t + 0.2);
+        factor *= 1.1;
+        for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
+          EXPECT_LE((tissue.cell(tissue.cells().order()[i]).growth() -
+                     factor * other.cell(other.cells().order()[i]).growth())
+                      .norm(),
+                    1e-13);
+      }
+  }
+
+  /** Turns the drawn axis into one that depends on the place. */
+  template <int dim>
+  class AlongXOrY : public DivisionRule<dim>
+  {
+  public:
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override
+    {
+      EXPECT_NEAR(cell.random.norm(), 1., 1e-12);
+      Tensor<1, dim> axis;
+      axis[cell.founder_position[0] > 0.] = 7.;
+      return axis;
+    }
+  };
+
+  template <int dim>
+  void
+  check_rule()
+  {
+    for (const std::string start : {"together", "waiting"})
+      {
+        const CellGrowth<dim> growth({},
+                                     cell_cycle<dim>(start),
+                                     std::make_unique<const AlongXOrY<dim>>());
+        Ball<dim>             tissue(growth, false);
+        unsigned int          n_growing = 0;
+        for (const double t : {0., 0.2, 0.4})
+          {
+            grow(tissue, growth, t, t + 0.2);
+            for (const auto &particle : tissue.cells().order())
+              {
+                const auto cell = tissue.cell(particle);
+                if (determinant(cell.growth()) < 1. + 1e-12)
+                  continue;
+                ++n_growing;
+                Tensor<1, dim> axis;
+                axis[cell.founder_position()[0] > 0.] = 1.;
+                EXPECT_EQ(cell.vector(tissue.slots().division_axis), axis);
+              }
+          }
+        EXPECT_GT(n_growing, 0u);
+      }
   }
 
   /** The checkpoint sees J_e at the step's start. */
@@ -173,6 +263,13 @@ TEST(CellGrowth, FollowsTheCellCycle){MORULA_BOTH_DIMENSIONS(check_cycle)}
 
 
 TEST(CellGrowth, MultipliesLawAndCycle){MORULA_BOTH_DIMENSIONS(check_both)}
+
+
+TEST(CellGrowth,
+     ShowsALawItsOwnGrowth){MORULA_BOTH_DIMENSIONS(check_law_with_memory)}
+
+
+TEST(CellGrowth, GivesACycleTheRulesAxis){MORULA_BOTH_DIMENSIONS(check_rule)}
 
 
 TEST(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep){

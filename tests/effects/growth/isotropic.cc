@@ -10,19 +10,20 @@ using namespace Morula;
 
 namespace
 {
-  IsotropicGrowth
+  template <int dim = 3>
+  IsotropicGrowth<dim>
   growth(const std::string &stretch)
   {
     IsotropicGrowthParameters parameters;
     parameters.stretch = stretch;
-    return IsotropicGrowth(parameters);
+    return IsotropicGrowth<dim>(parameters);
   }
 } // namespace
 
 
 TEST(IsotropicGrowth, FollowsTheExpressionInSpaceAndTime)
 {
-  const IsotropicGrowth law = growth("1 + 0.4*t*(X^2 + Y^2 + Z^2)/100");
+  const IsotropicGrowth<3> law = growth("1 + 0.4*t*(X^2 + Y^2 + Z^2)/100");
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(10., 0., 0.), 0.), 1.);
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(10., 0., 0.), 1.), 1.4);
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(0., 6., 8.), 0.5), 1.2);
@@ -31,20 +32,20 @@ TEST(IsotropicGrowth, FollowsTheExpressionInSpaceAndTime)
 
 TEST(IsotropicGrowth, HasZeroForZInThePlane)
 {
-  EXPECT_DOUBLE_EQ(growth("1 + Z + X").stretch(Point<2>(2., 3.), 1.), 3.);
+  EXPECT_DOUBLE_EQ(growth<2>("1 + Z + X").stretch(Point<2>(2., 3.), 1.), 3.);
 }
 
 
 TEST(IsotropicGrowth, DoesNotGrowByDefault)
 {
-  const IsotropicGrowth law{IsotropicGrowthParameters()};
+  const IsotropicGrowth<3> law{IsotropicGrowthParameters()};
   EXPECT_EQ(law.stretch(Point<3>(1., 2., 3.), 7.), 1.);
 }
 
 
 TEST(IsotropicGrowth, RefusesStretchesThatAreNotPositive)
 {
-  const IsotropicGrowth law = growth("1 - 2*t");
+  const IsotropicGrowth<3> law = growth("1 - 2*t");
   EXPECT_NO_THROW(law.stretch(Point<3>(), 0.25));
   for (const double t : {0.5, 1.})
     try
@@ -70,4 +71,17 @@ TEST(IsotropicGrowth, RefusesWhatCannotBeParsed)
   EXPECT_THROW(growth("1 +"), InputError);
   EXPECT_THROW(growth(""), InputError);
   EXPECT_THROW(growth("1; 1; 1"), InputError);
+}
+
+
+TEST(IsotropicGrowth, IsAGrowthLaw)
+{
+  const auto         law = growth<2>("1 + t*X");
+  GrowingCell<2>     cell{Point<2>(2., 0.), {}, {}};
+  const Tensor<2, 2> F_g = law.growth(cell, 0., 0.5);
+  EXPECT_DOUBLE_EQ(F_g[0][0], 2.);
+  EXPECT_DOUBLE_EQ(F_g[1][1], 2.);
+  EXPECT_EQ(F_g[0][1], 0.);
+  EXPECT_EQ(F_g[1][0], 0.);
+  EXPECT_DOUBLE_EQ(law.expected_volume_ratio(Point<2>(2., 0.), 0.5), 4.);
 }

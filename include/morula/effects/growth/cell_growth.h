@@ -4,10 +4,12 @@
 #ifndef morula_effects_growth_cell_growth_h
 #define morula_effects_growth_cell_growth_h
 
-#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/growth/growth_law.h>
 #include <morula/effects/proliferation/cell_cycle.h>
 #include <morula/particles/tissue.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,15 +26,20 @@ namespace Morula
   };
 
   /**
-   * All that makes cells grow: the growth law, the cell cycle, or both:
-   * F_g = θ F_g,cycle. Knows nothing of the mechanics.
+   * All that makes cells grow: the growth law, the cell cycle, or both: F_g is
+   * the law's part times the cycle's. Knows nothing of the mechanics.
    */
   template <int dim>
   class CellGrowth
   {
   public:
-    CellGrowth(std::optional<IsotropicGrowth> isotropic,
-               std::optional<CellCycle<dim>>  cycle);
+    /**
+     * @param law   or null
+     * @param rule  of the cycle's axes; null: those that the cycle draws
+     */
+    CellGrowth(std::unique_ptr<const GrowthLaw<dim>>    law,
+               std::optional<CellCycle<dim>>            cycle,
+               std::unique_ptr<const DivisionRule<dim>> rule = nullptr);
 
     /** Whether anything grows. */
     bool
@@ -62,6 +69,21 @@ namespace Morula
            const Tensor<2, dim>        &F_g) const;
 
   private:
+    /** The clock at t1 of a cell in its state at t0, as in
+     *  CellCycle::advance(). */
+    template <typename Number>
+    CycleState<dim>
+    advance(const CellView<dim, Number> &cell,
+            const double                 t0,
+            const double                 t1) const;
+
+    /** Gives a cycle that begins between these states the rule's axis. */
+    void
+    choose_axis(const CycleState<dim> &before,
+                const Point<dim>      &X,
+                const Tensor<2, dim>  &F_e,
+                CycleState<dim>       &after) const;
+
     /** F_g at t1 of a cell in its state at t0. */
     template <typename Number>
     Tensor<2, dim>
@@ -69,8 +91,9 @@ namespace Morula
            const double                 t0,
            const double                 t1) const;
 
-    std::optional<IsotropicGrowth> isotropic;
-    std::optional<CellCycle<dim>>  cycle_;
+    std::unique_ptr<const GrowthLaw<dim>>    law;
+    std::optional<CellCycle<dim>>            cycle_;
+    std::unique_ptr<const DivisionRule<dim>> rule;
   };
 } // namespace Morula
 

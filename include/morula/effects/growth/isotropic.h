@@ -4,6 +4,7 @@
 #ifndef morula_effects_growth_isotropic_h
 #define morula_effects_growth_isotropic_h
 
+#include <morula/effects/growth/growth_law.h>
 #include <morula/expression.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -25,7 +26,8 @@ namespace Morula
    * Isotropic growth, F_g = θ(X, t) I (equation (13) of the paper), where X is
    * the founder's initial position.
    */
-  class IsotropicGrowth
+  template <int dim>
+  class IsotropicGrowth : public GrowthLaw<dim>
   {
   public:
     /** @throws InputError for an expression that cannot be parsed */
@@ -35,9 +37,16 @@ namespace Morula
      * The growth stretch θ at time @p t.
      * @throws InputError if it is not positive
      */
-    template <int dim>
     double
     stretch(const Point<dim> &X, const double t) const;
+
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double            t0,
+           const double            t1) const override;
+
+    double
+    expected_volume_ratio(const Point<dim> &X, const double t) const override;
 
   private:
     Expression theta;

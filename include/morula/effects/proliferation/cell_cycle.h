@@ -31,8 +31,10 @@ namespace Morula
     std::vector<double> fixed_axis            = {0., 0., 1.};
     bool                axis_follows_rotation = false;
 
+    /** @param more_axes further values of Division axis, "|name|name": these
+     *         draw an axis as 'random' does, for a DivisionRule to use */
     void
-    declare(ParameterHandler &prm);
+    declare(ParameterHandler &prm, const std::string &more_axes = "");
   };
 
   /** Where a cell stands in its cycle. S and G2 differ by the clock alone. */

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_division_division_rule_h
+#define morula_effects_division_division_rule_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** What a division rule sees of a cell that enters S. */
+  template <int dim>
+  struct CellAtOnset
+  {
+    /** X of the founder, µm. */
+    Point<dim> founder_position;
+    /** F_e at the beginning of the step; the identity at t = 0. */
+    Tensor<2, dim> elastic;
+    /** Unit vector, uniformly distributed and the cell's own: what Division
+     *  axis = random would take. */
+    Tensor<1, dim> random;
+  };
+
+  /**
+   * Along which axis a cell grows and divides: n_s of (6.2), for
+   * `Proliferation/Cell cycle/Division axis`. A rule keeps nothing between
+   * calls.
+   */
+  template <int dim>
+  class DivisionRule
+  {
+  public:
+    virtual ~DivisionRule() = default;
+
+    /** The axis of the cycle that begins, of any length but zero. Called again
+     *  with the same cell where a step is halved. */
+    virtual Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const = 0;
+  };
+} // namespace Morula
+
+#endif

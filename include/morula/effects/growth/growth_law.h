@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_growth_growth_law_h
+#define morula_effects_growth_growth_law_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** What a growth law sees of a cell at the beginning t0 of a step. */
+  template <int dim>
+  struct GrowingCell
+  {
+    /** X of the founder, µm. */
+    Point<dim> founder_position;
+    /** What the law made of the cell until t0: F_g without the cell cycle. */
+    Tensor<2, dim> growth;
+    /** F_e, equation (1.3). */
+    Tensor<2, dim> elastic;
+  };
+
+  /**
+   * How cells grow without dividing: `Growth/Law`. With a cell cycle as well,
+   * F_g is the product of the law's part and the cycle's, (6.1) and (6.2).
+   *
+   * A law keeps nothing between calls. All that it may depend on is a cell's
+   * state at the beginning of a step, which is saved with the cell.
+   */
+  template <int dim>
+  class GrowthLaw
+  {
+  public:
+    virtual ~GrowthLaw() = default;
+
+    /**
+     * The law's part of F_g at @p t1, from the state at @p t0 (day). Called
+     * again with a smaller @p t1 where a step is halved. The part is the
+     * identity at t = 0.
+     * @throws InputError where the law has no value
+     */
+    virtual Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double            t0,
+           const double            t1) const = 0;
+
+    /**
+     * The determinant that growth() is expected to have at time @p t (day) in
+     * the descendants of the founder at @p X, at most: for the memory that a
+     * scene will need. Called for all founders, at t = 0 and End time, before
+     * any work.
+     * @throws InputError where the law has no value
+     */
+    virtual double
+    expected_volume_ratio(const Point<dim> &X, const double t) const = 0;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/command_line.h>
+#include <morula/failure.h>
+#include <morula/input_error.h>
+#include <morula/program.h>
+#include <morula/scene_explain.h>
+#include <morula/scene_size.h>
+#include <morula/simulation.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <new>
+
+namespace Morula
+{
+  namespace
+  {
+    bool
+    is_first_rank()
+    {
+      return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    }
+
+    /** What only the first step's splines can tell --explain. */
+    template <int dim>
+    unsigned int
+    n_unknowns(const Scene &scene)
+    {
+      return Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
+    }
+
+    /** Prints what was asked for instead of a run; false if that is nothing. */
+    bool
+    print_information(const CommandLine &command, const Catalogue &catalogue)
+    {
+      if (!command.help && !command.version && !command.parameters)
+        return false;
+      if (is_first_rank())
+        {
+          if (command.help)
+            print_help(std::cout);
+          if (command.version)
+            print_version(std::cout);
+          if (command.parameters)
+            print_parameters(std::cout, catalogue);
+        }
+      return true;
+    }
+
+    /**
+     * Does what the command line asks for. Sets @p resume_hint once the scene
+     * is accepted.
+     */
+    void
+    obey(const CommandLine &command,
+         const Program     &program,
+         std::string       &resume_hint)
+    {
+      if (print_information(command, program.catalogue))
+        return;
+      if (command.resume && !program.resumes)
+        throw InputError("The command line",
+                         "--resume",
+                         "a new run",
+                         "This program makes several runs; leave the option "
+                         "out.");
+
+      const Scene scene =
+        Scene::read(command.scene_file, command.overrides, program.catalogue);
+      scene.check();
+      if (program.dimension != 0 && scene.dimension != program.dimension)
+        throw InputError("Dimension",
+                         std::to_string(scene.dimension),
+                         std::to_string(program.dimension),
+                         "This program knows no other dimension.");
+      if (command.explain)
+        {
+          explain(scene, std::cout, MPI_COMM_WORLD, [&scene]() {
+            return scene.dimension == 2 ? n_unknowns<2>(scene) :
+                                          n_unknowns<3>(scene);
+          });
+          return;
+        }
+      check_memory(scene, initial_size(scene), MPI_COMM_WORLD);
+      if (program.resumes)
+        resume_hint = "If there is a snapshot.h5 in '" +
+                      scene.output_directory + "', 'morula " +
+                      command.scene_file + " ... --resume' goes on from there.";
+      program.work(scene, command.resume);
+    }
+  } // namespace
+
+
+  void
+  simulate(const Scene &scene, const bool resume)
+  {
+    if (scene.dimension == 2)
+      Simulation<2>(scene, MPI_COMM_WORLD, resume).run();
+    else
+      Simulation<3>(scene, MPI_COMM_WORLD, resume).run();
+  }
+
+
+  int
+  Program::run(int argc, char *argv[]) const
+  {
+    Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    deal_II_exceptions::disable_abort_on_exception();
+    deal_II_exceptions::suppress_stacktrace_in_exceptions();
+
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    std::string                    resume_hint;
+    try
+      {
+        obey(CommandLine::parse(words), *this, resume_hint);
+        return 0;
+      }
+    catch (const InputError &error)
+      {
+        return end_of_all_ranks(1, error.what(), MPI_COMM_WORLD);
+      }
+    catch (const std::bad_alloc &)
+      {
+        return end_of_all_ranks(2,
+                                "The run failed: out of memory. " + resume_hint,
+                                MPI_COMM_WORLD);
+      }
+    catch (const std::exception &error)
+      {
+        return end_of_all_ranks(2,
+                                std::string("The run failed: ") + error.what() +
+                                  "\n" + resume_hint,
+                                MPI_COMM_WORLD);
+      }
+    catch (...)
+      {
+        return end_of_all_ranks(2,
+                                "The run failed for an unknown reason. " +
+                                  resume_hint,
+                                MPI_COMM_WORLD);
+      }
+  }
+} // namespace Morula

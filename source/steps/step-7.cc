@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// Step 7: your own growth law and your own division rule.
+//
+// Nothing in this file is in the library, and the library knows nothing of this
+// file. It defines a law by which cells grow less the more they are squeezed,
+// and a rule by which they divide across their long axis; hands both to the
+// library; and is then a complete Morula that can do two things more, with
+// --parameters, --explain, --resume and all checks. Theory and results are in
+// doc/steps/step-7.md, equation numbers are those of doc/theory.md.
+//
+//   build/step-7 prm/step-7.prm
+
+#include <morula/expression.h>
+#include <morula/input_error.h>
+#include <morula/program.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace Step7
+{
+  using namespace dealii;
+  using namespace Morula;
+
+  // The growth law. A squeezed cell has $J_e < 1$, (1.3). The growth stretch
+  // theta of each cell obeys
+  //
+  //   $\dot\theta / \theta = k\, r$, with the room $r = 1 - (1 - J_e) / c$
+  //   between
+  // 0 and 1:
+  //
+  // it grows with the rate k where there is no pressure, slower under pressure,
+  // and not at all once it has lost the part c of its volume. A cell that is
+  // pulled grows with the rate k.
+
+  // Its keys are the members of a struct, as for all effects of the library.
+  // declare() binds each to its text in the .prm file; what stands there is
+  // what
+  // --parameters prints. The rate is an expression, so that it can depend on
+  // the place; the crowding is a number.
+  struct CrowdingLimitedParameters
+  {
+    std::string rate     = "1";
+    double      crowding = 0.2;
+
+    void
+    declare(ParameterHandler &prm)
+    {
+      prm.add_parameter(
+        "Rate",
+        rate,
+        "k, 1/day: rate of the growth stretch of a cell without "
+        "pressure. An expression of X, Y, Z (um), evaluated at "
+        "the founder's initial position.");
+      prm.add_parameter(
+        "Crowding",
+        crowding,
+        "c: part of its volume that a cell has lost to pressure "
+        "when it stops growing; > 0 and < 1.",
+        Patterns::Double());
+    }
+  };
+
+
+  // The law is a class with a type Parameters, made from one of these, and with
+  // the two functions that GrowthLaw asks for. It is a template, since scenes
+  // are 2-D or 3-D.
+  template <int dim>
+  class CrowdingLimitedGrowth : public GrowthLaw<dim>
+  {
+  public:
+    using Parameters = CrowdingLimitedParameters;
+
+    // What is wrong in itself is refused here: the constructor is called when
+    // the scene is checked, before any work. Expression refuses a text that it
+    // cannot parse.
+    explicit CrowdingLimitedGrowth(const Parameters &parameters)
+      : rate("Growth/Crowding limited/Rate", parameters.rate)
+      , crowding(parameters.crowding)
+    {
+      if (!(crowding > 0. && crowding < 1.))
+        throw InputError("Growth/Crowding limited/Crowding",
+                         Patterns::Tools::to_string(crowding),
+                         "a number > 0 and < 1",
+                         "Cells shall stop growing before they have no volume "
+                         "left.");
+    }
+
+    // The growth from $t_0$ to $t_1$. The cell brings along what the law made
+    // of it so far, and its elastic deformation at $t_0$. So a law may depend
+    // on the cell's history without keeping anything itself; the state is saved
+    // in snapshots with everything else. With $J_e$ from the beginning of the
+    // step the rate is constant during the step: an explicit method, whose
+    // error is proportional to the time step.
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double            t0,
+           const double            t1) const override
+    {
+      const double J_e  = determinant(cell.elastic);
+      const double room = std::clamp(1. - (1. - J_e) / crowding, 0., 1.);
+      const double k    = rate.value(cell.founder_position, 0.);
+      return std::exp(k * room * (t1 - t0)) * cell.growth;
+    }
+
+    // For the estimate of memory: as much as without pressure at most.
+    double
+    expected_volume_ratio(const Point<dim> &X, const double t) const override
+    {
+      return std::exp(dim * rate.value(X, 0.) * t);
+    }
+
+  private:
+    const Expression rate;
+    const double     crowding;
+  };
+
+
+  // The division rule: cells divide across their longest axis (Hertwig, 1884).
+  // A cell that is longer than wide by less than a given factor cannot tell,
+  // and takes the random direction that it would have taken anyway.
+  struct LongAxisParameters
+  {
+    double least_elongation = 1.02;
+
+    void
+    declare(ParameterHandler &prm)
+    {
+      prm.add_parameter("Least elongation",
+                        least_elongation,
+                        "Ratio of the largest to the second largest elastic "
+                        "stretch below which a cell takes a random axis; >= 1.",
+                        Patterns::Double(1.));
+    }
+  };
+
+
+  // The axis $n_s$ stands between growth and elastic deformation, $F = F_e (I +
+  // (\theta - 1) n_s \otimes n_s) F_{g,pre}$, (6.2): it is stretched by $F_e$.
+  // The direction that is stretched most is the eigenvector of $C_e = F_e^T
+  // F_e$ with the largest eigenvalue, the square of the stretch. deal.II sorts
+  // them, largest first.
+  template <int dim>
+  class LongAxis : public DivisionRule<dim>
+  {
+  public:
+    using Parameters = LongAxisParameters;
+
+    explicit LongAxis(const Parameters &parameters)
+      : least_elongation(parameters.least_elongation)
+    {}
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override
+    {
+      const auto eigenpairs =
+        eigenvectors(symmetrize(transpose(cell.elastic) * cell.elastic));
+      const double elongation =
+        std::sqrt(eigenpairs[0].first / eigenpairs[1].first);
+      return elongation >= least_elongation ? eigenpairs[0].second :
+                                              cell.random;
+    }
+
+  private:
+    const double least_elongation;
+  };
+} // namespace Step7
+
+
+// The catalogue is a plain object: what is added to it has a name in the scene,
+// `Growth/Law = crowding limited`, and a section for its keys, `Growth/Crowding
+// limited`. The rule's is `Proliferation/Cell cycle/Long axis`. The program
+// does with a scene what morula does, so there is nothing else to say.
+int
+main(int argc, char *argv[])
+{
+  Morula::Program program;
+  program.catalogue.add_growth_law<Step7::CrowdingLimitedGrowth>(
+    "crowding limited");
+  program.catalogue.add_division_rule<Step7::LongAxis>("long axis");
+  return program.run(argc, argv);
+}

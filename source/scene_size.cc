@@ -135,11 +135,11 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
-    const double           t   = scene.time.end_time;
-    const double           V   = std::pow(scene.tissue.cell_spacing, dim);
-    const auto             law = growth_law_of<dim>(scene);
-    Descendants<dim>       descendants(scene);
-    SceneSize              size;
+    const double     t   = scene.time.end_time;
+    const double     V   = std::pow(scene.tissue.cell_spacing, dim);
+    const auto       law = growth_law_of<dim>(scene);
+    Descendants<dim> descendants(scene);
+    SceneSize        size;
     for (const Point<dim> &X : founders)
       {
         const double n = descendants(X);

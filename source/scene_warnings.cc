@@ -49,8 +49,8 @@ namespace Morula
       if (!Expression(key, scene.isotropic_growth.stretch).depends_on_time() ||
           n_steps > most_evaluations)
         return 1.;
-      const IsotropicGrowth growth(scene.isotropic_growth);
-      const std::size_t     every = std::max<std::size_t>(
+      const IsotropicGrowth<dim> growth(scene.isotropic_growth);
+      const std::size_t          every = std::max<std::size_t>(
         1, std::ceil(n_steps * founders.size() / most_evaluations));
       double largest = 1.;
       for (std::size_t i = 0; i < founders.size(); i += every)

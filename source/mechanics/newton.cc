@@ -165,8 +165,6 @@ namespace Morula
                                     std::max(first, problem.small_force()),
                                   problem.rounding(u));
     report.residual    = first > 0. ? 1. : 0.;
-    if (parameters.linear_tolerance == 0.)
-      group->set_target(bound);
     if (first <= bound)
       return;
 

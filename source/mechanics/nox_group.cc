@@ -23,12 +23,6 @@ namespace Morula
     , direction(u)
   {}
 
-  void
-  NoxGroup::set_target(const double norm)
-  {
-    target = norm;
-  }
-
   const Equilibrium::Evaluation &
   NoxGroup::evaluation() const
   {
@@ -54,7 +48,6 @@ namespace Morula
     has_residual      = other.has_residual;
     has_direction     = other.has_direction;
     first_tangent     = other.first_tangent;
-    target            = other.target;
     return *this;
   }
 
@@ -118,12 +111,10 @@ namespace Morula
     Equilibrium::Vector b(R.values);
     b *= -1.;
     ++report.newton_iterations;
-    // Newton's method stops at the target: no reason to solve far beyond.
-    const double enough = std::min(0.1, 0.1 * target / getNormF());
     linear_solver.solve(*K,
                         direction.values,
                         b,
-                        std::max(parameters.get("Tolerance", 1e-6), enough),
+                        parameters.get("Tolerance", 1e-6),
                         report.linear_iterations);
     has_direction = true;
     return Ok;

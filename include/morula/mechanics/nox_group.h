@@ -27,10 +27,6 @@ namespace Morula
              NewtonReport              &report,
              const Equilibrium::Vector &u);
 
-    /** Says at which |R| Newton's method stops; 0 unless said. */
-    void
-    set_target(const double norm);
-
     /** Energy at u; infinite if inverted. computeF() must have been called. */
     const Equilibrium::Evaluation &
     evaluation() const;
@@ -95,7 +91,6 @@ namespace Morula
     const Equilibrium::Matrix *K            = nullptr;
     bool                       has_residual = false, has_direction = false;
     bool                       first_tangent = true;
-    double                     target        = 0.; // of |R|
   };
 
   /**

@@ -40,17 +40,22 @@ def step_time(run, names):
 
 
 class Model:
-    """Seconds of a step, from two runs on one core of small and large."""
+    """Seconds of a step, from runs on one core of a small, a large tissue, and
+    the small one on a finer grid."""
 
-    def __init__(self, small, large):
+    def __init__(self, small, large, fine):
         cells = last(large, "cells")
         self.newton = large.total("newton_iterations") / (len(large.rows) - 1)
         self.per_cell = step_time(large, CELLS) / cells
         self.per_row = step_time(large, ROWS) / last(large, "unknowns")
-        self.per_grid_cell = (step_time(large, ("grid",))
-                              / last(large, "active_grid_cells"))
         self.rows = last(large, "unknowns") / cells
-        self.grid_cells = last(large, "active_grid_cells") / cells
+        # The grid: a part for each cell, one for each row.
+        self.grid_per_row = ((step_time(fine, ("grid",))
+                              - step_time(small, ("grid",)))
+                             / (last(fine, "unknowns")
+                                - last(small, "unknowns")))
+        self.per_cell += (step_time(large, ("grid",)) / cells
+                          - self.grid_per_row * self.rows)
         per_newton = [run.total("linear_iterations")
                       / run.total("newton_iterations")
                       for run in (small, large)]
@@ -73,14 +78,16 @@ class Model:
             + (6 * edge**2 * 3 * 8 / BANDWIDTH if ranks > 1 else 0))
         return (self.per_cell * cells / ranks, self.per_row * rows * block * more,
                 # Every rank numbers all splines.
-                self.per_grid_cell * self.grid_cells * cells, messages)
+                self.grid_per_row * self.rows * cells, messages)
 
 
 def model(runner, proliferating, sphere, penalty):
     keys = {"Time/Step": 0.1, "Time/End time": 0.3}
     small, large = (runner.run(f"model-{n}", proliferating, sphere(n, **keys))
                     for n in (20000, 400000))
-    fitted = Model(small, large)
+    fine = runner.run("model-fine", proliferating,
+                      {**sphere(20000, **keys), "Grid/Spacing": 25})
+    fitted = Model(small, large, fine)
     rows = [("cells", "ranks", "s a step", "by cell", "by row of the matrix",
              "grid", "messages", "efficiency")]
     for cells in (1e6, 1e7, 1e8):

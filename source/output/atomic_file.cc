@@ -78,12 +78,15 @@ namespace Morula
   void
   AtomicFile::write(const std::string_view text)
   {
-    buffer += text;
-    if (buffer.size() >= buffer_size)
+    if (buffer.size() + text.size() < buffer_size)
       {
-        file.write(buffer);
-        buffer.clear();
+        buffer += text;
+        return;
       }
+    // Large pieces are not copied.
+    file.write(buffer);
+    buffer.clear();
+    file.write(text);
   }
 
   void

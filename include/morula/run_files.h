@@ -61,6 +61,7 @@ namespace Morula
     /** Whether something is due at @p time (day). The last state is always. */
     bool
     output_due(const double time, const bool last) const;
+    /** The same for the snapshot. */
     bool
     snapshot_due(const double time, const bool last) const;
 
@@ -74,6 +75,7 @@ namespace Morula
     void
     write_snapshot(SnapshotData<dim> data, const TimerOutput &timer);
 
+    /** Writes timings.csv anew. Collective. */
     void
     write_timings(const TimerOutput &timer);
 
@@ -81,6 +83,7 @@ namespace Morula
     void
     fail(const std::string &text) noexcept;
 
+    /** The summary, on the terminal and in log.txt. Collective. */
     void
     finish(const std::string   &outcome,
            const StatisticsRow &row,

@@ -21,6 +21,7 @@ namespace Morula
   class FollowingPressure : public Term<dim>
   {
   public:
+    /** What presses on a boundary point. */
     struct Load
     {
       /** p, kPa; positive pushes inward. */

@@ -36,6 +36,7 @@ namespace Morula
   class Nitsche : public Term<dim>
   {
   public:
+    /** How a boundary point is held. */
     struct Condition
     {
       /** M. */

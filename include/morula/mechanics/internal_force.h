@@ -101,6 +101,7 @@ namespace Morula
       LocalField<dim> derivative;
       double          value;
 
+      /** The linearised value at the coefficients @p other. */
       double
       at(const LocalField<dim> &other) const;
     };

@@ -47,6 +47,7 @@ namespace Morula
     double mean_log_J  = 0.; // ϑ
     double sum[dim][n] = {}; // Σ W λ g_a
 
+    /** Adds a point of the grid cell to Λ, ϑ Λ and the gradients' sum. */
     void
     add(const SpatialGradients<dim> &g,
         const NeoHookean<dim>       &material,
@@ -63,6 +64,7 @@ namespace Morula
           sum[i][a] += weight * g.g[i][a];
     }
 
+    /** After the last point: makes the mean of the sum. */
     void
     finish()
     {

@@ -33,6 +33,7 @@ namespace Morula
 
     double coefficient[dim][n];
 
+    /** The displacement where the splines have these values, µm. */
     Tensor<1, dim>
     value(const SplineValues<dim> &splines) const
     {
@@ -83,6 +84,7 @@ namespace Morula
       clear();
     }
 
+    /** Everything to zero. */
     void
     clear()
     {

@@ -69,7 +69,8 @@ namespace Morula
     unsigned int
     n_points_per_direction(const Point<dim> &x, const double V) const;
 
-    /** Volume of particles in the grid cell divided by h^dim. */
+    /** Volume of particles in the grid cell divided by h^dim: doc/theory.md
+     *  (3.1). */
     double
     fill(const unsigned int number) const;
 

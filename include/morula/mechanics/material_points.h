@@ -21,7 +21,7 @@ namespace Morula
   template <int dim>
   struct ElasticState
   {
-    /** A = F_t F_g⁻¹. */
+    /** A = F_t F_g⁻¹, by which F_e = f A: doc/theory.md (1.3). */
     Tensor<2, dim> A;
     /**
      * Material points: W, the volume the energy is counted per, µm^dim.

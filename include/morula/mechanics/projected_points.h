@@ -33,7 +33,8 @@ namespace Morula
     }
   };
 
-  /** The points of one grid cell whose ln J_e is replaced by its mean. */
+  /** The points of one grid cell whose ln J_e is replaced by its mean:
+   *  doc/theory.md (2.6). */
   template <int dim>
   struct ProjectedPoints
   {

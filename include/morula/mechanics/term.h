@@ -16,8 +16,8 @@ namespace Morula
 {
   /**
    * Which growth a linearisation is taken at. The residual always has the
-   * growth at t + dt; the first tangent of a step is taken at the growth at t
-   * (doc/theory.md, section 5).
+   * growth at t + dt; the first tangent of a step is taken at the growth at t:
+   * doc/theory.md (5.1).
    */
   enum class GrowthAt
   {

@@ -214,7 +214,7 @@ namespace Morula
     const CellSlots<dim> &slots;
   };
 
-  /** V = V⁰ det F, equation (8) of the paper, µm^dim. */
+  /** V = V⁰ det F, µm^dim: doc/theory.md (1.2), equation (8) of the paper. */
   template <int dim, typename Number>
   double
   volume(const CellView<dim, Number> &cell)

@@ -215,7 +215,7 @@ namespace Morula
             target[27 * i + 3 * yz + x] += sum(sums[i][yz][x]);
     }
 
-    /** Energy and residual of a grid cell: equation (2.4) of doc/theory.md. */
+    /** Energy and residual of a grid cell: doc/theory.md (2.4). */
     inline KernelResult
     residual(const KernelInput &input, double *target, double *magnitudes)
     {
@@ -300,7 +300,7 @@ namespace Morula
         rows[l].scale(c1[l], c2[l]);
     }
 
-    /** Tangent of a grid cell: equation (2.5) of doc/theory.md. */
+    /** Tangent of a grid cell: doc/theory.md (2.5). */
     inline KernelResult
     tangent(const KernelInput &input, double *matrix)
     {

@@ -36,6 +36,11 @@ def anchor(page, name):
     return f"{page}-" + re.sub(r"[^A-Za-z0-9_-]", "_", name)
 
 
+def equation(page, number):
+    """Doxygen's name of a numbered equation."""
+    return anchor(page, "equation-" + number.replace(".", "-"))
+
+
 class Page:
     """One page; @p path below the root, @p output where the HTML will be."""
 
@@ -144,7 +149,10 @@ class Page:
             else:
                 lines.append(line)
         out.append(self.text(lines))
-        return "\n".join(out)
+        return re.sub(
+            r"^\\f\[\n(?=(?:(?!\\f\]).)*?\\tag\{([^}]*)\})",
+            lambda m: rf"\anchor {equation(self.name, m[1])} " + m[0],
+            "\n".join(out), flags=re.M | re.S)
 
 
 def is_page(path):

@@ -97,6 +97,7 @@ namespace Morula
                         time_steps.time(),
                         time_steps.next(),
                         growth_of_step.current[p]);
+        // doc/theory.md (1.1)
         Tensor<2, dim> F = cells.deformations[p] * cell.deformation();
         if (!volumes.empty())
           F *=

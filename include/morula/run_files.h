@@ -62,6 +62,7 @@ namespace Morula
     /** Whether something is due at @p time (day). The last state is always. */
     bool
     output_due(const double time, const bool last) const;
+    /** The same for the snapshot. */
     bool
     snapshot_due(const double time, const bool last) const;
 
@@ -75,6 +76,7 @@ namespace Morula
     void
     write_snapshot(SnapshotData<dim> data, const TimerOutput &timer);
 
+    /** Writes timings.csv anew. Collective. */
     void
     write_timings(const TimerOutput &timer);
 
@@ -82,6 +84,7 @@ namespace Morula
     void
     fail(const std::string &text) noexcept;
 
+    /** The summary, on the terminal and in log.txt. Collective. */
     void
     finish(const std::string   &outcome,
            const StatisticsRow &row,

@@ -11,7 +11,7 @@ namespace Morula
   namespace
   {
     /** Least penalty that keeps Nitsche's symmetric form definite, in units of
-     *  (λ + 2μ)/h (doc/theory.md, section 4). */
+     *  (λ + 2μ)/h: doc/theory.md (4.6). */
     constexpr double least_penalty = 20.;
 
     std::optional<Expression>

@@ -10,7 +10,8 @@ namespace Morula
 {
   namespace
   {
-    /** T and its derivatives at one boundary point. */
+    /** T and its derivatives at one boundary point: doc/theory.md (4.2), (4.3).
+     */
     template <int dim>
     struct NominalTraction
     {
@@ -55,8 +56,9 @@ namespace Morula
       }
 
       /**
-       * g·D²T for component i of spline a and component j of spline b is, for
-       * all b, a sum of three rows times these factors.
+       * g·D²T for component i of spline a and component j of spline b,
+       * doc/theory.md (4.5b), is, for all b, a sum of three rows times these
+       * factors.
        */
       struct SecondDerivative
       {
@@ -118,6 +120,7 @@ namespace Morula
           }
     }
 
+    /** doc/theory.md (4.5). */
     template <int dim>
     void
     add_tangent(const SplineValues<dim>                &splines,

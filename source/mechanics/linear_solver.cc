@@ -43,12 +43,12 @@ namespace Morula
                                            {1., 1.5}};
     constexpr double  absolute_diagonal = 2e-5; // of the stiffness scale
 
-    /** Shifts tried on negative curvature: each at least shift_factor times the
-     *  one before, and curvature_factor times what the curvature asks for (the
-     *  direct solver knows no curvature and begins with first_shift). Where a
-     *  body buckles the curvature is tiny, and a shift much larger than it
-     * would let Newton's method leave the straight state by a thousandth an
-     *  iteration. */
+    /** Shifts tried on negative curvature, doc/theory.md (5.4): each at least
+     *  shift_factor times the one before, and curvature_factor times what the
+     *  curvature asks for (the direct solver knows no curvature and begins with
+     *  first_shift). Where a body buckles the curvature is tiny, and a shift
+     *  much larger than it would let Newton's method leave the straight state
+     *  by a thousandth an iteration. */
     constexpr double first_shift      = 1e-3;
     constexpr double least_shift      = 1e-9;
     constexpr double shift_factor     = 4.;

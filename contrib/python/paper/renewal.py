@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 
 def exact(duration=1.0, exit_rate=1.0):
-    """The root r (1/day) of 2 e^{-rT} Λ / (Λ + r) = 1."""
+    """The root r (1/day) of 2 e^{-rT} Λ / (Λ + r) = 1: doc/theory.md (6.4)."""
     return brentq(lambda r: 2 * math.exp(-r * duration) * exit_rate
                   / (exit_rate + r) - 1, 0, 10 * exit_rate)
 

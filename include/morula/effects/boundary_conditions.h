@@ -78,7 +78,8 @@ namespace Morula
     has_pressure() const;
 
     /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E and
-     *  Lamé constants @p lame (kPa) on a grid of spacing @p h (µm). */
+     *  Lamé constants @p lame (kPa) on a grid of spacing @p h (µm):
+     *  doc/theory.md (4.6). */
     double
     penalty(const double           E,
             const Lame            &lame,

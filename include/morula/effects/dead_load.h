@@ -14,7 +14,8 @@ namespace Morula
   /**
    * Forces of fixed direction and size on points, energy -Σ F · u: a body force
    * on particles (F = V⁰ b per initial volume, equation (4) of the paper), or a
-   * dead traction on boundary points (F = a⁰ t per initial area, equation (3)).
+   * dead traction on boundary points (F = a⁰ t per initial area, equation (3)):
+   * doc/theory.md (4.7).
    */
   template <int dim>
   class DeadLoad : public Term<dim>

@@ -15,12 +15,14 @@ namespace Morula
    * A pressure that follows the surface: the force on a boundary point is
    * -p a n with the current area and normal a n = det f f⁻ᵀ a_t n_t
    * (Nanson). It has no energy, and its tangent
-   * N_a p (m_i g_b^j - m_j g_b^i), m = a n, is unsymmetric.
+   * N_a p (m_i g_b^j - m_j g_b^i), m = a n, is unsymmetric: doc/theory.md
+   * (4.8).
    */
   template <int dim>
   class FollowingPressure : public Term<dim>
   {
   public:
+    /** What presses on a boundary point. */
     struct Load
     {
       /** p, kPa; positive pushes inward. */

@@ -11,7 +11,8 @@
 
 namespace Morula
 {
-  /** How the traction stands in Nitsche's term (doc/theory.md, section 4). */
+  /** How the traction stands in Nitsche's term: the signs of doc/theory.md
+   *  (4.4), (4.5). */
   enum class NitscheForm
   {
     /** Derived from an energy; stable for large penalties. */
@@ -23,7 +24,7 @@ namespace Morula
 
   /**
    * Prescribed positions of boundary points by Nitsche's method in total-gap
-   * form (doc/theory.md, section 4):
+   * form, doc/theory.md (4.1), (4.2), (4.4):
    *
    *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
    *
@@ -36,6 +37,7 @@ namespace Morula
   class Nitsche : public Term<dim>
   {
   public:
+    /** How a boundary point is held. */
     struct Condition
     {
       /** M. */

@@ -18,7 +18,7 @@ namespace Morula
    * The quadratic B-splines that do not vanish on one grid cell: 3^dim tensor
    * products, numbered x fastest. Spline a is centred on the neighbouring grid
    * cell with coordinates + offset(a). On ξ ∈ [0, 1] the one-dimensional
-   * splines are ½(1-ξ)², ½+ξ-ξ², ½ξ² (doc/theory.md, section 2).
+   * splines are ½(1-ξ)², ½+ξ-ξ², ½ξ²: doc/theory.md (2.3).
    */
   template <int dim>
   struct BSpline

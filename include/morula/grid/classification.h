@@ -34,8 +34,8 @@ namespace Morula
    * Classifies the grid cells of the box. *Inner* is an active grid cell
    *
    * - whose fill is at least C_C min(1, largest fill among it and its
-   *   neighbours); the minimum lets thin sheets and small clusters have inner
-   *   grid cells;
+   *   neighbours), doc/theory.md (3.2); the minimum lets thin sheets and small
+   *   clusters have inner grid cells;
    * - that, in thin tissue, leads its rows across (only such
    *   neighbours count above, then): else a body on both sides of a grid line
    *   would have inner grid cells whose outermost splines hardly touch it;

@@ -16,7 +16,7 @@ namespace Morula
   /**
    * Extension weights of one direction: the three quadratic B-splines of a
    * block that starts at spline 0, continued to spline @p j:
-   * e_i = Π_{m≠i} (j-m)/(i-m), i, m = 0, 1, 2 (doc/theory.md, section 3).
+   * e_i = Π_{m≠i} (j-m)/(i-m), i, m = 0, 1, 2: doc/theory.md (3.3).
    * Any quadratic with coefficients c_0, c_1, c_2 has c_j = Σ e_i c_i.
    */
   std::array<double, 3>

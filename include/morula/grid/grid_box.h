@@ -85,6 +85,7 @@ namespace Morula
       return index;
     }
 
+    /** Whether a grid cell is one of the box. */
     bool
     contains(const GridIndex<dim> &index) const
     {
@@ -105,6 +106,7 @@ namespace Morula
       return number;
     }
 
+    /** The index of a grid cell from its number; inverse of number(). */
     GridIndex<dim>
     index(unsigned int number) const
     {
@@ -117,6 +119,7 @@ namespace Morula
       return index;
     }
 
+    /** The middle of a grid cell, µm. */
     Point<dim>
     center(const GridIndex<dim> &index) const
     {

@@ -40,6 +40,7 @@ namespace Morula
     void
     add_particle(const Point<dim> &x, const double V);
 
+    /** Adds a boundary point at @p x. */
     void
     add_boundary_point(const Point<dim> &x);
 
@@ -68,7 +69,8 @@ namespace Morula
     unsigned int
     n_points_per_direction(const Point<dim> &x, const double V) const;
 
-    /** Volume of particles in the grid cell divided by h^dim. */
+    /** Volume of particles in the grid cell divided by h^dim: doc/theory.md
+     *  (3.1). */
     double
     fill(const unsigned int number) const;
 
@@ -106,9 +108,11 @@ namespace Morula
     std::pair<Point<dim>, Point<dim>>
     bounds(const unsigned int number) const;
 
+    /** Particles in a grid cell. */
     std::uint64_t
     n_particles(const unsigned int number) const;
 
+    /** Quadrature points in a grid cell. */
     unsigned int
     n_quadrature_points(const unsigned int number) const;
 

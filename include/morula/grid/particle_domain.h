@@ -45,7 +45,7 @@ namespace Morula
     }
 
     /** Quadrature points per direction, at least @p least, on a grid of
-     *  spacing @p h (µm). */
+     *  spacing @p h (µm): doc/theory.md (2.2). */
     unsigned int
     n_per_direction(const double h, const unsigned int least) const
     {

@@ -109,7 +109,8 @@ namespace Morula
 
   private:
     /** The polynomial of a small piece: Σ c_m m(ξ) over the monomials m of
-     *  ξ = (x - center)/h up to a degree; one unknown for each. */
+     *  ξ = (x - center)/h up to a degree; one unknown for each: doc/theory.md
+     *  (3.4). */
     struct PolynomialField
     {
       Point<dim>   center; // µm

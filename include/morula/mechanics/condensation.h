@@ -15,8 +15,7 @@ namespace Morula
    * Between the 3^dim splines of a grid cell and its m unknowns, within the
    * grid cell: u = C ũ, r̃ = Cᵀ r, K̃ = Cᵀ K C. Doing this per grid cell with
    * small dense products is several times cheaper than a global sparse triple
-   * product or entrywise constraint resolution
-   * (doc/theory.md, section 3).
+   * product or entrywise constraint resolution: doc/theory.md (3.5).
    *
    * Component i of unknown s is entry i m + s.
    */

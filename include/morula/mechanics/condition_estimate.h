@@ -12,8 +12,8 @@ namespace Morula
 {
   /**
    * The extreme eigenvalues of a tangent K scaled to a unit diagonal,
-   * D^(-1/2) K D^(-1/2), among the displacements that the problem determines
-   * (doc/theory.md, section 5.7).
+   * D^(-1/2) K D^(-1/2), among the displacements that the problem determines:
+   * doc/theory.md (5.5).
    */
   struct ConditionEstimate
   {

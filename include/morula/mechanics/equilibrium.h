@@ -38,6 +38,7 @@ namespace Morula
 
     virtual ~Equilibrium() = default;
 
+    /** What an evaluation of the residual gives besides. */
     struct Evaluation
     {
       /** Energy, kPa µm^dim; infinite where the body is inverted on any
@@ -65,7 +66,7 @@ namespace Morula
     /**
      * What a user should know of the last state that residual() was called
      * for, where Newton's method fails there: extreme values and their places.
-     * @param R its residual
+     * The argument is its residual.
      */
     virtual std::string
     describe(const Vector & /*R*/) const

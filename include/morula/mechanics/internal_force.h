@@ -14,7 +14,7 @@ namespace Morula
 
   /**
    * The internal virtual work Σ_p W τ : ∇δu of the neo-Hookean tissue, its
-   * energy Σ_p W Ψ and its tangent (doc/theory.md, section 2):
+   * energy Σ_p W Ψ and its tangent, doc/theory.md (2.4), (2.5):
    *
    *   R_a = Σ_p W τ g_a, g_a = f⁻ᵀ ∇N_a,
    *   K_ab^ij = Σ_p W [λ g_a^i g_b^j + (μ - λ ln J_e) g_a^j g_b^i
@@ -22,11 +22,12 @@ namespace Morula
    *
    * Projected, ln J_e in the terms with λ is its mean ϑ over the points of the
    * grid cell, weighted with W λ: one volumetric constraint a grid cell, so
-   * that nearly incompressible tissue does not lock. Its tangents after the
-   * first then take ϑ in the coefficient of g_a^j g_b^i as the linearisation at
-   * the previous tangent foresaw it, as if the pressure were an unknown of its
-   * own: ϑ of the displacement itself is wrong by the square of the correction,
-   * which times λ would swamp μ. Both agree at the solution.
+   * that nearly incompressible tissue does not lock; doc/theory.md (2.7). Its
+   * tangents after the first then take ϑ in the coefficient of g_a^j g_b^i as
+   * the linearisation at the previous tangent foresaw it, as if the pressure
+   * were an unknown of its own: ϑ of the displacement itself is wrong by the
+   * square of the correction, which times λ would swamp μ. Both agree at the
+   * solution.
    */
   template <int dim>
   class InternalForce : public Term<dim>
@@ -101,6 +102,7 @@ namespace Morula
       LocalField<dim> derivative;
       double          value;
 
+      /** The linearised value at the coefficients @p other. */
       double
       at(const LocalField<dim> &other) const;
     };

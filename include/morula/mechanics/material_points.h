@@ -21,7 +21,7 @@ namespace Morula
   template <int dim>
   struct ElasticState
   {
-    /** A = F_t F_g⁻¹. */
+    /** A = F_t F_g⁻¹, by which F_e = f A: doc/theory.md (1.3). */
     Tensor<2, dim> A;
     /**
      * Material points: W, the volume the energy is counted per, µm^dim.
@@ -59,12 +59,14 @@ namespace Morula
     /** Growth at t; empty if nothing grows. */
     std::vector<ElasticState<dim>> previous;
 
+    /** Lamé's constants of a point. */
     const Lame &
     lame_of(const unsigned int p) const
     {
       return lame.size() == 1 ? lame[0] : lame[p];
     }
 
+    /** The elastic states with the growth at t or at t + Δt. */
     const std::vector<ElasticState<dim>> &
     states(const GrowthAt growth) const
     {

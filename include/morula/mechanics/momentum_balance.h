@@ -33,8 +33,8 @@ namespace Morula
 
   /**
    * The momentum balance of one step: the sum of the scene's terms over the
-   * active grid cells, condensed to the unknown splines inside each grid cell
-   * (doc/theory.md, sections 2 and 3).
+   * active grid cells, condensed to the unknown splines inside each grid cell:
+   * the energy of doc/theory.md (2.1) and its derivatives.
    */
   template <int dim>
   class MomentumBalance : public Equilibrium

@@ -16,9 +16,10 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The compressible neo-Hookean material of equation (14) of the paper, at
-   * one point: energy, stress and the numbers its tangent is made of. In 2-D
-   * (plane strain) the 3-D energy with F_e,zz = 1.
+   * The compressible neo-Hookean material of equation (14) of the paper,
+   * doc/theory.md (1.4), (1.5), at one point: energy, stress and the numbers
+   * its tangent is made of. In 2-D (plane strain) the 3-D energy with F_e,zz
+   * = 1.
    *
    *   Ψ = λ/2 (ln J_e)² + μ/2 (tr b_e - 3 - 2 ln J_e),
    *   τ = μ (b_e - I) + λ ln J_e I.

@@ -28,7 +28,8 @@ namespace Morula
    *   which rejects inversion (infinite energy) and tolerates rounding; others:
    *   backtracking on |R|;
    * - linear systems are solved to Eisenstat and Walker's forcing terms;
-   * - converged where |R| <= max(tol max(|R_0|, small force), rounding).
+   * - converged where |R| <= max(tol max(|R_0|, small force), rounding):
+   *   doc/theory.md (5.3).
    *
    * @param u      out: the increment; initialised here
    * @param report in/out: this solve's work is added, also when it fails

@@ -94,8 +94,9 @@ namespace Morula
   };
 
   /**
-   * Backtracking on the energy with Armijo's rule and slack for rounding; for
-   * problems without energy, on |R|. Inversion counts as infinite energy.
+   * Backtracking on the energy with Armijo's rule and slack for rounding,
+   * doc/theory.md (5.2); for problems without energy, on |R|. Inversion counts
+   * as infinite energy.
    */
   class EnergyLineSearch : public NOX::LineSearch::Generic
   {

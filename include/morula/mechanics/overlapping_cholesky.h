@@ -35,6 +35,7 @@ namespace Morula
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
 
+    /** What decides about the factor. */
     struct Parameters
     {
       /** Entries of the factor over those of the matrix's triangle; the

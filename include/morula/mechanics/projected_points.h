@@ -33,7 +33,8 @@ namespace Morula
     }
   };
 
-  /** The points of one grid cell whose ln J_e is replaced by its mean. */
+  /** The points of one grid cell whose ln J_e is replaced by its mean:
+   *  doc/theory.md (2.6). */
   template <int dim>
   struct ProjectedPoints
   {
@@ -47,6 +48,7 @@ namespace Morula
     double mean_log_J  = 0.; // ϑ
     double sum[dim][n] = {}; // Σ W λ g_a
 
+    /** Adds a point of the grid cell to Λ, ϑ Λ and the gradients' sum. */
     void
     add(const SpatialGradients<dim> &g,
         const NeoHookean<dim>       &material,
@@ -63,6 +65,7 @@ namespace Morula
           sum[i][a] += weight * g.g[i][a];
     }
 
+    /** After the last point: makes the mean of the sum. */
     void
     finish()
     {

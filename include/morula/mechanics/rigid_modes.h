@@ -74,7 +74,7 @@ namespace Morula
     /**
      * Superposes rigid motions on the increment @p u so that it has no part in
      * the unsupported motions: a finite rotation and translation of each free
-     * piece.
+     * piece, doc/theory.md (4.10).
      * @param displacements u at each mass, in the constructor's order
      */
     void
@@ -114,6 +114,7 @@ namespace Morula
               const Tensor<1, dim> &a,
               std::vector<double>  &u) const;
 
+    /** Those that the supports do not hold: doc/theory.md (4.9). */
     void
     find_free_modes(const std::vector<Support> &supports);
 

@@ -16,8 +16,8 @@ namespace Morula
 {
   /**
    * Which growth a linearisation is taken at. The residual always has the
-   * growth at t + dt; the first tangent of a step is taken at the growth at t
-   * (doc/theory.md, section 5).
+   * growth at t + dt; the first tangent of a step is taken at the growth at t:
+   * doc/theory.md (5.1).
    */
   enum class GrowthAt
   {
@@ -33,6 +33,7 @@ namespace Morula
 
     double coefficient[dim][n];
 
+    /** The displacement where the splines have these values, µm. */
     Tensor<1, dim>
     value(const SplineValues<dim> &splines) const
     {
@@ -83,6 +84,7 @@ namespace Morula
       clear();
     }
 
+    /** Everything to zero. */
     void
     clear()
     {

@@ -36,6 +36,7 @@ namespace Morula
 
     ~AtomicFile();
 
+    /** See PosixFile. */
     void
     write(const std::string_view text);
 
@@ -46,6 +47,7 @@ namespace Morula
       file.reserve(size);
     }
 
+    /** Puts the written file in its place: until now there was the old one. */
     void
     commit();
 

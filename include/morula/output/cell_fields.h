@@ -32,6 +32,7 @@ namespace Morula
     SymmetricTensor<2, 3> stress;
   };
 
+  /** Those of one cell. */
   template <int dim>
   CellQuantities
   cell_quantities(const CellView<dim, const double> &cell,

@@ -31,6 +31,7 @@ namespace Morula
           const std::uint64_t n_rows,
           const MPI_Comm      comm);
 
+    /** Adds the row of a step. */
     void
     append(const unsigned int       step,
            const double             time,

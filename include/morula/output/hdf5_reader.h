@@ -20,10 +20,12 @@ namespace Morula
   public:
     explicit Hdf5Reader(const std::string &path);
 
+    /** An attribute of a group. */
     template <typename T>
     T
     attribute(const std::string &group, const std::string &name) const;
 
+    /** The names of a group's attributes. */
     std::vector<std::string>
     attribute_names(const std::string &group) const;
 
@@ -31,6 +33,7 @@ namespace Morula
     std::vector<std::string>
     dataset_names(const std::string &group) const;
 
+    /** A data set that is a text. */
     std::string
     text(const std::string &name) const;
 

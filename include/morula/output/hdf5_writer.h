@@ -22,6 +22,7 @@ namespace Morula
   public:
     Hdf5Writer(const std::string &path, const MPI_Comm comm);
 
+    /** Makes a group. Collective. */
     void
     group(const std::string &name);
 

@@ -80,6 +80,7 @@ namespace Morula
       return ids.size();
     }
 
+    /** The values of a point, in the order of names. */
     const double *
     row(const std::size_t i) const
     {

@@ -34,6 +34,7 @@ namespace Morula
     PosixFile &
     operator=(const PosixFile &) = delete;
 
+    /** Adds @p text at the end. */
     void
     write(std::string_view text);
 
@@ -49,6 +50,7 @@ namespace Morula
     void
     sync();
 
+    /** Ends the work on the file. */
     void
     close();
 

@@ -86,9 +86,11 @@ namespace Morula
     void
     message(const std::string &text);
 
+    /** Reports an accepted step. */
     void
     step(const StepReport &report);
 
+    /** The last lines of a run that came to its end. */
     void
     finish(const RunSummary &summary);
 

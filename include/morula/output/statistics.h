@@ -57,6 +57,7 @@ namespace Morula
           const std::uint64_t n_rows,
           const MPI_Comm      comm);
 
+    /** Adds a row. */
     void
     append(const StatisticsRow &row);
 

@@ -40,9 +40,11 @@ namespace Morula
   class TissueSums
   {
   public:
+    /** Adds one of this rank's cells. */
     void
     add_cell(const CellQuantities &quantities, const Point<dim> &position);
 
+    /** Adds one of this rank's boundary points. */
     void
     add_boundary_point(const Point<dim> &position);
 
@@ -56,6 +58,7 @@ namespace Morula
     {
       Box();
 
+      /** Widens the box so that it holds @p position. */
       void
       include(const Point<dim> &position);
 

@@ -107,7 +107,8 @@ namespace Morula
              std::sqrt(2.);
     }
 
-    /** a n = det F F⁻ᵀ a⁰ N, equation (11) of the paper. */
+    /** a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2), equation (11) of the paper.
+     */
     Tensor<1, dim>
     area_vector() const
     {
@@ -158,7 +159,7 @@ namespace Morula
     return slots;
   }
 
-  /** F -> f F, equation (10) of the paper. */
+  /** F -> f F: doc/theory.md (1.1), equation (10) of the paper. */
   template <int dim>
   void
   deform_boundary_point(const ArrayView<double> &properties,

@@ -143,12 +143,14 @@ namespace Morula
       return data[slot];
     }
 
+    /** Sets the number in a slot. */
     void
     set_scalar(const unsigned int slot, const double value) const
     {
       data[slot] = value;
     }
 
+    /** The vector that begins in a slot. */
     Tensor<1, dim>
     vector(const unsigned int slot) const
     {
@@ -158,6 +160,7 @@ namespace Morula
       return v;
     }
 
+    /** Sets the vector that begins in a slot. */
     void
     set_vector(const unsigned int slot, const Tensor<1, dim> &v) const
     {
@@ -165,6 +168,7 @@ namespace Morula
         data[slot + d] = v[d];
     }
 
+    /** The tensor that begins in a slot, row by row. */
     Tensor<2, dim>
     tensor(const unsigned int slot) const
     {
@@ -175,6 +179,7 @@ namespace Morula
       return t;
     }
 
+    /** Sets the tensor that begins in a slot. */
     void
     set_tensor(const unsigned int slot, const Tensor<2, dim> &t) const
     {
@@ -209,7 +214,7 @@ namespace Morula
     const CellSlots<dim> &slots;
   };
 
-  /** V = V⁰ det F, equation (8) of the paper, µm^dim. */
+  /** V = V⁰ det F, µm^dim: doc/theory.md (1.2), equation (8) of the paper. */
   template <int dim, typename Number>
   double
   volume(const CellView<dim, Number> &cell)

@@ -33,6 +33,7 @@ namespace Morula
       return ids.size();
     }
 
+    /** Makes room for @p n points. */
     void
     reserve(const std::size_t n)
     {
@@ -41,6 +42,7 @@ namespace Morula
       properties.reserve(n * n_slots);
     }
 
+    /** Adds a point at the end. */
     void
     add(const types::particle_index    id,
         const Point<dim>              &position,

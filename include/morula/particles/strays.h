@@ -14,7 +14,7 @@ namespace Morula
   /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present
    * width |F_e| (V⁰ det F_g)^(1/dim), at least h/4. No surface of a lattice
-   * of cells lies farther from it (doc/theory.md, section 4.6).
+   * of cells lies farther from it: doc/theory.md (4.13).
    * Boundary points farther from their nearest cell than that have left the
    * tissue.
    */

@@ -49,6 +49,7 @@ namespace Morula
     ArrayView<double>
     cell_properties(const unsigned int p);
 
+    /** The same of a boundary point. */
     ArrayView<double>
     boundary_properties(const unsigned int p);
 

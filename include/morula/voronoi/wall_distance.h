@@ -38,11 +38,11 @@ namespace Morula
 
   /**
    * Distances of the daughters from their mother along -axis and +axis
-   * (d⁻ and d⁺ of equations (16), (19), (20)), for each dividing cell: half
-   * the distance of the Voronoi wall or the Dirichlet boundary. A wall farther
-   * than the cell's length counts as absent.
+   * (d⁻ and d⁺ of equations (16), (19), (20) of the paper), for each dividing
+   * cell: half the distance of the Voronoi wall or the Dirichlet boundary. A
+   * wall farther than the cell's length counts as absent.
    *
-   * The Voronoi wall along the unit vector n is at
+   * The Voronoi wall along the unit vector n, doc/theory.md (6.5), is at
    * min_q |q-p|² / (2 (q-p)·n) over the cells q with (q-p)·n > 0; those within
    * two lengths hold all walls that count: exact and local. Dirichlet boundary
    * points act as half-spaces, each within one point spacing of where the ray

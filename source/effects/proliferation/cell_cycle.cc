@@ -60,6 +60,7 @@ namespace Morula
         const double cycle_end = state.event_time + duration.value(X, 0.);
         if (cycle_end < t1 - slack)
           {
+            // doc/theory.md (6.3)
             state.growth_pre =
               stretched_along(state.axis, 1., state.growth_pre);
             state.axis       = Tensor<1, dim>();

@@ -23,8 +23,8 @@ namespace Morula
   };
 
   /**
-   * Isotropic growth, F_g = θ(X, t) I (equation (13) of the paper), where X is
-   * the founder's initial position.
+   * Isotropic growth, F_g = θ(X, t) I, where X is the founder's initial
+   * position: doc/theory.md (6.1), equation (13) of the paper.
    */
   template <int dim>
   class IsotropicGrowth : public GrowthLaw<dim>

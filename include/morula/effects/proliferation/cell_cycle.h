@@ -135,9 +135,9 @@ namespace Morula
     division_time(const CycleState<dim> &state, const Point<dim> &X) const;
 
     /**
-     * F_g of the cycle at @p t, equation (15):
-     * (I + (θ-1) n_s⊗n_s) F_g,pre, θ = 1 + (t - t_S)/T, the same before and
-     * after the division. @p t is within the cycle.
+     * F_g of the cycle at @p t, doc/theory.md (6.2), equation (15) of the
+     * paper: (I + (θ-1) n_s⊗n_s) F_g,pre, θ = 1 + (t - t_S)/T, the same before
+     * and after the division. @p t is within the cycle.
      */
     Tensor<2, dim>
     growth(const CycleState<dim> &state,

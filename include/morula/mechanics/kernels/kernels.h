@@ -90,6 +90,7 @@ namespace Morula
         }
     }
 
+    /** det f and f⁻¹ of the points from the splines' coefficients. */
     MORULA_INLINE void
     deform(const double *coefficients, Points &points)
     {
@@ -204,6 +205,7 @@ namespace Morula
         }
     }
 
+    /** Adds the lanes' sums to the residual in @p target. */
     MORULA_INLINE void
     add_sums(const Lanes (&sums)[3][9][3], double *target)
     {
@@ -213,6 +215,7 @@ namespace Morula
             target[27 * i + 3 * yz + x] += sum(sums[i][yz][x]);
     }
 
+    /** Energy and residual of a grid cell: doc/theory.md (2.4). */
     inline KernelResult
     residual(const KernelInput &input, double *target, double *magnitudes)
     {
@@ -297,6 +300,7 @@ namespace Morula
         rows[l].scale(c1[l], c2[l]);
     }
 
+    /** Tangent of a grid cell: doc/theory.md (2.5). */
     inline KernelResult
     tangent(const KernelInput &input, double *matrix)
     {

@@ -19,6 +19,7 @@ namespace Morula
     using LanesInMemory =
       double __attribute__((vector_size(sizeof(double) * lanes), may_alias));
 
+    /** The same number in all lanes. */
     MORULA_INLINE Lanes
     all(const double x)
     {
@@ -81,12 +82,14 @@ namespace Morula
              (2. * s + (2. * s * s2 * series + k * 0x1.ef35793c7673p-45));
     }
 
+    /** The absolute values. */
     MORULA_INLINE Lanes
     magnitude(const Lanes &x)
     {
       return x < 0. ? -x : x;
     }
 
+    /** The square roots. */
     MORULA_INLINE Lanes
     square_root(const Lanes &x)
     {
@@ -96,6 +99,7 @@ namespace Morula
       return y;
     }
 
+    /** The sum of all lanes. */
     MORULA_INLINE double
     sum(const Lanes &numbers)
     {

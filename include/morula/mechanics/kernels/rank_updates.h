@@ -28,6 +28,7 @@ namespace Morula
       Rows m;
       Rows g_c1, g_c2, g_both; // times c1, c2 and c1 + c2
 
+      /** Fills the rows that are multiples of g. */
       MORULA_INLINE void
       scale(const double c1, const double c2)
       {
@@ -47,6 +48,7 @@ namespace Morula
       PointRows::Rows PointRows::*rows;
       unsigned int                direction;
 
+      /** This factor's row of a point. */
       MORULA_INLINE const double *
       of(const PointRows &point) const
       {
@@ -62,6 +64,7 @@ namespace Morula
 
     using Block = double[n_splines][width];
 
+    /** Adds the updates to R rows and C lanes-wide columns of a block. */
     template <unsigned int R, unsigned int C, unsigned int K>
     MORULA_INLINE void
     update_tile(const PointRows   *points,
@@ -154,6 +157,7 @@ namespace Morula
       alignas(64) Block diagonal[3] = {};
       alignas(64) Block other[3]    = {}; // (0, 1), (0, 2), (1, 2)
 
+      /** Adds the products of the rows of @p n points. */
       MORULA_INLINE void
       update(const PointRows *points, const unsigned int n)
       {

@@ -148,18 +148,18 @@ class Killed(ProgramTest):
     def test_while_a_snapshot_is_written(self):
         """snapshot.h5.tmp is there and incomplete or not yet renamed."""
         whole, chance, hit = self.whole(), random.Random(SEED), 0
-        for n, before in enumerate((0, 1, 3, 6, 5, 2)):
+        # The file is made twice each time: to reserve the space, and to write.
+        for n, made in enumerate((2, 4, 7, 14, 12)):
             output = self.work / f"killed-{n}"
             output.mkdir()
             delay = chance.uniform(0, 0.004)
-            print(f"kill -9 {delay * 1e3:.1f} ms into snapshot {before + 1}",
-                  flush=True)
+            print(f"kill -9 {delay * 1e3:.1f} ms after {made} times "
+                  "snapshot.h5.tmp", flush=True)
             with NewFiles(output) as files, \
-                    self.subTest(before=before, delay=delay):
+                    self.subTest(made=made, delay=delay):
                 process = self.start(output)
                 try:
-                    # made twice each: the reservation, and the file
-                    self.assertTrue(files.wait("snapshot.h5.tmp", before + 1,
+                    self.assertTrue(files.wait("snapshot.h5.tmp", made,
                                                PATIENCE))
                     time.sleep(delay)
                 finally:

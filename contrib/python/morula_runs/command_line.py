@@ -73,7 +73,7 @@ def run_tool(name, tool):
     def stop(*_):
         raise KeyboardInterrupt
 
-    signal.signal(signal.SIGTERM, stop)
+    before = signal.signal(signal.SIGTERM, stop)
     try:
         return tool()
     except Refused as refusal:
@@ -83,3 +83,5 @@ def run_tool(name, tool):
         print(f"{name}: stopped; the same command goes on with what is "
               "missing.", file=sys.stderr)
         return 130
+    finally:
+        signal.signal(signal.SIGTERM, before)

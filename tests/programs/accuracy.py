@@ -15,7 +15,7 @@ from program import ProgramTest, main, read_csv
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "contrib/python"), str(ROOT / "tests/verification")]
 
-from morula_accuracy import columns  # noqa: E402
+from morula_runs import columns  # noqa: E402
 from radial import GrowingBall, Layer  # noqa: E402
 
 # A disc whose cells divide at random.

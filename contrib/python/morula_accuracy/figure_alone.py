@@ -2,10 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """Each ladder alone: by how much the results change along it."""
 from morula_runs.scene import as_number
+from morula_runs.style import colour, padded, log_ticks, marker, plt
 
 from .limits import ROUNDING
 from .report import pretty
-from .style import colour, padded, log_ticks, marker, plt
 
 
 def alone_figure(findings, estimates):

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Error against wall time, unknowns and memory."""
+from morula_runs.style import Labels, colour, log_ticks, marker, padded, plt
+
 from .findings import KINDS
 from .report import pretty
-from .style import Labels, colour, log_ticks, marker, padded, plt
 
 
 def cost_figure(findings, estimate):

@@ -4,9 +4,10 @@
 (and time, if there are several), and alone.png, or alone-day-T.png."""
 import re
 
+from morula_runs.style import RC, plt
+
 from .figure_alone import alone_figure
 from .figure_cost import cost_figure
-from .style import RC, plt
 
 
 def draw(findings, directory):

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy
 
+from morula_runs import columns
 from morula_runs.refusal import Refused
 from morula_runs.results import points_at, row_at
-
-from . import columns
 
 REDUCTIONS = {"mean": numpy.mean, "min": numpy.min, "max": numpy.max,
               "sum": numpy.sum, "std": numpy.std, "median": numpy.median}

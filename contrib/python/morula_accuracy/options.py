@@ -2,20 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """The words of the command line."""
 import argparse
-import sys
-from pathlib import Path
 
-from morula_runs.refusal import Refused
-
-ROOT = Path(__file__).resolve().parents[3]
-
-
-class Parser(argparse.ArgumentParser):
-    """Mistakes in the words themselves end like all others."""
-
-    def error(self, message):
-        raise Refused("The command line", " ".join(sys.argv[1:]),
-                      "what --help shows", message + ".")
+from morula_runs.command_line import Parser, add_run_options
 
 
 def parser():
@@ -54,17 +42,7 @@ doc/accuracy-and-cost.md explains the results.""")
         help="how a key becomes finer: zero, large, tolerance, none")
     add("--wanted", metavar="ERROR", help="1%%, 0.5um, zmax=0.5um,...: marks "
         "the cheapest run that is as good")
-    add("-s", "--set", action="append", default=[], metavar="KEY=VALUE",
-        help="overrides a key of the scene for all runs")
-    add("--ranks", default="1", help="MPI ranks of each run")
-    add("--jobs", default="1", help="runs at the same time; more than one "
-        "makes their times less certain")
     add("--repeat", default="1", metavar="N", help="times that each run is "
         "done; the shortest counts")
-    add("--again", action="store_true", help="do not use runs from before")
-    add("--plan", action="store_true", help="check, list the runs, and stop")
-    add("--output", type=Path, metavar="DIRECTORY",
-        help="default: output/accuracy/SCENE")
-    add("--morula", default=ROOT / "build/morula", help="the executable")
-    add("--mpiexec", default="mpiexec")
+    add_run_options(add, "output/accuracy/SCENE")
     return result

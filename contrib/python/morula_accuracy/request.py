@@ -4,15 +4,16 @@
 import math
 from fractions import Fraction
 
-from morula_runs.ladder import MAX_RUNS, Plan, read_ladder, read_seeds
-from morula_runs.program import Program, cores
+from morula_runs.command_line import (ROOT, output_directory, ranks_and_jobs,
+                                      whole_number)
+from morula_runs.ladder import Plan, check_seeds, read_ladder, read_seeds
+from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.scene import Scene, as_number
 
 from .front import read_wanted
 from .limits import read_kinds
 from .measures import read_measures
-from .options import ROOT
 from .reference import Reference
 
 # Keys that cannot be a rung of a ladder, and why.
@@ -32,13 +33,8 @@ class Request:
 
     def __init__(self, options):
         self.options = options
-        self.ranks = whole_number("--ranks", options.ranks)
-        self.jobs = whole_number("--jobs", options.jobs)
+        self.ranks, self.jobs = ranks_and_jobs(options)
         self.repeats = whole_number("--repeat", options.repeat)
-        if self.jobs > 1 and self.jobs * self.ranks > cores():
-            raise Refused("--jobs", options.jobs, f"at most {cores()} cores "
-                          f"for all runs with --ranks {self.ranks}",
-                          "More would make every time meaningless.")
         program = Program(options.morula, options.mpiexec)
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
@@ -49,11 +45,9 @@ class Request:
         self.times = self._times()
         self.wanted = read_wanted(options.wanted, self.measures)
         self.reference = self._reference()
-        self._check_seeds()
-        self.output = options.output or (
-            ROOT / "output/accuracy" / self.scene.name)
-        if self.output.exists() and not self.output.is_dir():
-            raise Refused("--output", self.output, "a directory")
+        check_seeds(self.plan, self.seeds, options.seeds)
+        self.output = output_directory(
+            options, ROOT / "output/accuracy" / self.scene.name)
 
     def _check_surface(self):
         for measure in self.measures:
@@ -61,10 +55,6 @@ class Request:
                 raise Refused("--measure", measure.text, "a measure of the "
                               "cells", "A tissue of the shape 'points' has no "
                               "surface.")
-
-    @property
-    def n_runs(self):
-        return len(self.plan.points) * len(self.seeds or [1])
 
     def _plan(self):
         if not self.options.vary:
@@ -107,12 +97,9 @@ class Request:
 
     def _check_steps(self, times):
         """Runs end at the last time exactly; before it, steps must."""
-        keys = self.plan.keys
-        at = keys.index("Time/Step") if "Time/Step" in keys else None
-        steps = {self.scene["Time/Step"] if at is None else point[at]
-                 for point in self.plan.points}
-        for step in filter(as_number, steps):
-            if at is not None and float(step) > times[-1] * (1 + 1e-9):
+        varied = "Time/Step" in self.plan.keys
+        for step in filter(as_number, self.plan.values("Time/Step")):
+            if varied and float(step) > times[-1] * (1 + 1e-9):
                 raise Refused("--vary", f"Time/Step={step}", "a step up to "
                               f"the end, {times[-1]:g} day", "Longer ones are "
                               "all the same run.")
@@ -136,24 +123,6 @@ class Request:
         reference.check(self.measures, self.times)
         return reference
 
-    def _check_seeds(self):
-        if self.n_runs > MAX_RUNS:
-            raise Refused("--vary", f"{self.n_runs} runs",
-                          f"at most {MAX_RUNS} runs")
-        if self.seeds and len(self.seeds) > 1 and not self.random:
-            raise Refused("--seeds", self.options.seeds, "one seed for a scene "
-                          "in which nothing is random",
-                          "Its Proliferation/Law is none.")
-
-    @property
-    def random(self):
-        keys = self.plan.keys
-        laws = {self.scene["Proliferation/Law"]}
-        if "Proliferation/Law" in keys:
-            at = keys.index("Proliferation/Law")
-            laws = {point[at] for point in self.plan.points}
-        return laws != {"none"}
-
     def fixed_overrides(self):
         """What all runs have besides their point: end, output, -s."""
         result = list(self.scene.overrides)
@@ -174,13 +143,3 @@ def output_interval(times):
     denominator = math.lcm(*(f.denominator for f in exact))
     numerator = math.gcd(*(int(f * denominator) for f in exact))
     return format(numerator / denominator, ".15g")
-
-
-def whole_number(option, text):
-    try:
-        number = int(text)
-    except ValueError:
-        number = 0
-    if number < 1:
-        raise Refused(option, text, "an integer >= 1")
-    return number

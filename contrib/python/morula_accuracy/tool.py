@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """From the request to tables and figures."""
-import signal
 import sys
 
 import numpy
 
-from morula_runs.refusal import Refused
+from morula_runs.command_line import run_tool
 from morula_runs.runner import Run, Runner, run_name
 
 from .estimate import center_of, estimate
@@ -20,23 +19,11 @@ from .request import Request
 def main(words=None):
     """Exit code 0; 1 for what makes no sense; 2 if nothing could be
     compared."""
-    signal.signal(signal.SIGTERM, _stop)
-    try:
+    def tool():
         options = parser().parse_args(words)
         options.words = sys.argv[1:] if words is None else words
         return Accuracy(Request(options)).run()
-    except Refused as refusal:
-        print(f"accuracy: {refusal}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("accuracy: stopped; the same command goes on with what is "
-              "missing.", file=sys.stderr)
-        return 130
-
-
-def _stop(*_):
-    """Asked to end from outside: like Ctrl-C, so that no run is left over."""
-    raise KeyboardInterrupt
+    return run_tool("accuracy", tool)
 
 
 class Accuracy:
@@ -48,14 +35,15 @@ class Accuracy:
         self.fixed = request.fixed_overrides()
         self.runner = Runner(request.scene, request.output / "runs",
                              request.ranks, request.jobs, request.repeats,
-                             request.options.again, self._say)
+                             request.options.again, say=self._say)
         self.records = {}  # (point, seed): Record
 
     def run(self):
         runs = {(point, seed): self._run_of(point, seed)
                 for point in self.plan.points
                 for seed in self.request.seeds or [None]}
-        self._check_points(runs)
+        self.runner.check([runs[point, (self.request.seeds or [None])[0]]
+                           for point in self.plan.points])
         if self.request.options.plan:
             for run in runs.values():
                 self._say(run.name)
@@ -72,14 +60,6 @@ class Accuracy:
         overrides = tuple([*self.fixed, *special])
         kinds = {m.kind for m in self.request.measures} - {"statistics"}
         return Run(run_name(special, overrides), overrides, tuple(kinds))
-
-    def _check_points(self, runs):
-        """Has the program check every point that it has not yet run."""
-        for point in self.plan.points:
-            first = next(run for (p, _), run in runs.items() if p == point)
-            if not self.runner.is_done(first):
-                self.request.scene.program.explain(self.request.scene.path,
-                                                   first.overrides)
 
     def _estimates(self, center):
         """One estimate for each measure and time, as far as the centre, or a

@@ -65,19 +65,19 @@ def _refuse_short_or_double(text, words, rungs):
         seen[same] = word
     if len(rungs) < 2:
         raise Refused("--vary", text, "at least two values",
-                      "With three or more the order of convergence can be "
-                      "observed.")
+                      "-s sets a single one.")
 
 
 def read_seeds(text):
-    """'1..8', '1,2,5' or both together; None without the option."""
+    """'1..8' or '1-8', '1,2,5' or both together; None without the
+    option."""
     if text is None:
         return None
     seeds = []
     for word in text.split(","):
-        match = re.fullmatch(r"\s*(\d+)\s*(?:\.\.\s*(\d+)\s*)?", word)
+        match = re.fullmatch(r"\s*(\d+)\s*(?:(?:\.\.|-)\s*(\d+)\s*)?", word)
         if not match:
-            raise Refused("--seeds", text, "a range '1..8' or a list '1,2,5' "
+            raise Refused("--seeds", text, "a range '1..8' or '1-8' or a list '1,2,5' "
                           "of integers >= 0")
         first, last = int(match[1]), int(match[2] or match[1])
         if last < first:
@@ -89,6 +89,18 @@ def read_seeds(text):
     if len(set(seeds)) < len(seeds):
         raise Refused("--seeds", text, "each seed once")
     return seeds
+
+
+def check_seeds(plan, seeds, text):
+    """Refuses too many runs, and seeds that change nothing; `text` is the
+    option as written."""
+    n_runs = len(plan.points) * len(seeds or [1])
+    if n_runs > MAX_RUNS:
+        raise Refused("--vary", f"{n_runs} runs", f"at most {MAX_RUNS} runs")
+    if seeds and len(seeds) > 1 and plan.values("Proliferation/Law") == {
+            "none"}:
+        raise Refused("--seeds", text, "one seed for a scene in which nothing "
+                      "is random", "Its Proliferation/Law is none.")
 
 
 class Plan:
@@ -131,6 +143,12 @@ class Plan:
 
     def value(self, point, key):
         return point[self.keys.index(key)]
+
+    def values(self, key):
+        """All values of a key, varied or not."""
+        if key not in self.keys:
+            return {self.scene[key]}
+        return {self.value(point, key) for point in self.points}
 
     def line(self, ladder, center):
         """The points along a ladder in its order, all other keys as at the

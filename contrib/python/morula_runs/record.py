@@ -18,8 +18,9 @@ class Record:
         self.identity, self.overrides, self.repeats = None, (), []
 
     def load(self, identity):
-        """Takes over what a former run has left; false if there is none, or
-        if it was one of another program or scene."""
+        """Takes over what a former run has left, even if it was interrupted;
+        false if there is none, or if it was one of another program or
+        scene."""
         try:
             stored = json.loads(self.file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -28,27 +29,42 @@ class Record:
             return False
         self.identity, self.repeats = identity, stored["repeats"]
         self.overrides = tuple(map(tuple, stored["overrides"]))
-        return bool(self.repeats)
+        return True
 
     def begin(self, identity, overrides):
         """Forgets what was there."""
         shutil.rmtree(self.directory, ignore_errors=True)
         self.directory.mkdir(parents=True)
         self.identity, self.overrides, self.repeats = identity, overrides, []
+        self._store()
+
+    @property
+    def resumable(self):
+        """Whether an execution that did not end has left a snapshot. The
+        program replaces it as a whole."""
+        return ((self.killed or not self.repeats)
+                and (self.output / "snapshot.h5").is_file())
+
+    def resume(self):
+        """The execution that did not end goes on."""
+        self.repeats = []
 
     def add(self, cost, ranks, jobs, keep):
         """One more execution, with what launcher.py says of it. The row times
         are kept for each, because the files are those of the last one; of
-        these, only the kinds of points in `keep` stay."""
+        these, what is not in `keep` goes."""
         cost.update(ranks=ranks, jobs=jobs)
         if cost["exit"] == 0:
             cost["row_seconds"] = self._computing_seconds()
-            # Nobody resumes these runs, and they are many.
-            (self.output / "snapshot.h5").unlink(missing_ok=True)
+            if "snapshot" not in keep:
+                (self.output / "snapshot.h5").unlink(missing_ok=True)
             for kind in {"cells", "surface"} - set(keep):
                 for file in self.output.glob(f"{kind}-[0-9]*.csv"):
                     file.unlink()
         self.repeats.append(cost)
+        self._store()
+
+    def _store(self):
         stored = {"identity": self.identity, "overrides": self.overrides,
                   "repeats": self.repeats}
         temporary = self.file.with_suffix(".tmp")
@@ -76,6 +92,11 @@ class Record:
     @property
     def failed(self):
         return any(r["exit"] != 0 for r in self.repeats)
+
+    @property
+    def refused(self):
+        """The program did not accept what it was to do."""
+        return any(r["exit"] == 1 for r in self.repeats)
 
     @property
     def killed(self):
@@ -108,7 +129,9 @@ class Record:
 
     def summary(self):
         if self.finished:
-            return f"{self.process_seconds:.1f} s"
+            resumed = any(r.get("resumed") for r in self.repeats)
+            return (f"{self.process_seconds:.1f} s"
+                    + (" since it was resumed" if resumed else ""))
         if not self.repeats:
             return "interrupted"
         return (f"failed with exit code {self.repeats[-1]['exit']}: "

@@ -25,8 +25,9 @@ LAUNCHER = Path(__file__).with_name("launcher.py")
 
 @dataclass(frozen=True)
 class Run:
-    """A scene with overrides; the name is that of its directory. Of the files
-    of points, those of the kinds in `keep` stay ('cells', 'surface')."""
+    """A scene with overrides; the name is that of its directory. When it has
+    finished, CSV files of the points and the snapshot stay if they are in
+    `keep` ('cells', 'surface', 'snapshot')."""
 
     name: str
     overrides: tuple
@@ -54,22 +55,31 @@ def signalled(child, number):
 
 
 class Runner:
-    """Does runs of a scene below a directory, each in a room of its own."""
+    """Does runs of a scene below a directory, each in a room of its own. Runs
+    that were interrupted go on from their last snapshot with `resume`, and
+    begin anew without: then their wall times are those of one execution."""
 
     def __init__(self, scene, directory, ranks=1, jobs=1, repeats=1,
-                 again=False, say=print):
+                 again=False, resume=False, say=print):
         self.scene, self.directory = scene, Path(directory)
         self.ranks, self.jobs, self.repeats = ranks, jobs, repeats
-        self.again, self.say = again, say
+        self.again, self.resume, self.say = again, resume, say
         self.digest = scene.program.digest
         self._children, self._guard = set(), threading.Lock()
-        self._stopped = False
+        self._stopped, self._lock = False, None
 
     def is_done(self, run):
         """Whether nothing is left to do for a run."""
         record = Record(self.directory / run.name)
         return (not self.again and record.load(self._identity(run))
-                and not record.killed)
+                and bool(record.repeats) and not record.killed)
+
+    def check(self, runs):
+        """Has the program judge the runs that are not done; throws Refused
+        with its message."""
+        for run in runs:
+            if not self.is_done(run):
+                self.scene.program.explain(self.scene.path, run.overrides)
 
     def run(self, runs):
         """The records of the runs, in their order."""
@@ -92,32 +102,49 @@ class Runner:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 raise Refused("--output", self.directory, "a directory that "
-                              "nobody else writes into", "Another one is at "
-                              "work there: wait for it, or choose another "
+                              "nobody else writes into", "Another one, or a "
+                              "run that it has left over, is at work there: "
+                              "wait for it, or choose another "
                               "directory.") from None
+            self._lock = lock
             yield
 
     def _one(self, run, counter):
         record = Record(self.directory / run.name)
-        identity = self._identity(run)
-        if self.again or not record.load(identity) or record.killed:
-            record.begin(identity, run.overrides)
+        resumed = self._prepare(run, record)
         done = len(record.repeats)
         if record.finished and done >= self.repeats or record.failed:
             self.say(f"{counter} {run.name}: {record.summary()}, from before")
             return record
         while not self._stopped and len(record.repeats) < self.repeats:
-            self.say(f"{counter} {run.name} ...")
-            self._launch(run, record)
-            if record.failed:
+            self.say(f"{counter} {run.name} "
+                     + ("goes on from its snapshot ..." if resumed else "..."))
+            self._launch(run, record, resumed)
+            if resumed and record.refused:
+                record.begin(record.identity, run.overrides)
+            elif record.failed:
                 break
+            resumed = False
         self.say(f"{counter} {run.name}: {record.summary()}")
         return record
 
-    def _launch(self, run, record):
+    def _prepare(self, run, record):
+        """Takes over what is there of a run, or clears its directory; whether
+        it is to be resumed."""
+        identity = self._identity(run)
+        known = not self.again and record.load(identity)
+        if known and self.resume and record.resumable:
+            record.resume()
+            return True
+        if not known or record.killed or not record.repeats:
+            record.begin(identity, run.overrides)
+        return False
+
+    def _launch(self, run, record, resumed):
         overrides = [*run.overrides, ("Output directory", record.output)]
         words = self.scene.program.command(self.scene.path, overrides,
                                            self.ranks)
+        words += ["--resume"] if resumed else []
         cost = record.directory / "cost.json"
         cost.unlink(missing_ok=True)
         with self._guard:
@@ -126,7 +153,9 @@ class Runner:
             child = subprocess.Popen(
                 [sys.executable, "-I", "-S", LAUNCHER, cost,
                  record.directory / "stdout", record.directory / "stderr",
-                 *words], env=environment(), start_new_session=True)
+                 *words], env=environment(), start_new_session=True,
+                # a run that outlives this process keeps the directory locked
+                pass_fds=[self._lock.fileno()])
             self._children.add(child)
         child.wait()
         with self._guard:
@@ -140,8 +169,8 @@ class Runner:
                               "an executable that nobody replaces while runs "
                               "go on", "The same command begins anew with the "
                               "new one.")
-            record.add(json.loads(cost.read_text()), self.ranks, self.jobs,
-                       run.keep)
+            record.add({**json.loads(cost.read_text()), "resumed": resumed},
+                       self.ranks, self.jobs, run.keep)
 
     def _stop(self, futures):
         """Ends what this object has started, and nothing else."""

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The command line of programs that do many runs of a scene."""
+import argparse
+import signal
+import sys
+from pathlib import Path
+
+from .program import cores
+from .refusal import Refused
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+class Parser(argparse.ArgumentParser):
+    """Mistakes in the words themselves end like all others."""
+
+    def error(self, message):
+        raise Refused("The command line", " ".join(sys.argv[1:]),
+                      "what --help shows", message + ".")
+
+
+def add_run_options(add, directory):
+    """The options that say how and where the runs are done; `add` is
+    Parser.add_argument, `directory` the default of --output in words."""
+    add("-s", "--set", action="append", default=[], metavar="KEY=VALUE",
+        help="overrides a key of the scene for all runs")
+    add("--ranks", default="1", help="MPI ranks of each run")
+    add("--jobs", default="1", help="runs at the same time; more than one "
+        "makes their times less certain")
+    add("--again", action="store_true", help="do not use runs from before")
+    add("--plan", action="store_true", help="check, list the runs, and stop")
+    add("--output", type=Path, metavar="DIRECTORY",
+        help=f"default: {directory}")
+    add("--morula", default=ROOT / "build/morula", help="the executable")
+    add("--mpiexec", default="mpiexec")
+
+
+def whole_number(option, text):
+    try:
+        number = int(text)
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise Refused(option, text, "an integer >= 1")
+    return number
+
+
+def ranks_and_jobs(options):
+    """Both as numbers that fit this machine."""
+    ranks = whole_number("--ranks", options.ranks)
+    jobs = whole_number("--jobs", options.jobs)
+    if jobs > 1 and jobs * ranks > cores():
+        raise Refused("--jobs", options.jobs, f"at most {cores()} cores "
+                      f"for all runs with --ranks {ranks}",
+                      "More would wait for each other, and make every time "
+                      "meaningless.")
+    return ranks, jobs
+
+
+def output_directory(options, default):
+    """--output, or the default; not a file."""
+    directory = options.output or default
+    if directory.exists() and not directory.is_dir():
+        raise Refused("--output", directory, "a directory")
+    return directory
+
+
+def run_tool(name, tool):
+    """What tool() returns as the exit code; 1 for what makes no sense, 130 if
+    it was stopped. Asked to end from outside is like Ctrl-C, so that no run is
+    left over."""
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        return tool()
+    except Refused as refusal:
+        print(f"{name}: {refusal}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"{name}: stopped; the same command goes on with what is "
+              "missing.", file=sys.stderr)
+        return 130
+    finally:
+        signal.signal(signal.SIGTERM, before)

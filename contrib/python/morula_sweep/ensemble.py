@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What the runs of one combination with different seeds have in common."""
+import math
+from dataclasses import dataclass
+
+import numpy
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Of n numbers; a scatter needs two of them, and is nan of fewer.
+    deviation: standard deviation of the single numbers (divided by n - 1);
+    error: standard error, that is the standard deviation of the mean."""
+
+    n: int
+    mean: float
+    deviation: float
+    error: float
+    smallest: float
+    largest: float
+
+
+def summary(values):
+    values = numpy.asarray(values, dtype=float)
+    n = len(values)
+    if n == 0:
+        return Summary(0, *[math.nan] * 5)
+    deviation = float(numpy.std(values, ddof=1)) if n > 1 else math.nan
+    return Summary(n, float(values.mean()), deviation,
+                   deviation / math.sqrt(n), float(values.min()),
+                   float(values.max()))
+
+
+class Ensemble:
+    """One combination: its finished runs, a table of statistics each."""
+
+    def __init__(self, point, label, records):
+        self.point, self.label, self.records = point, label, records
+        self.tables = [record.statistics() for record in records
+                       if record.finished]
+
+    def end(self, column):
+        """Summary of the last values of a column."""
+        return summary([table[column][-1] for table in self.tables])
+
+    def course(self, column):
+        """Times (days), mean and standard deviation of a column over the runs,
+        up to the end of the shortest. Times at which only some runs have a
+        row, because a step of theirs was halved, are interpolated linearly in
+        the others."""
+        end = min(table["time"][-1] for table in self.tables)
+        times = numpy.unique(numpy.concatenate(
+            [table["time"] for table in self.tables]))
+        times = times[times <= end]
+        values = numpy.array([numpy.interp(times, table["time"], table[column])
+                              for table in self.tables])
+        deviation = (values.std(axis=0, ddof=1) if len(values) > 1
+                     else numpy.zeros(len(times)))
+        return times, values.mean(axis=0), deviation

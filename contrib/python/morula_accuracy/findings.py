@@ -111,7 +111,7 @@ class Findings:
         if halved:
             result.append("steps failed and were halved, so that the time step "
                           "is not what the scene says: " + "; ".join(halved))
-        if request.random and len(request.seeds or []) < 2:
+        if request.plan.random and len(request.seeds or []) < 2:
             result.append("one random seed: how much of a difference is noise "
                           "is not known; --seeds 1..8 tells")
         if any(record.crowded for record in self.records.values()):

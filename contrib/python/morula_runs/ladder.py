@@ -97,8 +97,7 @@ def check_seeds(plan, seeds, text):
     n_runs = len(plan.points) * len(seeds or [1])
     if n_runs > MAX_RUNS:
         raise Refused("--vary", f"{n_runs} runs", f"at most {MAX_RUNS} runs")
-    if seeds and len(seeds) > 1 and plan.values("Proliferation/Law") == {
-            "none"}:
+    if seeds and len(seeds) > 1 and not plan.random:
         raise Refused("--seeds", text, "one seed for a scene in which nothing "
                       "is random", "Its Proliferation/Law is none.")
 
@@ -149,6 +148,11 @@ class Plan:
         if key not in self.keys:
             return {self.scene[key]}
         return {self.value(point, key) for point in self.points}
+
+    @property
+    def random(self):
+        """Whether the seed matters to any point."""
+        return self.values("Proliferation/Law") != {"none"}
 
     def line(self, ladder, center):
         """The points along a ladder in its order, all other keys as at the

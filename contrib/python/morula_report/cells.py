@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 from drawing.colours import FIELDS, WHOLE_NUMBERS
 from drawing.points import radii_of
-from morula_accuracy.columns import POINTS, STRESS, unit_in
+from morula_runs.columns import POINTS, STRESS, unit_in
 from morula_runs.states import NoStates
 
 from . import selection, shell

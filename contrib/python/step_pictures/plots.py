@@ -3,7 +3,7 @@
 """Plots of the tables that the step programs print."""
 import numpy as np
 
-from morula_accuracy.style import COLOURS, RC, log_ticks, plt
+from morula_runs.style import COLOURS, RC, log_ticks, plt
 
 plt.rcParams.update(RC)
 

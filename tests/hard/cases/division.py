@@ -184,7 +184,7 @@ CASE = Case(
                         "Time/End time": "1.75"}),
         from_file("pair", "pair.csv", keys={"Time/End time": "1.75"}),
         from_file("near-coincident", "near-coincident.csv", exit=1,
-                  message=r"line 127\).*one cell at each place, and line 64"),
+                  message=r"line 127\).*one cell at each place, in um, and line 64"),
         from_file("coincident", "coincident.csv", exit=1,
-                  message=r"line 127\).*one cell at each place, and line 64"),
+                  message=r"line 127\).*one cell at each place, in um, and line 64"),
     ])

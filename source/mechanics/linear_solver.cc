@@ -32,7 +32,7 @@ namespace Morula
      * positive and of use. Fewer entries make them faster; the raised diagonal
      * keeps them positive, and usable for the later tangents of the step
      * (doc/performance.md, The linear solver). Free bodies do without the last
-     * ones: those excite motions that hardly anything resists, such as the
+     * one: it excites motions that hardly anything resists, such as the
      * twist of a row of cells, by a thousand times what Jacobi does.
      */
     struct Attempt
@@ -43,7 +43,7 @@ namespace Morula
                                                {1., 1.02},
                                                {1., 1.1},
                                                {1., 1.5}};
-    constexpr std::size_t n_of_free_bodies  = 2;
+    constexpr std::size_t n_of_free_bodies  = 3;
     constexpr double      absolute_diagonal = 2e-5; // of the stiffness scale
 
     /** Shifts tried on negative curvature, doc/theory.md (5.4): each at least

@@ -368,36 +368,39 @@ namespace Morula
     // With unsupported rigid motions K is singular. So small a shift costs
     // Newton's method nothing.
     const double least = problem.null_space().empty() ? 0. : 1e-9;
-    for (double shift = least; shift < last_shift;
-         shift        = std::max(first_shift, shift * shift_factor))
+    double       shift = least;
+    while (shift < last_shift)
       {
-               if (shift > 0.)
+        if (shift > 0.)
           {
-                   shifted.copy_from(K);
-                   for (const auto row : K.locally_owned_range_indices())
+            shifted.copy_from(K);
+            for (const auto row : K.locally_owned_range_indices())
               shifted.add(row, row, shift * std::abs(K.diag_element(row)));
             shifted.compress(VectorOperation::add);
           }
         SolverControl                  control(1, 0.);
-               TrilinosWrappers::SolverDirect solver(
+        TrilinosWrappers::SolverDirect solver(
           control,
           TrilinosWrappers::SolverDirect::AdditionalData(false, method));
-               ++iterations;
-               try
+        ++iterations;
+        bool singular = false;
+        try
           {
-                   const Matrix &A = shift > 0. ? shifted : K;
-                   solver.initialize(A);
-                   solve_bordered(A, solver, x, balanced);
+            const Matrix &A = shift > 0. ? shifted : K;
+            solver.initialize(A);
+            solve_bordered(A, solver, x, balanced);
           }
-               catch (const ExceptionBase &)
+        catch (const ExceptionBase &)
           {
-                   continue; // singular
+            singular = true;
           }
         // Not a direction of descent: the tangent is indefinite there.
-               if (std::isfinite(x.l2_norm()) && (!symmetric || x * b > 0.))
+        if (!singular && std::isfinite(x.l2_norm()) &&
+            (!symmetric || x * b > 0.))
           return;
-        if (shift > least)
+        if (!singular && shift > least)
           largest_shift_ = std::max(largest_shift_, shift);
+        shift = std::max(first_shift, shift * shift_factor);
       }
     throw StepFailed("the direct solver found no direction of descent");
   }

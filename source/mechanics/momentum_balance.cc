@@ -280,6 +280,13 @@ namespace Morula
 
   template <int dim>
   double
+  MomentumBalance<dim>::typical_length() const
+  {
+    return space.box().spacing();
+  }
+
+  template <int dim>
+  double
   MomentumBalance<dim>::stiffness_scale() const
   {
     return youngs_modulus * std::pow(space.box().spacing(), dim - 2);

@@ -13,7 +13,9 @@ namespace Morula
     prm.add_parameter("Newton tolerance",
                       newton_tolerance,
                       "Residual at which a step is solved, relative to the "
-                      "step's first; 0 < tolerance < 1.",
+                      "step's first, and estimated error of its "
+                      "displacements, relative to Grid/Spacing; 0 < tolerance "
+                      "< 1.",
                       Patterns::Double());
     prm.add_parameter("Linear tolerance",
                       linear_tolerance,

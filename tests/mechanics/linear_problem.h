@@ -50,6 +50,7 @@ namespace Morula
       [](const std::vector<double> &) { return 0.; };
     bool                conservative = true;
     double              small        = 0.;
+    double              length       = 1.;
     std::vector<Vector> nulls;
 
     /** What Newton's method asked for. */
@@ -138,6 +139,12 @@ namespace Morula
     small_force() const override
     {
       return small;
+    }
+
+    double
+    typical_length() const override
+    {
+      return length;
     }
 
     double

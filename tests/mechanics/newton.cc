@@ -190,6 +190,30 @@ TEST(Newton, DoesNothingAtEquilibrium)
 }
 
 
+// A residual that counts as small leaves an error behind: Newton's method goes
+// on until that is small as well, or the residual is nothing but rounding.
+TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
+{
+  const auto error = [](const double length, unsigned int &iterations) {
+    ChainProblem problem = hardening(0.);
+    problem.length       = length;
+    const Result result  = solved(problem, 1e-2, "direct");
+    iterations           = result.report.newton_iterations;
+    double largest       = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      largest = std::max(largest, std::abs(result.u[i] - solution(i)));
+    return largest;
+  };
+  unsigned int at_once, later, latest;
+  EXPECT_GT(error(1e3, at_once), 1e-4);
+  EXPECT_LE(error(1e-2, later), 1e-4);
+  EXPECT_LE(error(1e-30, latest), 1e-12);
+  EXPECT_LT(at_once, later);
+  EXPECT_LT(later, latest);
+  EXPECT_LE(latest, at_once + 5u);
+}
+
+
 // The first full step would go far beyond the barrier at u = 1.
 TEST(Newton, StepsBackFromInversion)
 {

@@ -100,6 +100,10 @@ namespace Morula
     virtual double
     small_force() const = 0;
 
+    /** The length that errors of the increment are compared with, µm. */
+    virtual double
+    typical_length() const = 0;
+
     /** Typical entry of the tangent, kPa µm^(dim-2). */
     virtual double
     stiffness_scale() const = 0;

@@ -89,6 +89,10 @@ namespace Morula
     IndexSet
     coupled_dofs() const override;
 
+    /** The grid spacing h. */
+    double
+    typical_length() const override;
+
     double
     stiffness_scale() const override;
 

@@ -28,8 +28,9 @@ namespace Morula
    *   which rejects inversion (infinite energy) and tolerates rounding; others:
    *   backtracking on |R|;
    * - linear systems are solved to Eisenstat and Walker's forcing terms;
-   * - converged where |R| <= max(tol max(|R_0|, small force), rounding):
-   *   doc/theory.md (5.3).
+   * - converged where |R| <= max(tol max(|R_0|, small force), rounding), and
+   *   what is left to move, estimated from the last iteration, is below tol
+   *   times the typical length: doc/theory.md (5.3).
    *
    * @param u      out: the increment; initialised here
    * @param report in/out: this solve's work is added, also when it fails

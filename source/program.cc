@@ -12,6 +12,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -108,6 +109,17 @@ namespace Morula
   int
   Program::run(int argc, char *argv[]) const
   {
+    int       stop_signal = 0;
+    const int exit_code   = run_with_mpi(argc, argv, stop_signal);
+    if (stop_signal != 0)
+      std::raise(stop_signal);
+    return exit_code;
+  }
+
+
+  int
+  Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
+  {
     Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     deal_II_exceptions::disable_abort_on_exception();
     deal_II_exceptions::suppress_stacktrace_in_exceptions();
@@ -122,6 +134,13 @@ namespace Morula
     catch (const InputError &error)
       {
         return end_of_all_ranks(1, error.what(), MPI_COMM_WORLD);
+      }
+    catch (const RunStopped &stop)
+      {
+        stop_signal = stop.signal;
+        return end_of_all_ranks(2,
+                                std::string(stop.what()) + '\n' + resume_hint,
+                                MPI_COMM_WORLD);
       }
     catch (const std::bad_alloc &)
       {

@@ -46,12 +46,14 @@ namespace Morula
       }
     resumed_from.reset();
 
+    const StopSignals signals(comm);
     try
       {
         if (observe)
           observe();
         while (!must_stop())
           {
+            stop_if_asked(signals);
             step();
             files->step(row, births);
             write_condition();
@@ -62,6 +64,11 @@ namespace Morula
       }
     catch (const std::bad_alloc &)
       {
+        throw;
+      }
+    catch (const RunStopped &stop)
+      {
+        files->fail(stop.what());
         throw;
       }
     catch (const std::exception &error)

@@ -367,6 +367,18 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::stop_if_asked(const StopSignals &signals)
+  {
+    const int signal = signals.received();
+    if (signal == 0)
+      return;
+    files->write_snapshot(snapshot(), timer);
+    files->write_timings(timer);
+    throw RunStopped(signal, time_steps.time());
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::give_up(const std::string &reason)
   {
     --n_steps; // not done

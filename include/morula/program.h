@@ -35,11 +35,17 @@ namespace Morula
     bool resumes = true;
 
     /**
+     * Where a signal has stopped the run, ends the program by that signal, as
+     * who has sent it expects: a shell then ends its loop.
      * @return the exit code: 0 for success, 1 for bad input (InputError), 2 for
      *         any other exception
      */
     int
     run(int argc, char *argv[]) const;
+
+  private:
+    int
+    run_with_mpi(int argc, char *argv[], int &stop_signal) const;
   };
 } // namespace Morula
 

@@ -13,6 +13,7 @@
 #include <morula/particles/tissue.h>
 #include <morula/run_files.h>
 #include <morula/scene.h>
+#include <morula/stop_signals.h>
 #include <morula/time_steps.h>
 
 #include <deal.II/base/timer.h>
@@ -42,6 +43,8 @@ namespace Morula
      *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
+     * @throws RunStopped where SIGINT, SIGTERM or SIGUSR1 asked for it, after
+     *         the step in which they came; the state is saved
      */
     void
     run(const std::function<void()> &observe = {});
@@ -123,6 +126,8 @@ namespace Morula
     snapshot() const;
     void
     output(const bool last);
+    void
+    stop_if_asked(const StopSignals &signals); // RunStopped
     [[noreturn]] void
     give_up(const std::string &reason);
     [[noreturn]] void

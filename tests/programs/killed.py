@@ -63,11 +63,12 @@ class NewFiles:
 
 
 class Killed(ProgramTest):
-    def start(self, output, *arguments):
+    def start(self, output, *arguments, ranks=1, stderr=subprocess.DEVNULL):
         return subprocess.Popen(
             self.command(SCENE, "-s", f"Output directory={output}", *FINE,
-                         *arguments),
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                         *arguments, ranks=ranks),
+            stdout=subprocess.DEVNULL, stderr=stderr,
+            text=stderr == subprocess.PIPE)
 
     def wait_for_row(self, process, output, row):
         statistics = output / "statistics.csv"
@@ -78,16 +79,15 @@ class Killed(ProgramTest):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.001)
 
-    def interrupt(self, output, row, delay, number=signal.SIGKILL,
-                  arguments=()):
-        """Sends a signal some time after a row of statistics.csv was written;
+    def interrupt(self, output, row, delay, arguments=()):
+        """Kills a run some time after a row of statistics.csv was written;
         whether that was before the end of the run."""
         process = self.start(output, *arguments)
         try:
             self.wait_for_row(process, output, row)
             time.sleep(delay)
         finally:
-            process.send_signal(number)
+            process.kill()
             process.wait()
         return process.returncode != 0
 
@@ -186,15 +186,54 @@ class Killed(ProgramTest):
             self.assertLessEqual(abs(cells[0][name] - cells[1][name]).max(),
                                  tolerance, name)
 
+    def asked(self, number, output, ranks=1):
+        """What a run that is asked to end says; nothing that was computed is
+        lost then."""
+        with self.start(output, ranks=ranks,
+                        stderr=subprocess.PIPE) as process:
+            self.wait_for_row(process, output, 11)
+            process.send_signal(number)
+            said = process.communicate(timeout=PATIENCE)[1]
+        with h5py.File(output / "snapshot.h5") as file:
+            self.assertEqual(file.attrs["time"],
+                             last_time(output / "statistics.csv"))
+        self.assertIn("stopping after this step", said)
+        self.assertIn(f"by {signal.Signals(number).name}. The state is saved "
+                      "in snapshot.h5.", said)
+        self.assertIn("--resume' goes on from there", said)
+        self.assertIn("Stopped at t = ", (output / "log.txt").read_text())
+        return process.returncode
+
     def test_asked_to_end(self):
-        """SIGTERM, as batch systems send it, and Ctrl-C."""
+        """Ctrl-C, and SIGTERM or SIGUSR1 as batch systems send them: the run
+        saves its state and ends by the signal, as shells expect."""
         whole = self.whole()
-        for number in (signal.SIGTERM, signal.SIGINT):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             with self.subTest(number.name):
                 output = self.work / number.name
-                self.assertTrue(self.interrupt(output, 11, 0, number))
+                self.assertEqual(self.asked(number, output), -number)
                 self.resume(output)
                 self.assert_same_run(whole, output)
+
+    def test_ranks_asked_to_end(self):
+        """mpiexec hands SIGUSR1 on to the ranks."""
+        output = self.work / "output"
+        self.assertNotEqual(self.asked(signal.SIGUSR1, output, ranks=2), 0)
+        self.resume(output, ranks=2)
+
+    def test_asked_twice(self):
+        """The second signal ends the run at once, in the middle of a step."""
+        output = self.work / "output"
+        with self.start(output, "-s", "Tissue/Cell spacing=2.5",
+                        stderr=subprocess.PIPE) as process:
+            self.wait_for_row(process, output, 1)
+            process.send_signal(signal.SIGTERM)
+            heard = b""
+            while b"at once" not in heard:
+                heard += os.read(process.stderr.fileno(), 4096)
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(PATIENCE), -signal.SIGTERM)
+        self.assertFalse((output / "snapshot.h5").exists())
 
 
 def last_time(file):

@@ -179,8 +179,8 @@ class Runner:
         with self._guard:
             self._stopped = True
             children = list(self._children)
-        for number, patience in ((signal.SIGTERM, 5.0), (signal.SIGKILL, 1.0)):
-            # mpiexec hands the signal on to the ranks
+        for number, patience in ((signal.SIGTERM, 60.0), (signal.SIGKILL, 1.0)):
+            # They save their state after the step that they are at.
             children = [child for child in children if signalled(child, number)]
             end = time.monotonic() + patience
             while time.monotonic() < end and any(signalled(child, 0)

@@ -2,9 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 
 # What `cmake --install` puts below its prefix: the program, the library with
-# its headers and the package that find_package(Morula) reads, and scenes to
-# start from. Nothing of it names the build or the source directory, and the
-# whole may be moved.
+# its headers and the package that find_package(Morula) reads, scenes to start
+# from, and a project to start one's own effects from. Nothing of it names the
+# build or the source directory, and the whole may be moved.
 
 if(MORULA_SANITIZE)
   install(CODE "message(FATAL_ERROR \"Not installed: this build finds memory \
@@ -58,5 +58,9 @@ install(FILES ${PROJECT_SOURCE_DIR}/prm/demo.prm
   DESTINATION ${share_directory}/prm)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm/paper
   DESTINATION ${share_directory}/prm)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/example-project
+  DESTINATION ${share_directory}
+  PATTERN build EXCLUDE
+  PATTERN output EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${share_directory})

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// A growth law of your own, outside of Morula's tree: start here, and change
+// it.
+//
+// Tissues that feed through their surface, like spheroids of tumour cells, do
+// not grow at the same rate for ever. Gompertz (1825) lets the rate decay. The
+// growth stretch theta of each cell obeys
+//
+//   $\dot\theta / \theta = k\, e^{-a t}$, so that
+//   $\theta(t) = \exp\left( \frac{k}{a} (1 - e^{-a t}) \right)$,
+//
+// which comes to rest at $e^{k/a}$. The file has three parts: the keys, the
+// law, and a main() that adds it to the library's own. Everything else is
+// Morula.
+
+#include <morula/expression.h>
+#include <morula/input_error.h>
+#include <morula/program.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <cmath>
+#include <string>
+
+namespace MyMorula
+{
+  using namespace dealii;
+  using namespace Morula;
+
+  // The keys, with their defaults. What stands in the text is what
+  // --parameters prints; the unit at its end is what messages say. Numbers that
+  // may depend on the place are expressions, kept as text.
+  struct GompertzParameters
+  {
+    std::string rate  = "0.35";
+    double      decay = 0.5;
+
+    void
+    declare(ParameterHandler &prm)
+    {
+      prm.add_parameter("Rate",
+                        rate,
+                        "k: rate of the growth stretch at t = 0. An "
+                        "expression of X, Y, Z, evaluated at the founder's "
+                        "initial position. Units: 1/day.");
+      prm.add_parameter("Decay",
+                        decay,
+                        "a: by which the rate decays; >= 0, where 0 is growth "
+                        "at a constant rate. Units: 1/day.",
+                        Patterns::Double());
+    }
+  };
+
+
+  // The law has a type Parameters, is made of one, and does the two things that
+  // Morula::GrowthLaw asks for, in 2-D and 3-D alike.
+  template <int dim>
+  class GompertzGrowth : public GrowthLaw<dim>
+  {
+  public:
+    using Parameters = GompertzParameters;
+
+    // Called when the scene is checked, before any work: the place to refuse
+    // what makes no sense, with key, value, what is allowed, and what to do.
+    explicit GompertzGrowth(const Parameters &parameters)
+      : rate("Growth/Gompertz/Rate", parameters.rate)
+      , decay(parameters.decay)
+    {
+      if (!(decay >= 0.))
+        throw InputError("Growth/Gompertz/Decay",
+                         Patterns::Tools::to_string(decay),
+                         "a number >= 0",
+                         "Growth that accelerates has a negative Decay: take "
+                         "0, and a larger Rate.");
+    }
+
+    // What the law has made of a cell at t1, from what it had made at t0. It
+    // is exact for steps of any length.
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double            t0,
+           const double            t1) const override
+    {
+      const double k = rate.value(cell.founder_position, 0.);
+      return std::exp(k * (effective_time(t1) - effective_time(t0))) *
+             cell.growth;
+    }
+
+    // The volume to expect, for the memory that the scene will need.
+    double
+    expected_volume_ratio(const Point<dim> &X, const double t) const override
+    {
+      return std::exp(dim * rate.value(X, 0.) * effective_time(t));
+    }
+
+  private:
+    // (1 - exp(-a t))/a: the time that growth at the rate k would have needed.
+    double
+    effective_time(const double t) const
+    {
+      return decay > 0. ? -std::expm1(-decay * t) / decay : t;
+    }
+
+    const Expression rate;
+    const double     decay;
+  };
+} // namespace MyMorula
+
+
+// The name that `Growth/Law` knows the law by; its keys stand in the section
+// `Growth/Gompertz`.
+int
+main(int argc, char *argv[])
+{
+  Morula::Program program;
+  program.catalogue.add_growth_law<MyMorula::GompertzGrowth>("gompertz");
+  return program.run(argc, argv);
+}

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""For tests of what is installed, and of programs that are built with it."""
+from pathlib import Path
+
+from processes import ROOT, call
+
+EXAMPLE = ROOT / "contrib/example-project"
+
+
+class Installation:
+    """What a ProgramTest needs besides: a home of its own, and CMake."""
+
+    def setUp(self):
+        super().setUp()
+        self.build = Path(self.options.morula).parent
+        self.home = self.work / "home"
+        self.home.mkdir()
+
+    def call(self, *words, cwd=None, code=0):
+        """What a command prints, with a home of its own."""
+        found, text = call(["env", f"HOME={self.home}", *words],
+                           cwd=cwd or self.work)
+        self.assertEqual(found, code, f"{' '.join(map(str, words))}\n{text}")
+        return text
+
+    def install(self, prefix):
+        self.call("cmake", "--install", self.build, "--prefix", prefix)
+        return prefix
+
+    def configure(self, source, prefix, *options, code=0):
+        return self.call("cmake", "-S", source, "-B", source / "build",
+                         f"-DCMAKE_PREFIX_PATH={prefix}", *options, code=code)
+
+    def compile(self, source):
+        return self.call("cmake", "--build", source / "build")

@@ -80,7 +80,7 @@ namespace Morula
                              "principal_stress_3"})
       table.names.push_back(name);
     table.add_nonscalar("displacement", 3);
-    table.add_nonscalar("sigma", 6);
+    table.combine("sigma", "sigma_xx", 6);
     table.reserve(n_cells);
   }
 
@@ -121,13 +121,6 @@ namespace Morula
     for (const double principal : eigenvalues(sigma))
       values.push_back(principal);
     table.add_vector(position - cell.founder_position());
-    for (const double value : {sigma[0][0],
-                               sigma[1][1],
-                               sigma[2][2],
-                               sigma[0][1],
-                               sigma[1][2],
-                               sigma[2][0]})
-      values.push_back(value);
   }
 
   template CellQuantities

@@ -25,7 +25,7 @@ namespace Morula
                            "condition"};
     table.n_csv_columns = table.names.size();
     table.whole         = {"id", "condition"};
-    table.add_nonscalar("normal", 3);
+    table.combine("normal", "nx", 3);
     table.add_nonscalar("displacement", 3);
   }
 
@@ -51,7 +51,6 @@ namespace Morula
     table.add_vector(normal);
     values.push_back(area);
     values.push_back(static_cast<int>(point.condition()));
-    table.add_vector(normal);
     table.add_vector(position - point.initial_position());
   }
 

@@ -12,115 +12,114 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <numeric>
+#include <functional>
+#include <optional>
 #include <sstream>
 
 namespace Morula
 {
   namespace
   {
-    /** A scalar, vector or tensor of every point. */
+    /** A scalar, vector or tensor of every point, as it stands in the file. */
     struct Array
     {
-      std::string  name;
-      unsigned int first_column, n_components;
-      bool         whole; // numbers without fraction
-
-      std::size_t
-      bytes_of_point() const
+      enum Type
       {
-        return n_components * (whole ? sizeof(std::int32_t) : sizeof(float));
+        Float32,
+        Int32,
+        UInt8
+      };
+
+      std::string  name;
+      Type         type;
+      unsigned int n_components;
+      /** A component of a point. */
+      std::function<double(std::size_t, unsigned int)> value;
+
+      const char *
+      type_name() const
+      {
+        return type == Float32 ? "Float32" : type == Int32 ? "Int32" : "UInt8";
+      }
+
+      /** In the file, with the size in front. */
+      std::uint64_t
+      n_bytes(const std::uint64_t n_points) const
+      {
+        return sizeof(std::uint64_t) +
+               (type == UInt8 ? 1 : 4) * n_components * n_points;
       }
     };
 
+    /** The points themselves, each a cell of the file, then their fields. */
     template <int dim>
     std::vector<Array>
     arrays_of(const PointFields<dim> &fields)
     {
-      std::vector<Array> arrays;
-      unsigned int       column = 0;
+      constexpr double   vtk_vertex = 1;
+      std::vector<Array> arrays(4);
+      arrays[0] = {"Points", Array::Float32, 3, {}};
+      arrays[1] = {"connectivity", Array::Int32, 1, {}};
+      arrays[2] = {"offsets", Array::Int32, 1, {}};
+      arrays[3] = {"types", Array::UInt8, 1, {}};
+
+      arrays[0].value = [&fields](const std::size_t i, const unsigned int d) {
+        return d < dim ? fields.positions[i][d] : 0.;
+      };
+      arrays[1].value = [](const std::size_t i, unsigned int) { return i; };
+      arrays[2].value = [](const std::size_t i, unsigned int) { return i + 1; };
+      arrays[3].value = [](std::size_t, unsigned int) { return vtk_vertex; };
+
+      const auto add = [&](const std::string &name,
+                           const unsigned int first_column,
+                           const unsigned int n_columns) {
+        const bool whole = fields.whole.count(name) > 0;
+        arrays.push_back(
+          {name, whole ? Array::Int32 : Array::Float32, n_columns, {}});
+        arrays.back().value = [&fields, first_column](const std::size_t  i,
+                                                      const unsigned int c) {
+          return fields.row(i)[first_column + c];
+        };
+      };
+      for (unsigned int column = 0; column < fields.names.size(); ++column)
+        if (!fields.names[column].empty())
+          add(fields.names[column], column, 1);
       for (const auto &nonscalar : fields.nonscalars)
-        {
-          for (; column < nonscalar.first_column; ++column)
-            arrays.push_back({fields.names[column],
-                              column,
-                              1,
-                              fields.whole.count(fields.names[column]) > 0});
-          arrays.push_back(
-            {nonscalar.name, column, nonscalar.n_columns, false});
-          column += nonscalar.n_columns;
-        }
-      for (; column < fields.names.size(); ++column)
-        arrays.push_back({fields.names[column],
-                          column,
-                          1,
-                          fields.whole.count(fields.names[column]) > 0});
+        add(nonscalar.name, nonscalar.first_column, nonscalar.n_columns);
       return arrays;
     }
 
-    /** Sizes in bytes of a piece's arrays, in the order of the file: positions,
-     *  the vertices' connectivity, offsets and types, and the fields'. */
-    std::vector<std::uint64_t>
-    sizes_of(const std::vector<Array> &arrays, const std::uint64_t n_points)
-    {
-      std::vector<std::uint64_t> sizes = {3 * sizeof(float) * n_points,
-                                          sizeof(std::int32_t) * n_points,
-                                          sizeof(std::int32_t) * n_points,
-                                          n_points};
-      for (const Array &array : arrays)
-        sizes.push_back(array.bytes_of_point() * n_points);
-      return sizes;
-    }
-
-    template <typename T>
-    void
-    store(const T value, char *&target)
-    {
-      std::memcpy(target, &value, sizeof(T));
-      target += sizeof(T);
-    }
-
-    /** A piece's arrays, each behind its size, as they stand in the file. */
-    template <int dim>
+    /** This rank's part of an array, behind its size. */
     std::string
-    raw_data(const PointFields<dim> &fields, const std::vector<Array> &arrays)
+    raw_data(const Array &array, const std::size_t n_points)
     {
-      constexpr char      vtk_vertex = 1;
-      std::vector<char *> targets;
-      std::string         data;
-      const auto          sizes = sizes_of(arrays, fields.size());
-      data.resize(std::accumulate(sizes.begin(),
-                                  sizes.end(),
-                                  sizes.size() * sizeof(std::uint64_t)));
-      char *target = data.data();
-      for (const std::uint64_t size : sizes)
-        {
-          store(size, target);
-          targets.push_back(target);
-          target += size;
-        }
-      for (std::size_t i = 0; i < fields.size(); ++i)
-        {
-          for (unsigned int d = 0; d < 3; ++d)
-            store<float>(d < dim ? fields.positions[i][d] : 0., targets[0]);
-          store<std::int32_t>(i, targets[1]);
-          store<std::int32_t>(i + 1, targets[2]);
-          store<char>(vtk_vertex, targets[3]);
-          for (std::size_t k = 0; k < arrays.size(); ++k)
-            for (unsigned int c = 0; c < arrays[k].n_components; ++c)
-              {
-                const double value = fields.row(i)[arrays[k].first_column + c];
-                if (arrays[k].whole)
-                  store<std::int32_t>(std::lround(value), targets[4 + k]);
-                else
-                  store<float>(value, targets[4 + k]);
-              }
-        }
+      std::string data;
+      data.reserve(array.n_bytes(n_points));
+      const auto add = [&data](const auto value) {
+        char bytes[sizeof(value)];
+        std::memcpy(bytes, &value, sizeof(value));
+        data.append(bytes, sizeof(value));
+      };
+      add(array.n_bytes(n_points) - sizeof(std::uint64_t));
+      for (std::size_t i = 0; i < n_points; ++i)
+        for (unsigned int c = 0; c < array.n_components; ++c)
+          switch (const double value = array.value(i, c); array.type)
+            {
+              case Array::Float32:
+                add(static_cast<float>(value));
+                break;
+              case Array::Int32:
+                add(static_cast<std::int32_t>(std::lround(value)));
+                break;
+              case Array::UInt8:
+                add(static_cast<std::uint8_t>(value));
+                break;
+            }
       return data;
     }
 
-    /** The part of the file before the data: where each array of each piece
-     *  is found in these. */
+    /** The part of the file before the data: where each array of each rank's
+     *  piece is found in these, which hold one array after the other. */
     std::string
     description(const std::vector<Array>       &arrays,
                 const std::vector<std::size_t> &n_points,
@@ -139,31 +138,33 @@ namespace Morula
            << "<DataArray type=\"Float64\" Name=\"CYCLE\" "
               "NumberOfTuples=\"1\" format=\"ascii\">"
            << number << "</DataArray>\n</FieldData>\n";
-      std::uint64_t offset = 0;
+
+      std::vector<std::uint64_t> offsets; // of each array, of the next piece
+      std::uint64_t              end = 0;
+      for (const Array &array : arrays)
+        {
+          offsets.push_back(end);
+          for (const std::size_t n : n_points)
+            end += array.n_bytes(n);
+        }
       for (const std::size_t n : n_points)
         {
-          const auto sizes = sizes_of(arrays, n);
-          auto       size  = sizes.begin();
-          const auto array = [&](const std::string &type,
-                                 const std::string &name,
-                                 const unsigned int n_components) {
-            text << "<DataArray type=\"" << type << "\" Name=\"" << name
-                 << "\" NumberOfComponents=\"" << n_components
-                 << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
-            offset += sizeof(std::uint64_t) + *size++;
+          const auto describe = [&](const unsigned int k) {
+            text << "<DataArray type=\"" << arrays[k].type_name()
+                 << "\" Name=\"" << arrays[k].name << "\" NumberOfComponents=\""
+                 << arrays[k].n_components << "\" format=\"appended\" offset=\""
+                 << offsets[k] << "\"/>\n";
+            offsets[k] += arrays[k].n_bytes(n);
           };
           text << "<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
                << "\">\n<Points>\n";
-          array("Float32", "Points", 3);
+          describe(0);
           text << "</Points>\n<Cells>\n";
-          array("Int32", "connectivity", 1);
-          array("Int32", "offsets", 1);
-          array("UInt8", "types", 1);
+          for (unsigned int k = 1; k < 4; ++k)
+            describe(k);
           text << "</Cells>\n<PointData>\n";
-          for (const Array &field : arrays)
-            array(field.whole ? "Int32" : "Float32",
-                  field.name,
-                  field.n_components);
+          for (unsigned int k = 4; k < arrays.size(); ++k)
+            describe(k);
           text << "</PointData>\n</Piece>\n";
         }
       text << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
@@ -187,15 +188,24 @@ namespace Morula
     const std::vector<Array>       arrays = arrays_of(fields);
     const std::vector<std::size_t> n_points =
       Utilities::MPI::gather(comm, fields.size());
-    const std::vector<std::string> pieces =
-      gather_to_root(raw_data(fields, arrays), comm);
+    std::optional<AtomicFile> file; // on rank 0
     on_root(comm, [&]() {
-      AtomicFile file(path);
-      file.write(description(arrays, n_points, time, number));
-      for (const std::string &piece : pieces)
-        file.write(piece);
-      file.write("\n</AppendedData>\n</VTKFile>\n");
-      file.commit();
+      file.emplace(path);
+      file->write(description(arrays, n_points, time, number));
+    });
+    // One array at a time, as all at once would take as much memory again.
+    for (const Array &array : arrays)
+      {
+        const std::vector<std::string> pieces =
+          gather_to_root(raw_data(array, fields.size()), comm);
+        on_root(comm, [&]() {
+          for (const std::string &piece : pieces)
+            file->write(piece);
+        });
+      }
+    on_root(comm, [&]() {
+      file->write("\n</AppendedData>\n</VTKFile>\n");
+      file->commit();
     });
   }
 

@@ -35,6 +35,7 @@ namespace
     fields.whole         = {"id"};
     fields.add_nonscalar("displacement", 3);
     fields.add_nonscalar("sigma", 9);
+    fields.combine("both", "id", 2);
     for (unsigned int id = 0; id < n; ++id)
       if (n_ranks == 1 || 1 + id % (n_ranks - 1) == rank)
         {
@@ -91,8 +92,11 @@ namespace
     const auto found = summary(path);
     EXPECT_EQ(found.first, 7u);
     EXPECT_EQ(found.second,
-              (std::map<std::string, unsigned int>{
-                {"id", 1}, {"energy", 1}, {"displacement", 3}, {"sigma", 9}}));
+              (std::map<std::string, unsigned int>{{"id", 1},
+                                                   {"energy", 1},
+                                                   {"displacement", 3},
+                                                   {"sigma", 9},
+                                                   {"both", 2}}));
     EXPECT_EQ(directory.files(), std::vector<std::string>{"cells-0002.vtu"});
   }
 
@@ -115,6 +119,7 @@ for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
         assert grid.GetPoint(i) == tuple(x), grid.GetPoint(i)
         assert data.GetArray('id').GetDataTypeAsString() == 'int'
         assert data.GetArray('energy').GetValue(i) == 0.5 * n
+        assert data.GetArray('both').GetTuple(i) == (n, 0.5 * n)
         u = data.GetArray('displacement').GetTuple(i)
         assert u == tuple(0.25 * c for c in x), u
         sigma = data.GetArray('sigma').GetTuple(i)

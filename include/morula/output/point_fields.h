@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ namespace Morula
       unsigned int n_columns;
     };
 
+    /** Of the columns; empty for those that are part of a nonscalar only. */
     std::vector<std::string> names;
     /** The columns behind these are for VTU files only. */
     unsigned int           n_csv_columns = 0;
@@ -54,7 +56,18 @@ namespace Morula
     {
       const unsigned int first_column = names.size();
       nonscalars.push_back({name, first_column, n_columns});
-      names.insert(names.end(), n_columns, name);
+      names.insert(names.end(), n_columns, "");
+    }
+
+    /** Makes a vector or tensor of columns that are there. */
+    void
+    combine(const std::string &name,
+            const std::string &first,
+            const unsigned int n_columns)
+    {
+      const auto found = std::find(names.begin(), names.end(), first);
+      nonscalars.push_back(
+        {name, static_cast<unsigned int>(found - names.begin()), n_columns});
     }
 
     /** Appends the three values of a vector to the last row, 2-D: z = 0. */

@@ -10,19 +10,23 @@ that is farthest outside, and so on until no corner is outside. Planes of
 boundary points farther away, which would cut off what lies round a concave
 surface, do not come into it.
 """
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial import cKDTree
 
 from .cutting import cut
-from .polyhedra import FAR, SURFACE, joined
+from .polyhedra import FAR, FLAT, SURFACE, joined
 
 # In lengths of a cell, the cube root of its volume:
 OUTSIDE = 1e-3  # corners less far outside are not cut off
-INSIDE = 0.05   # so far inside of each of its planes a cell counts
+INSIDE = 0.05   # so far inside of its planes a cell is whose region is raised
+RAISED = 0.62   # half the edge of the cube that it stays in
 BEYOND = 0.5    # so far outside of its own part of the surface a cell may be
 ASTRAY = 2.0    # ... and if there is none like that, so far
 
 SAME_SIDE = 0.5   # least cosine between normals of one part of the surface
+LEAST = 0.2       # of a cell's volume: a smaller region is raised
 NEAR = 8          # boundary points that are looked at for a cell's own one
 MOST_PLANES = 50  # through a region
 
@@ -51,8 +55,8 @@ class Boundary:
 class Planes:
     """The planes that may cut the regions of some cells, numbered from 0."""
 
-    def __init__(self, boundary, centres, lengths):
-        self.boundary = boundary
+    def __init__(self, boundary, centres, lengths, raised=False):
+        self.boundary, self.raised = boundary, raised
         self.centres, self.lengths = centres, lengths  # um
         self.own, own_height = self._own_points()
         # How far (um) a cell may be outside of planes of its own part of the
@@ -81,7 +85,9 @@ class Planes:
 
     def shift(self, cells, points):
         """How far (um) the planes of boundary points move outward for cells
-        that are too near to them, or beyond."""
+        whose regions are raised: so far that the cells are inside."""
+        if not self.raised:
+            return np.zeros(len(points))
         height = self.boundary.height(points, self.centres[cells])
         return np.maximum(0, height + INSIDE * self.lengths[cells])
 
@@ -127,10 +133,32 @@ class Planes:
         return chosen
 
 
-def cut_at_surface(bodies, boundary, centres, lengths):
+def cut_at_surface(bodies, boundary, centres, lengths, volumes):
     """The regions of cells at the centres (n, 3), cut off at the surface;
-    lengths (n), um, are those of the cells."""
-    planes = Planes(boundary, centres, lengths)
+    lengths and volumes (n), um, are those of the cells.
+
+    A cell outside of the surface keeps what its region has inside. Where that
+    is next to nothing, the region is raised: planes move outward until the
+    cell is inside, but it does not reach farther than a cell does."""
+    result = cut_by_planes(bodies, Planes(boundary, centres, lengths))
+    low = result.volumes(centres) < LEAST * volumes
+    if low.any():
+        again = replace(bodies.select(low[bodies.owner]), points=result.points)
+        again = cut_by_planes(again, Planes(boundary, centres, lengths,
+                                            raised=True))
+        again = cut_to_cube(again, centres, RAISED * lengths)
+        result = joined([result.select(~low[result.owner]), again])
+    # Cells that are lost far outside have no surface near them.
+    lost = np.zeros(len(centres), dtype=bool)
+    lost[result.owner[result.beyond == FAR]] = True
+    if lost.any():
+        again = cut_to_cube(result.select(lost[result.owner]), centres, lengths)
+        result = joined([result.select(~lost[result.owner]), again])
+    return result
+
+
+def cut_by_planes(bodies, planes):
+    """Until no corner is outside that a plane may cut off."""
     finished, points = [], planes.first_points()
     for _ in range(MOST_PLANES):
         bodies = planes.cut(bodies, points)
@@ -140,20 +168,14 @@ def cut_at_surface(bodies, boundary, centres, lengths):
         bodies = bodies.select(more)
         if not len(bodies.owner):
             break
-    return cut_far(joined([*finished, bodies]), centres, lengths)
+    return joined([*finished, bodies])
 
 
-def cut_far(bodies, centres, lengths):
-    """Regions that still reach points far away, of cells that are lost
-    outside, within a cube of twice their length."""
-    lost = np.zeros(len(centres), dtype=bool)
-    lost[bodies.owner[bodies.beyond == FAR]] = True
-    if not lost.any():
-        return bodies
-    rest, bodies = (bodies.select(~lost[bodies.owner]),
-                    bodies.select(lost[bodies.owner]))
-    for direction in np.vstack([np.eye(3), -np.eye(3)]):
+def cut_to_cube(bodies, centres, half_edges):
+    """What is in the cubes round the cells (2-D: squares)."""
+    dim = 2 if np.any(bodies.beyond == FLAT) else 3
+    for direction in np.vstack([np.eye(dim, 3), -np.eye(dim, 3)]):
         normal = np.tile(direction, (len(centres), 1))
-        bodies = cut(bodies, centres + lengths[:, None] * normal, normal,
+        bodies = cut(bodies, centres + half_edges[:, None] * normal, normal,
                      np.full(len(centres), SURFACE))
-    return joined([rest, bodies])
+    return bodies

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The regions of all cells of a state, and what is measured of them."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,11 +48,10 @@ def regions_of(positions, volumes, boundary, flat):
     number = np.cumsum(at_surface) - 1
     outer = at_surface[bodies.owner]
     inner, outer = bodies.select(~outer), bodies.select(outer)
-    outer = Polyhedra(outer.points, outer.corners, outer.starts,
-                      number[outer.owner], outer.beyond)
-    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells])
-    outer = Polyhedra(outer.points, outer.corners, outer.starts,
-                      cells[outer.owner], outer.beyond)
+    outer = replace(outer, owner=number[outer.owner])
+    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells],
+                           volumes[cells])
+    outer = replace(outer, owner=cells[outer.owner])
     bodies = joined([inner, outer])
     return measured(bodies.select(np.argsort(bodies.owner, kind="stable")),
                     centres, flat)

@@ -21,12 +21,12 @@ from .polyhedra import FAR, FLAT, SURFACE, joined
 # In lengths of a cell, the cube root of its volume:
 OUTSIDE = 1e-3  # corners less far outside are not cut off
 INSIDE = 0.05   # so far inside of its planes a cell is whose region is raised
-RAISED = 0.62   # half the edge of the cube that it stays in
+RAISED = 0.5    # half the edge of the cube that it stays in
 BEYOND = 0.5    # so far outside of its own part of the surface a cell may be
-ASTRAY = 2.0    # ... and if there is none like that, so far
+ASTRAY = 2.0    # ... and beyond other planes of that part, so much farther
 
 SAME_SIDE = 0.5   # least cosine between normals of one part of the surface
-LEAST = 0.2       # of a cell's volume: a smaller region is raised
+LEAST = 0.05      # of a cell's volume: a smaller region is raised
 NEAR = 8          # boundary points that are looked at for a cell's own one
 MOST_PLANES = 50  # through a region
 
@@ -60,8 +60,8 @@ class Planes:
         self.centres, self.lengths = centres, lengths  # um
         self.own, own_height = self._own_points()
         # How far (um) a cell may be outside of planes of its own part of the
-        # surface. A daughter can be put a little outside.
-        self.slack = np.maximum(0, own_height) + BEYOND * lengths
+        # surface. A daughter can be put outside.
+        self.slack = np.maximum(0, own_height) + ASTRAY * lengths
         self.astray = own_height > ASTRAY * lengths
 
     def _own_points(self):

@@ -16,7 +16,9 @@ NAME = "cell-shapes"
 @contextmanager
 def replaced(file):
     """The name of a file that takes the place of `file` if all goes well."""
-    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.")
+    # VTK drops an underscore at the end of a name, which would be another file.
+    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.",
+                                    suffix=".part")
     os.close(handle)
     try:
         yield name
@@ -35,7 +37,8 @@ def write_grid(grid, file):
         writer.SetInputData(grid)
         writer.SetDataModeToAppended()
         writer.EncodeAppendedDataOff()
-        if not writer.Write() or writer.GetErrorCode():
+        if (not writer.Write() or writer.GetErrorCode()
+                or not os.path.getsize(name)):
             raise OSError(f"{file} could not be written: is the disk full?")
 
 

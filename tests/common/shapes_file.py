@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What contrib/cell-shapes has written, read with VTK and nothing of its own."""
+"""What contrib/cell-shapes has written, read with VTK and nothing of ours."""
 import numpy as np
 from scipy.spatial import ConvexHull
 from vtkmodules.util.numpy_support import vtk_to_numpy

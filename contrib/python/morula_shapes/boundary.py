@@ -27,7 +27,7 @@ ASTRAY = 2.0    # ... and beyond other planes of that part, so much farther
 
 SAME_SIDE = 0.5   # least cosine between normals of one part of the surface
 LEAST = 0.05      # of a cell's volume: a smaller region is raised
-NEAR = 8          # boundary points that are looked at for a cell's own one
+NEAR = 8          # boundary points that are looked at, nearest first
 MOST_PLANES = 50  # through a region
 
 
@@ -41,6 +41,11 @@ class Boundary:
     def nearest(self, places):
         """Number of the boundary point nearest to each place (n, 3)."""
         return self.tree.query(places)[1]
+
+    def near(self, places):
+        """The boundary points nearest to each place, nearest first."""
+        number = min(NEAR, len(self.positions))
+        return self.tree.query(places, number)[1].reshape(-1, number)
 
     def height(self, points, places):
         """How far (um) places are outside of the planes of boundary points."""
@@ -68,9 +73,7 @@ class Planes:
         """For each cell, the nearest boundary point that does not have it far
         outside, or else the nearest of all; and how far (um) it is outside of
         that one's plane."""
-        near = self.boundary.tree.query(
-            self.centres, min(NEAR, len(self.boundary.positions)))[1]
-        near = near.reshape(len(self.centres), -1)
+        near = self.boundary.near(self.centres)
         height = self.boundary.height(
             near.ravel(), np.repeat(self.centres, near.shape[1], axis=0))
         height = height.reshape(near.shape)
@@ -105,6 +108,8 @@ class Planes:
         """The regions, cut by the plane of one boundary point each; of -1 by
         none. `points` has an entry for every cell."""
         cut_now = points[bodies.owner] >= 0
+        if not cut_now.any():
+            return bodies
         shift = self.shift(np.arange(len(points)), points)
         normal = self.boundary.normals[points]
         origin = self.boundary.positions[points] + shift[:, None] * normal
@@ -112,6 +117,15 @@ class Planes:
                       np.full(len(points), SURFACE))
         rest = bodies.select(~cut_now)
         return joined([rest, changed])
+
+    def other_points(self, cells, places):
+        """For places that are outside of the surface of another part, across
+        a gap: the nearest boundary points that may cut, if there are such."""
+        near = self.boundary.near(places)
+        shape = near.shape
+        allowed = self.allowed(np.repeat(cells, shape[1]), near.ravel())
+        first = allowed.reshape(shape).argmax(axis=1)
+        return near[np.arange(len(near)), first]
 
     def next_points(self, bodies):
         """For every cell the boundary point whose plane is to cut its region
@@ -124,9 +138,14 @@ class Planes:
         height = (self.boundary.height(points, places)
                   - self.shift(owner, points))
         outside = height > OUTSIDE * self.lengths[owner]
-        owner, points, height = owner[outside], points[outside], height[outside]
+        owner, places, points = owner[outside], places[outside], points[outside]
         allowed = self.allowed(owner, points)
-        owner, points, height = owner[allowed], points[allowed], height[allowed]
+        points[~allowed] = self.other_points(owner[~allowed], places[~allowed])
+        height = (self.boundary.height(points, places)
+                  - self.shift(owner, points))
+        cuts = ((height > OUTSIDE * self.lengths[owner])
+                & self.allowed(owner, points))
+        owner, points, height = owner[cuts], points[cuts], height[cuts]
         order = np.lexsort([height, owner])
         chosen = np.full(len(self.own), -1)
         chosen[owner[order]] = points[order]  # the last of each cell

@@ -17,17 +17,18 @@ from .grid import grid_of
 from .regions import regions_of_state
 from .writing import file_of, write_collection, write_grid
 
-DESCRIPTION = """Writes the cells of a run as polyhedra, for ParaView: the Voronoi region of each
-cell among all cells, cut off at the tissue's surface (2-D: polygons).
+DESCRIPTION = """Writes the cells of a run as polyhedra, for ParaView: the
+Voronoi region of each cell among all cells, cut off at the tissue's surface
+(2-D: polygons).
 
     contrib/cell-shapes output/bud                     the last state
     contrib/cell-shapes output/bud --all               all states
     contrib/cell-shapes output/bud --time 1 --where "y < 0 && generation >= 2"
 
-It writes cell-shapes-NNNN.vtu for cells-NNNN, with all columns of the cells and
-region_volume, neighbours and touches_surface besides, and cell-shapes.pvd, which
-lists them over time. doc/looking-at-results.md says how regions are cut off, and
-how well they fill the tissue.
+It writes cell-shapes-NNNN.vtu for cells-NNNN, with all columns of the cells,
+and region_volume, neighbours and touches_surface besides, and cell-shapes.pvd,
+which lists them over time. doc/looking-at-results.md says how regions are cut
+off, and how well they fill the tissue.
 """
 
 

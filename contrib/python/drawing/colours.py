@@ -17,6 +17,8 @@ FIELDS = {
     "elastic_volume_ratio": ("Elastic volume ratio $J_e$", "cividis"),
     "growth_volume_ratio": ("Growth volume ratio $J_g$", "viridis"),
     "pressure": ("Pressure [kPa]", "cividis"),
+    "region_volume": ("Volume of the region [µm³]", "viridis"),
+    "neighbours": ("Neighbours", "viridis"),
 }
 WHOLE_NUMBERS = ("generation", "phase")
 

@@ -61,13 +61,20 @@ def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
                 half_height)
 
 
-def behind_cut(positions, azimuth=-60.0, turn=30.0):
-    """Which points stay when the tissue is cut open through its middle by a
-    vertical plane that faces a viewer at this azimuth, but for a turn to the
+def cut_plane(positions, azimuth=-60.0, turn=30.0):
+    """A point (µm) and the unit normal of the vertical plane through the
+    tissue's middle that faces a viewer at this azimuth, but for a turn to the
     side (degrees)."""
     angle = np.radians(azimuth + turn)
-    depth = positions[:, :2] @ [np.cos(angle), np.sin(angle)]
-    return depth <= (depth.min() + depth.max()) / 2
+    normal = np.array([np.cos(angle), np.sin(angle), 0])
+    depth = positions @ normal
+    return normal * (depth.min() + depth.max()) / 2, normal
+
+
+def behind_cut(positions, azimuth=-60.0, turn=30.0):
+    """Which points stay when the tissue is cut open by this plane."""
+    origin, normal = cut_plane(positions, azimuth, turn)
+    return positions @ normal <= origin @ normal
 
 
 def poly_data(positions, colours):

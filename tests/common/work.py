@@ -56,11 +56,14 @@ def excess(found, reference, ranks):
     """What was done more often than in the reference, or less often: then the
     reference is to be renewed. A list of texts."""
     texts = []
-    for row in read(reference):
-        name, usual = row["counter"], int(row["value"])
+    usual_work = {row["counter"]: int(row["value"]) for row in read(reference)}
+    tangents = max(usual_work["newton_iterations"], 1)
+    for name, usual in usual_work.items():
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":
             upper *= RANKS_FACTOR
-        if not lower - 2 <= found[name] <= upper + 2:
+        # Two of whatever is counted, and what two tangents take.
+        few = 2 * usual / tangents if name == "tangent_kflop" else 2
+        if not lower - few <= found[name] <= upper + few:
             texts.append(f"{name}: {found[name]}, in the reference {usual}")
     return texts

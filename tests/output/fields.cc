@@ -61,9 +61,13 @@ namespace
     return values;
   }
 
+  /** The first component of a nonscalar. */
   double
   vtu_value(const PointFields<2> &fields, const std::string &name)
   {
+    for (const auto &nonscalar : fields.nonscalars)
+      if (nonscalar.name == name)
+        return fields.row(0)[nonscalar.first_column];
     for (unsigned int c = fields.n_csv_columns; c < fields.names.size(); ++c)
       if (fields.names[c] == name)
         return fields.row(0)[c];

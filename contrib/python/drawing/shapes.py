@@ -3,9 +3,9 @@
 """Cells as polyhedra with flat faces and dark edges."""
 import numpy as np
 from morula_shapes.cutting import cut
+from morula_shapes.grid import lists_of_points
 from morula_shapes.polyhedra import SURFACE, joined
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from .shading import cell_array, poly_data, shaded_actor
@@ -52,7 +52,7 @@ def shape_actors(bodies, colours, width):
     places, colour = faces.points[faces.corners], np.repeat(
         colours[faces.owner], faces.counts, axis=0)
     data = poly_data(places, colour)
-    data.SetPolys(cells_of(faces.starts, np.arange(len(places))))
+    data.SetPolys(lists_of_points(faces.starts, np.arange(len(places))))
     normal = numpy_to_vtk(np.repeat(unit_normals(faces), faces.counts, axis=0),
                           deep=True)
     data.GetPointData().SetNormals(normal)
@@ -101,11 +101,3 @@ def edge_actor(faces, width):
     look.SetLineWidth(width)
     look.LightingOff()
     return actor
-
-
-def cells_of(starts, corners):
-    """VTK's list of polygons."""
-    cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
-                  numpy_to_vtkIdTypeArray(corners.astype(np.int64), deep=True))
-    return cells

@@ -27,7 +27,7 @@ def grid_of(bodies, columns, kept, flat):
     places.SetData(numpy_to_vtk(points, deep=True))
     grid.SetPoints(places)
     if flat:
-        grid.SetCells(VTK_POLYGON, cell_array(bodies.starts, corners))
+        grid.SetCells(VTK_POLYGON, lists_of_points(bodies.starts, corners))
     else:
         add_polyhedra(grid, bodies, corners, len(points))
     for name, values in columns.items():
@@ -37,7 +37,7 @@ def grid_of(bodies, columns, kept, flat):
     return grid
 
 
-def cell_array(starts, corners):
+def lists_of_points(starts, corners):
     """VTK's list of lists of points."""
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(starts.astype(np.int64), deep=True),
@@ -67,6 +67,6 @@ def add_polyhedra(grid, bodies, corners, number):
     stream[ranges(face_at + 1, bodies.counts)] = corners
     kinds = numpy_to_vtk(np.full(len(owners), VTK_POLYHEDRON, dtype=np.uint8),
                          deep=True)
-    grid.SetCells(kinds, cell_array(starts, points),
+    grid.SetCells(kinds, lists_of_points(starts, points),
                   numpy_to_vtkIdTypeArray(cell_at, deep=True),
                   numpy_to_vtkIdTypeArray(stream, deep=True))

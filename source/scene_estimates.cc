@@ -24,10 +24,10 @@ namespace Morula
       // position, reference position, id, place in the grid: about 200 bytes;
       // and what a step makes of them
       const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
-      const double cell = (dim == 2 ? 3. : 4.) * (8. * slots.n_slots + 200.);
+      const double cell = (dim == 2 ? 2.7 : 2.3) * (8. * slots.n_slots + 200.);
       // a row couples with 5^dim splines, 12 bytes an entry; matrix,
       // preconditioner and positions of the entries
-      const double row     = 2.7 * 12. * dim * std::pow(5., dim);
+      const double row     = 2.6 * 12. * dim * std::pow(5., dim);
       const double factors = scene.solver.linear_solver != "direct" ? 0. :
                              dim == 2 ? 370. * n * std::log(n) :
                                         1000. * std::pow(n, 4. / 3.);
@@ -61,11 +61,11 @@ namespace Morula
       const double n_points =
         n_cells * std::pow(scene.grid.points_per_cell, dim);
       const double point    = dim == 2 ? (is_projected ? 1.5e-6 : 0.6e-6) :
-                                         (is_projected ? 2e-6 : 0.75e-6);
-      const double equation = dim == 2 ? 4e-6 : 40e-6;
+                                         (is_projected ? 2.5e-6 : 0.5e-6);
+      const double equation = dim == 2 ? 4e-6 : 26e-6;
       const double factors  = scene.solver.linear_solver != "direct" ? 0. :
                               dim == 2 ? 2e-7 * std::pow(n, 1.5) :
-                                         9e-8 * n * n;
+                                         6e-8 * n * n;
       return newton_iterations * (n_points * point + n * equation + factors);
     }
 

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <sstream>
 
@@ -33,8 +32,7 @@ namespace Morula
       std::string  name;
       Type         type;
       unsigned int n_components;
-      /** A component of a point. */
-      std::function<double(std::size_t, unsigned int)> value;
+      unsigned int first_column; // of the fields
 
       const char *
       type_name() const
@@ -51,77 +49,111 @@ namespace Morula
       }
     };
 
-    /** The points themselves, each a cell of the file, then their fields. */
+    /** Arrays that stand together, one behind the other, for each piece. */
+    using Group = std::vector<Array>;
+
+    /** First the points themselves, each a cell of the file, then their fields:
+     *  some at a time, as all at once would take as much memory again. */
     template <int dim>
-    std::vector<Array>
-    arrays_of(const PointFields<dim> &fields)
+    std::vector<Group>
+    groups_of(const PointFields<dim> &fields)
     {
-      constexpr double   vtk_vertex = 1;
-      std::vector<Array> arrays(4);
-      arrays[0] = {"Points", Array::Float32, 3, {}};
-      arrays[1] = {"connectivity", Array::Int32, 1, {}};
-      arrays[2] = {"offsets", Array::Int32, 1, {}};
-      arrays[3] = {"types", Array::UInt8, 1, {}};
+      constexpr std::size_t largest_group = 8;
+      const Group           points        = {{"Points", Array::Float32, 3, 0},
+                                             {"connectivity", Array::Int32, 1, 0},
+                                             {"offsets", Array::Int32, 1, 0},
+                                             {"types", Array::UInt8, 1, 0}};
 
-      arrays[0].value = [&fields](const std::size_t i, const unsigned int d) {
-        return d < dim ? fields.positions[i][d] : 0.;
-      };
-      arrays[1].value = [](const std::size_t i, unsigned int) { return i; };
-      arrays[2].value = [](const std::size_t i, unsigned int) { return i + 1; };
-      arrays[3].value = [](std::size_t, unsigned int) { return vtk_vertex; };
-
-      const auto add = [&](const std::string &name,
-                           const unsigned int first_column,
-                           const unsigned int n_columns) {
+      std::vector<Group> groups = {points, {}};
+      const auto         add    = [&](const std::string &name,
+                           const unsigned int first,
+                           const unsigned int n) {
         const bool whole = fields.whole.count(name) > 0;
-        arrays.push_back(
-          {name, whole ? Array::Int32 : Array::Float32, n_columns, {}});
-        arrays.back().value = [&fields, first_column](const std::size_t  i,
-                                                      const unsigned int c) {
-          return fields.row(i)[first_column + c];
-        };
+        if (groups.back().size() == largest_group)
+          groups.emplace_back();
+        groups.back().push_back(
+          {name, whole ? Array::Int32 : Array::Float32, n, first});
       };
       for (unsigned int column = 0; column < fields.names.size(); ++column)
         if (!fields.names[column].empty())
           add(fields.names[column], column, 1);
       for (const auto &nonscalar : fields.nonscalars)
         add(nonscalar.name, nonscalar.first_column, nonscalar.n_columns);
-      return arrays;
+      return groups;
     }
 
-    /** This rank's part of an array, behind its size. */
-    std::string
-    raw_data(const Array &array, const std::size_t n_points)
+    template <typename T>
+    void
+    store(const T value, char *&target)
     {
-      std::string data;
-      data.reserve(array.n_bytes(n_points));
-      const auto add = [&data](const auto value) {
-        char bytes[sizeof(value)];
-        std::memcpy(bytes, &value, sizeof(value));
-        data.append(bytes, sizeof(value));
-      };
-      add(array.n_bytes(n_points) - sizeof(std::uint64_t));
-      for (std::size_t i = 0; i < n_points; ++i)
-        for (unsigned int c = 0; c < array.n_components; ++c)
-          switch (const double value = array.value(i, c); array.type)
-            {
-              case Array::Float32:
-                add(static_cast<float>(value));
-                break;
-              case Array::Int32:
-                add(static_cast<std::int32_t>(std::lround(value)));
-                break;
-              case Array::UInt8:
-                add(static_cast<std::uint8_t>(value));
-                break;
-            }
+      std::memcpy(target, &value, sizeof(T));
+      target += sizeof(T);
+    }
+
+    /** Room for a group's arrays, each behind its size; where each begins. */
+    std::vector<char *>
+    make_room(const Group &group, const std::size_t n_points, std::string &data)
+    {
+      std::size_t size = 0;
+      for (const Array &array : group)
+        size += array.n_bytes(n_points);
+      data.resize(size);
+      std::vector<char *> targets;
+      char               *target = data.data();
+      for (const Array &array : group)
+        {
+          char *const end = target + array.n_bytes(n_points);
+          store(array.n_bytes(n_points) - sizeof(std::uint64_t), target);
+          targets.push_back(target);
+          target = end;
+        }
+      return targets;
+    }
+
+    /** This rank's piece of the first group. */
+    template <int dim>
+    std::string
+    points_data(const PointFields<dim> &fields, const Group &group)
+    {
+      constexpr std::uint8_t    vtk_vertex = 1;
+      std::string               data;
+      const std::vector<char *> begins = make_room(group, fields.size(), data);
+      char *points = begins[0], *connectivity = begins[1], *offsets = begins[2];
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        {
+          for (unsigned int d = 0; d < 3; ++d)
+            store<float>(d < dim ? fields.positions[i][d] : 0., points);
+          store<std::int32_t>(i, connectivity);
+          store<std::int32_t>(i + 1, offsets);
+        }
+      std::memset(begins[3], vtk_vertex, fields.size());
+      return data;
+    }
+
+    /** This rank's piece of another group. */
+    template <int dim>
+    std::string
+    fields_data(const PointFields<dim> &fields, const Group &group)
+    {
+      std::string         data;
+      std::vector<char *> targets = make_room(group, fields.size(), data);
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        for (std::size_t k = 0; k < group.size(); ++k)
+          {
+            const double *const values = fields.row(i) + group[k].first_column;
+            for (unsigned int c = 0; c < group[k].n_components; ++c)
+              if (group[k].type == Array::Int32)
+                store<std::int32_t>(std::lround(values[c]), targets[k]);
+              else
+                store<float>(values[c], targets[k]);
+          }
       return data;
     }
 
     /** The part of the file before the data: where each array of each rank's
-     *  piece is found in these, which hold one array after the other. */
+     *  piece is found in these, which hold one group after the other. */
     std::string
-    description(const std::vector<Array>       &arrays,
+    description(const std::vector<Group>       &groups,
                 const std::vector<std::size_t> &n_points,
                 const double                    time,
                 const unsigned int              number)
@@ -139,32 +171,34 @@ namespace Morula
               "NumberOfTuples=\"1\" format=\"ascii\">"
            << number << "</DataArray>\n</FieldData>\n";
 
-      std::vector<std::uint64_t> offsets; // of each array, of the next piece
+      std::vector<std::uint64_t> offsets; // of each group, of the next piece
       std::uint64_t              end = 0;
-      for (const Array &array : arrays)
+      for (const Group &group : groups)
         {
           offsets.push_back(end);
           for (const std::size_t n : n_points)
-            end += array.n_bytes(n);
+            for (const Array &array : group)
+              end += array.n_bytes(n);
         }
       for (const std::size_t n : n_points)
         {
-          const auto describe = [&](const unsigned int k) {
-            text << "<DataArray type=\"" << arrays[k].type_name()
-                 << "\" Name=\"" << arrays[k].name << "\" NumberOfComponents=\""
-                 << arrays[k].n_components << "\" format=\"appended\" offset=\""
-                 << offsets[k] << "\"/>\n";
-            offsets[k] += arrays[k].n_bytes(n);
+          const auto describe = [&](const unsigned int g, const Array &array) {
+            text << "<DataArray type=\"" << array.type_name() << "\" Name=\""
+                 << array.name << "\" NumberOfComponents=\""
+                 << array.n_components << "\" format=\"appended\" offset=\""
+                 << offsets[g] << "\"/>\n";
+            offsets[g] += array.n_bytes(n);
           };
           text << "<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
                << "\">\n<Points>\n";
-          describe(0);
+          describe(0, groups[0][0]);
           text << "</Points>\n<Cells>\n";
-          for (unsigned int k = 1; k < 4; ++k)
-            describe(k);
+          for (unsigned int k = 1; k < groups[0].size(); ++k)
+            describe(0, groups[0][k]);
           text << "</Cells>\n<PointData>\n";
-          for (unsigned int k = 4; k < arrays.size(); ++k)
-            describe(k);
+          for (unsigned int g = 1; g < groups.size(); ++g)
+            for (const Array &array : groups[g])
+              describe(g, array);
           text << "</PointData>\n</Piece>\n";
         }
       text << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
@@ -185,19 +219,20 @@ namespace Morula
             const unsigned int      number,
             const MPI_Comm          comm)
   {
-    const std::vector<Array>       arrays = arrays_of(fields);
+    const std::vector<Group>       groups = groups_of(fields);
     const std::vector<std::size_t> n_points =
       Utilities::MPI::gather(comm, fields.size());
     std::optional<AtomicFile> file; // on rank 0
     on_root(comm, [&]() {
       file.emplace(path);
-      file->write(description(arrays, n_points, time, number));
+      file->write(description(groups, n_points, time, number));
     });
-    // One array at a time, as all at once would take as much memory again.
-    for (const Array &array : arrays)
+    for (std::size_t g = 0; g < groups.size(); ++g)
       {
         const std::vector<std::string> pieces =
-          gather_to_root(raw_data(array, fields.size()), comm);
+          gather_to_root(g == 0 ? points_data(fields, groups[g]) :
+                                  fields_data(fields, groups[g]),
+                         comm);
         on_root(comm, [&]() {
           for (const std::string &piece : pieces)
             file->write(piece);

@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Pages for new users work when they are followed to the letter: the commands
+of "Your first tissue" in README.md, and those of the step programs' pages, in
+a directory with the names of the tree."""
+import re
+import subprocess
+from pathlib import Path
+
+from program import TESTS, ProgramTest, main
+
+ROOT = TESTS.parent
+STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
+COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)
+
+
+class Pages(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        (self.work / "build").symlink_to(Path(self.options.morula).parent)
+        for name in ("prm", "contrib"):
+            (self.work / name).symlink_to(ROOT / name)
+
+    def follow(self, command):
+        print(command, flush=True)
+        done = subprocess.run(command, shell=True, cwd=self.work, text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}")
+        return done.stdout
+
+    def assert_pictures(self, number):
+        """So many pictures with something in them."""
+        found = list(self.work.glob("output/**/*.png"))
+        self.assertEqual(len(found), number, found)
+        for picture in found:
+            self.assertGreater(picture.stat().st_size, 10000, picture)
+
+    def test_first_tissue(self):
+        text = (ROOT / "README.md").read_text()
+        text = text[text.index("## Your first tissue"):]
+        scene, commands = re.findall(r"^```\n(.*?)^```$", text,
+                                     re.M | re.S)[:2]
+        (self.work / "bud.prm").write_text(scene)
+        lines = commands.splitlines()
+        self.assertEqual(len(lines), 4)
+        said = [self.follow(line) for line in lines]
+        self.assertIn("size checkpoint         on", said[0])
+        self.assertIn("Finished: End time reached", said[1])
+        self.assert_pictures(1)
+        self.assertIn("<html", (self.work / "output/bud/report.html")
+                      .read_text()[:200])
+
+    def test_steps(self):
+        self.assertEqual(len(STEPS), 7)
+        pictures = 0
+        for page in STEPS:
+            commands = COMMAND.findall(page.read_text())
+            self.assertTrue(commands, page)
+            for command in commands:
+                with self.subTest(page=page.name, command=command):
+                    self.follow(command)
+                pictures += command.startswith("contrib/render")
+        self.assertGreaterEqual(pictures, 4)
+        self.assert_pictures(pictures)
+
+
+if __name__ == "__main__":
+    main()

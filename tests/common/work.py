@@ -10,6 +10,8 @@ TOLERANCE = 0.1
 # Sums of ranks' blocks precondition less well than the whole factorisation, by
 # far so on the few grid cells of these scenes.
 RANKS_FACTOR = 4.5
+# What each of Newton's iterations has many of.
+IN_NEWTON = ("linear_iterations", "tangent_kflop")
 
 
 def flop_per_point(dim):
@@ -57,13 +59,13 @@ def excess(found, reference, ranks):
     reference is to be renewed. A list of texts."""
     texts = []
     usual_work = {row["counter"]: int(row["value"]) for row in read(reference)}
-    tangents = max(usual_work["newton_iterations"], 1)
+    newton = max(usual_work["newton_iterations"], 1)
     for name, usual in usual_work.items():
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":
             upper *= RANKS_FACTOR
-        # Two of whatever is counted, and what two tangents take.
-        few = 2 * usual / tangents if name == "tangent_kflop" else 2
+        # Two of whatever is counted, and what two of Newton's iterations take.
+        few = 2 * usual / newton if name in IN_NEWTON else 2
         if not lower - few <= found[name] <= upper + few:
             texts.append(f"{name}: {found[name]}, in the reference {usual}")
     return texts

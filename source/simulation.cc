@@ -167,6 +167,7 @@ namespace Morula
         return space;
       }
     const TimerOutput::Scope section(timer, "grid");
+    tissue.defragment();
     return tissue.splines();
   }
 

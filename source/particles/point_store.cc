@@ -8,9 +8,46 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace Morula
 {
+  namespace
+  {
+    /** Share of points out of order in memory from which putting them in order
+     *  costs less than it saves (doc/performance.md, Where cells lie in
+     *  memory). */
+    constexpr double worst_disorder = 0.1;
+
+    /** The canonical order of points: by grid cell, then by id. */
+    template <int dim>
+    std::vector<unsigned int>
+    canonical_order(const PointList<dim> &points, const GridBox<dim> &box)
+    {
+      struct Place
+      {
+        unsigned int          number; // of the grid cell
+        types::particle_index id;
+        unsigned int          i;
+      };
+      std::vector<Place> places;
+      places.reserve(points.size());
+      for (unsigned int i = 0; i < points.size(); ++i)
+        places.push_back(
+          {box.number(box.locate(points.positions[i])), points.ids[i], i});
+      std::sort(places.begin(),
+                places.end(),
+                [](const Place &a, const Place &b) {
+                  return std::tie(a.number, a.id) < std::tie(b.number, b.id);
+                });
+      std::vector<unsigned int> order;
+      order.reserve(places.size());
+      for (const Place &place : places)
+        order.push_back(place.i);
+      return order;
+    }
+  } // namespace
+
   template <int dim>
   PointStore<dim>::PointStore(const unsigned int n_slots)
     : n_slots_(n_slots)
@@ -33,22 +70,39 @@ namespace Morula
     PointList<dim> received;
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
       received = send_to_owners(points, grid);
-    const PointList<dim> &mine =
-      received.n_slots > 0 ? received : points; // no copy on one rank
-    reserve(order_.size() + mine.size());
+    insert_own(received.n_slots > 0 ? received : points, // no copy on one rank
+               grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::insert_own(const PointList<dim>      &points,
+                              const BackgroundGrid<dim> &grid)
+  {
+    if (!order_.empty())
+      n_disordered += points.size();
+    reserve(order_.size() + points.size());
     const GridBox<dim> &box = grid.box();
-    for (std::size_t i = 0; i < mine.size(); ++i)
+    for (const unsigned int i : canonical_order(points, box))
       {
-        const GridIndex<dim> index = box.locate(mine.positions[i]);
-        handler.insert_particle(mine.positions[i],
-                                box.unit_position(mine.positions[i], index),
-                                mine.ids[i],
-                                grid.cell(box.number(index)),
-                                ArrayView<const double>(mine.properties.data() +
-                                                          i * n_slots_,
-                                                        n_slots_));
+        const GridIndex<dim> index = box.locate(points.positions[i]);
+        handler.insert_particle(
+          points.positions[i],
+          box.unit_position(points.positions[i], index),
+          points.ids[i],
+          grid.cell(box.number(index)),
+          ArrayView<const double>(points.properties.data() + i * n_slots_,
+                                  n_slots_));
       }
     sort(grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::defragment(const BackgroundGrid<dim> &grid)
+  {
+    if (n_disordered > worst_disorder * order_.size())
+      insert_own(take(), grid);
   }
 
   template <int dim>
@@ -118,7 +172,9 @@ namespace Morula
   {
     order_.clear();
     cells_.clear();
-    handler.clear_particles();
+    handler.clear_particles(); // gives back its memory
+    capacity     = 0;
+    n_disordered = 0;
   }
 
   template <int dim>

@@ -204,6 +204,14 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  Tissue<dim>::defragment()
+  {
+    cells_.defragment(grid_);
+    boundary_points_.defragment(grid_);
+  }
+
+  template <int dim>
   SplineSpace<dim>
   Tissue<dim>::splines() const
   {

@@ -74,6 +74,15 @@ namespace Morula
     PointList<dim>
     take();
 
+    /**
+     * Puts the points of this rank in memory in the canonical order, if many
+     * have been replaced or have changed their grid cell since they last were:
+     * what goes through them in this order is then several times as fast.
+     * Invalidates iterators.
+     */
+    void
+    defragment(const BackgroundGrid<dim> &grid);
+
     /** A copy of all points of this rank, in order. */
     PointList<dim>
     copy() const;
@@ -94,6 +103,10 @@ namespace Morula
     n_slots() const;
 
   private:
+    /** Inserts points of this rank's grid cells, in their canonical order. */
+    void
+    insert_own(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+
     void
     sort(const BackgroundGrid<dim> &grid);
 
@@ -101,8 +114,10 @@ namespace Morula
     void
     reserve(const std::size_t n);
 
-    const unsigned int              n_slots_;
-    std::size_t                     capacity = 0; // points there is room for
+    const unsigned int n_slots_;
+    std::size_t        capacity = 0; // points there is room for
+    /** Points inserted since all of them were in order in memory. */
+    std::size_t                     n_disordered = 0;
     MappingQ1<dim>                  mapping;
     Particles::ParticleHandler<dim> handler;
     std::vector<Cell>               cells_;

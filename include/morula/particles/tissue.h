@@ -73,6 +73,10 @@ namespace Morula
     void
     replace_surface(const PointList<dim> &boundary_points);
 
+    /** See PointStore. */
+    void
+    defragment();
+
     /** The extended B-splines around the tissue as it is now. Collective. */
     SplineSpace<dim>
     splines() const;

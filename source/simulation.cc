@@ -405,13 +405,12 @@ namespace Morula
   {
     if (growth.cycle() == nullptr)
       return;
+    const TimerOutput::Scope        section(timer, "division");
     const std::vector<unsigned int> due =
       cells_due(tissue, *growth.cycle(), time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
-    if (row.dividing == 0)
-      return;
-    const TimerOutput::Scope section(timer, "division");
-    births = Morula::divide(tissue, *growth.cycle(), due, next_id);
+    if (row.dividing > 0)
+      births = Morula::divide(tissue, *growth.cycle(), due, next_id);
   }
 
   template <int dim>

@@ -139,6 +139,46 @@ namespace
       }
   }
 
+  /** In memory each point stands where it is in the order. */
+  template <int dim>
+  bool
+  is_in_order_in_memory(PointStore<dim> &store)
+  {
+    for (unsigned int p = 1; p < store.order().size(); ++p)
+      if (store.properties(p).begin() !=
+          store.properties(p - 1).begin() + store.n_slots())
+        return false;
+    return true;
+  }
+
+  template <int dim>
+  void
+  check_memory()
+  {
+    const auto          all = random_points<dim>(500, 120., 3, 4);
+    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+    enclose(grid, all);
+    PointStore<dim> store(3);
+    store.attach(grid);
+    store.insert(dealt(all), grid);
+    EXPECT_TRUE(is_in_order_in_memory(store));
+
+    // Few points out of order stay so, many are mended.
+    for (const unsigned int n : {5u, 100u})
+      {
+        std::vector<typename PointStore<dim>::Iterator> removed;
+        for (const auto &point : store.order())
+          if (point->get_id() < n)
+            removed.push_back(point);
+        const auto again =
+          selected(all, [&](const std::size_t i) { return all.ids[i] < n; });
+        store.replace({removed.rbegin(), removed.rend()}, dealt(again), grid);
+        store.defragment(grid);
+        expect_store(store, grid, all);
+      }
+    EXPECT_TRUE(is_in_order_in_memory(store));
+  }
+
   template <int dim>
   void
   check_tables()
@@ -177,6 +217,10 @@ TEST(PointStore, RemovesPoints){MORULA_BOTH_DIMENSIONS(check_removal)}
 
 
 TEST(PointStore, MovesPoints){MORULA_BOTH_DIMENSIONS(check_moves)}
+
+
+TEST(PointStore,
+     KeepsPointsInOrderInMemory){MORULA_BOTH_DIMENSIONS(check_memory)}
 
 
 TEST(PointStore, CountsPointsOverAllRanks)

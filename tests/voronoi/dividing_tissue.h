@@ -6,6 +6,8 @@
 
 #include <morula/voronoi/wall_distance.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,10 +45,25 @@ namespace Morula
       dividing.push_back({ids[i], positions[i], axis / axis.norm(), length});
     }
 
+    /** @param h of the grid that cells and walls are searched on */
     std::vector<Distances>
-    distances() const
+    distances(const double h = 1.) const
     {
-      return daughter_distances(dividing, ids, positions, walls);
+      std::vector<Point<dim>> all = positions;
+      for (const auto &wall : walls)
+        all.push_back(wall.position);
+      const BoundingBox<dim> bounds(all);
+      GridIndex<dim>         first, n;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          first[d] = std::floor(bounds.lower_bound(d) / h);
+          n[d]     = std::floor(bounds.upper_bound(d) / h) + 1 - first[d];
+        }
+      return daughter_distances(dividing,
+                                ids,
+                                positions,
+                                walls,
+                                GridBox<dim>(first, n, h, Point<dim>()));
     }
   };
 

@@ -387,6 +387,9 @@ namespace
           }
         EXPECT_EQ(shuffled.distances(), reference);
 
+        // Nor does the grid on which they are searched.
+        EXPECT_EQ(tissue.distances(0.3 + 0.7 * trial), reference);
+
         // One cell alone sees the same as in company.
         DividingTissue<dim> single = shuffled;
         single.dividing            = {tissue.dividing[trial]};
@@ -395,7 +398,7 @@ namespace
   }
 } // namespace
 
-TEST(WallDistance, OrderDoesNotMatter)
+TEST(WallDistance, OrderAndGridDoNotMatter)
 {
   permute(random_tissue<2>(600, 10));
   permute(random_tissue<3>(600, 11));

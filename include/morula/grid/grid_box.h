@@ -160,8 +160,24 @@ namespace Morula
       GridIndex<dim> lower, upper;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          lower[d] = std::max(center[d] - radius, first_[d]);
-          upper[d] = std::min(center[d] + radius, first_[d] + n_[d] - 1);
+          lower[d] = center[d] - radius;
+          upper[d] = center[d] + radius;
+        }
+      for_overlap(lower, upper, visit);
+    }
+
+    /** Calls @p visit(number, index) for lower <= index <= upper as far as they
+     *  are of the box, x fastest. */
+    template <typename Visitor>
+    void
+    for_overlap(GridIndex<dim> lower,
+                GridIndex<dim> upper,
+                const Visitor &visit) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::max(lower[d], first_[d]);
+          upper[d] = std::min(upper[d], first_[d] + n_[d] - 1);
         }
       for_range(lower, upper, visit);
     }

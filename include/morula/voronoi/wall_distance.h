@@ -4,6 +4,8 @@
 #ifndef morula_voronoi_wall_distance_h
 #define morula_voronoi_wall_distance_h
 
+#include <morula/grid/grid_box.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
@@ -63,13 +65,15 @@ namespace Morula
    *        of other ranks within twice the largest length; the dividing cells
    *        are known by their ids, and copies of a cell do no harm
    * @param walls all that could matter: within length + spacing of a cell
+   * @param box the grid cells, which hold all these; only the search uses them
    */
   template <int dim>
   std::vector<std::array<double, 2>>
   daughter_distances(const std::vector<DividingCell<dim>>     &dividing,
                      const std::vector<types::particle_index> &ids,
                      const std::vector<Point<dim>>            &positions,
-                     const std::vector<WallPoint<dim>>        &walls);
+                     const std::vector<WallPoint<dim>>        &walls,
+                     const GridBox<dim>                       &box);
 } // namespace Morula
 
 #endif

@@ -135,7 +135,8 @@ namespace Morula
     const auto           distances = daughter_distances(dividing,
                                               neighbors.ids,
                                               neighbors.positions,
-                                              walls(tissue, longest));
+                                              walls(tissue, longest),
+                                              tissue.grid().box());
 
     std::vector<DivisionEvent>                      events;
     std::vector<typename PointStore<dim>::Iterator> mothers;

@@ -5,7 +5,9 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
 
 #include <algorithm>
 
@@ -97,8 +99,7 @@ namespace Morula
                                    const Messages  &announced)
   {
     const IndexSet &relevant = space.relevant(), &owned = space.owned();
-    std::vector<std::vector<types::global_dof_index>> unknowns(
-      owned.n_elements());
+    Unknowns        unknowns(owned.n_elements());
     for (unsigned int s = 0; s < columns.size(); ++s)
       if (const auto row = relevant.nth_index_in_set(s); owned.is_element(row))
         for (const unsigned int column : columns[s])
@@ -113,41 +114,74 @@ namespace Morula
                      message.begin() + m + 2 + message[m + 1]);
         }
 
-    std::size_t longest = 0;
+    std::vector<types::global_dof_index> others; // columns, not owned
     for (auto &row : unknowns)
       {
         std::sort(row.begin(), row.end());
         row.erase(std::unique(row.begin(), row.end()), row.end());
-        longest = std::max(longest, row.size());
+        for (const auto unknown : row)
+          if (!owned.is_element(unknown))
+            others.push_back(unknown);
       }
-    TrilinosWrappers::SparsityPattern    pattern(space.owned_dofs(),
-                                              space.owned_dofs(),
-                                              comm,
-                                              dim * longest);
-    std::vector<types::global_dof_index> dofs;
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    matrix.reinit(Epetra_CrsMatrix(Copy, graph(unknowns, others)), false);
+  }
+
+  template <int dim>
+  Epetra_CrsGraph
+  MatrixScatter<dim>::graph(
+    const Unknowns                             &unknowns,
+    const std::vector<types::global_dof_index> &others) const
+  {
+    const IndexSet  &owned = space.owned();
+    const Epetra_Map rows  = space.owned_dofs().make_trilinos_map(comm);
+
+    std::vector<int> columns(rows.MyGlobalElements(),
+                             rows.MyGlobalElements() + rows.NumMyElements());
+    for (const auto unknown : others)
+      for (unsigned int i = 0; i < dim; ++i)
+        columns.push_back(unknown * dim + i);
+    std::vector<int> lengths;
+    for (const auto &row : unknowns)
+      lengths.insert(lengths.end(), dim, dim * row.size());
+    Epetra_CrsGraph graph(
+      Copy,
+      rows,
+      Epetra_Map(-1, columns.size(), columns.data(), 0, rows.Comm()),
+      lengths.data(),
+      true);
+
+    std::vector<int> ids;
     for (unsigned int r = 0; r < unknowns.size(); ++r)
       {
-        dofs.clear();
+        ids.clear();
         for (const auto unknown : unknowns[r])
-          for (unsigned int i = 0; i < dim; ++i)
-            dofs.push_back(unknown * dim + i);
+          {
+            const int number =
+              owned.is_element(unknown) ?
+                owned.index_within_set(unknown) :
+                owned.n_elements() +
+                  (std::lower_bound(others.begin(), others.end(), unknown) -
+                   others.begin());
+            for (unsigned int i = 0; i < dim; ++i)
+              ids.push_back(number * dim + i);
+          }
+        std::sort(ids.begin(), ids.end());
         for (unsigned int i = 0; i < dim; ++i)
-          pattern.add_entries(owned.nth_index_in_set(r) * dim + i,
-                              dofs.begin(),
-                              dofs.end(),
-                              true);
+          graph.InsertMyIndices(r * dim + i, ids.size(), ids.data());
       }
-    pattern.compress();
-    matrix.reinit(pattern);
+    graph.FillComplete();
+    graph.OptimizeStorage();
+    return graph;
   }
 
   template <int dim>
   int
-  MatrixScatter<dim>::column_id(const types::global_dof_index unknown,
-                                const unsigned int            i) const
+  MatrixScatter<dim>::column_id(const types::global_dof_index unknown) const
   {
     return matrix.trilinos_matrix().ColMap().LID(
-      static_cast<TrilinosWrappers::types::int_type>(unknown * dim + i));
+      static_cast<TrilinosWrappers::types::int_type>(unknown * dim));
   }
 
   template <int dim>
@@ -170,9 +204,7 @@ namespace Morula
           for (int k = 0; k < length; ++k)
             position_of[ids[k]] = k;
           for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
-            for (unsigned int j = 0; j < dim; ++j)
-              row.positions.push_back(
-                position_of[column_id(message[m + 2 + k], j)]);
+            row.positions.push_back(position_of[column_id(message[m + 2 + k])]);
           received[rank].push_back(std::move(row));
         }
   }
@@ -184,17 +216,12 @@ namespace Morula
   {
     const IndexSet         &relevant = space.relevant();
     const Epetra_CrsMatrix &epetra   = matrix.trilinos_matrix();
-    std::vector<int>        ids(relevant.n_elements() * dim);
+    std::vector<int>        ids(relevant.n_elements());
     owned_number.assign(relevant.n_elements(), -1);
     for (unsigned int s = 0; s < relevant.n_elements(); ++s)
       {
         const auto unknown = relevant.nth_index_in_set(s);
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            ids[s * dim + i] = column_id(unknown, i);
-            if (ids[s * dim + i] != ids[s * dim] + int(i))
-              width = dim;
-          }
+        ids[s]             = column_id(unknown);
         if (space.owned().is_element(unknown))
           owned_number[s] = space.owned().index_within_set(unknown);
       }
@@ -205,7 +232,7 @@ namespace Morula
     for (unsigned int c = 0; c < space.cells().size(); ++c)
       {
         const auto &unknowns = space.cells()[c].unknowns;
-        positions[c].resize(unknowns.size() * unknowns.size() * width);
+        positions[c].resize(unknowns.size() * unknowns.size());
         for (unsigned int s = 0; s < unknowns.size(); ++s)
           places[unknowns[s]].emplace_back(c, s);
       }
@@ -213,7 +240,7 @@ namespace Morula
     rows.resize(relevant.n_elements() * dim);
     std::map<unsigned int, std::size_t> n_sent;
     std::vector<unsigned int>           position_of(
-      std::max<int>(epetra.NumMyCols(), relevant.n_elements() * dim));
+      std::max<int>(epetra.NumMyCols(), relevant.n_elements()));
     for (unsigned int unknown = 0; unknown < places.size(); ++unknown)
       {
         const bool owned = owned_number[unknown] >= 0;
@@ -238,16 +265,13 @@ namespace Morula
             }
         if (!owned)
           for (unsigned int k = 0; k < columns[unknown].size(); ++k)
-            for (unsigned int j = 0; j < dim; ++j)
-              position_of[columns[unknown][k] * dim + j] = k * dim + j;
+            position_of[columns[unknown][k]] = k * dim;
         for (const auto &[c, s] : places[unknown])
           {
             const auto &unknowns = space.cells()[c].unknowns;
             for (unsigned int t = 0; t < unknowns.size(); ++t)
-              for (unsigned int j = 0; j < width; ++j)
-                positions[c][(s * unknowns.size() + t) * width + j] =
-                  position_of[owned ? ids[unknowns[t] * dim + j] :
-                                      unknowns[t] * dim + j];
+              positions[c][s * unknowns.size() + t] =
+                position_of[owned ? ids[unknowns[t]] : unknowns[t]];
           }
       }
   }
@@ -264,11 +288,10 @@ namespace Morula
         {
           const double *const source = &cell_matrix[(i * m + s) * dim * m];
           double *const       target = rows[unknowns[s] * dim + i];
-          const unsigned int *const position = &positions[cell][s * m * width];
+          const unsigned int *const position = &positions[cell][s * m];
           for (unsigned int j = 0; j < dim; ++j)
             for (unsigned int t = 0; t < m; ++t)
-              target[width == 1 ? position[t] + j : position[t * width + j]] +=
-                source[j * m + t];
+              target[position[t] + j] += source[j * m + t];
         }
   }
 
@@ -293,7 +316,8 @@ namespace Morula
                                       target,
                                       ids);
               for (const unsigned int position : row.positions)
-                target[position] += *value++;
+                for (unsigned int j = 0; j < dim; ++j)
+                  target[position + j] += *value++;
             }
       }
     for (auto &[rank, values] : sent)

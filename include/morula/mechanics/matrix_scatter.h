@@ -8,6 +8,7 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <Epetra_CrsGraph.h>
 #include <mpi.h>
 
 #include <map>
@@ -52,6 +53,9 @@ namespace Morula
     Couplings
     couplings() const;
 
+    /** By owned unknown: the global unknowns in its rows. */
+    using Unknowns = std::vector<std::vector<types::global_dof_index>>;
+
     /** Ranks, by relevant unknown. */
     std::vector<unsigned int>
     owners_of_relevant() const;
@@ -79,28 +83,36 @@ namespace Morula
     make_positions(const Couplings                 &columns,
                    const std::vector<unsigned int> &owners);
 
-    /** Position in the matrix's columns of component i of a global unknown. */
+    /**
+     * The matrix's structure. Its columns stand in the order of the unknowns,
+     * this rank's first, with the components of each side by side: deal.II's
+     * SparsityPattern leaves the order to Epetra, which takes three times as
+     * long on several ranks to find one, and may part the components.
+     * @param unknowns those in the rows of each own unknown
+     * @param others those of them that are not owned, sorted
+     */
+    Epetra_CrsGraph
+    graph(const Unknowns                             &unknowns,
+          const std::vector<types::global_dof_index> &others) const;
+
+    /** Position in the matrix's columns of a global unknown's first
+     *  component. */
     int
-    column_id(const types::global_dof_index unknown,
-              const unsigned int            i) const;
+    column_id(const types::global_dof_index unknown) const;
 
     /** An unknown's rows that another rank adds to. */
     struct Received
     {
       unsigned int              number;    // of the owned unknown
-      std::vector<unsigned int> positions; // by column and component
+      std::vector<unsigned int> positions; // of the columns' first components
     };
 
-    const SplineSpace<dim> &space;
-    Matrix                 &matrix;
-    const MPI_Comm          comm;
-    std::vector<double *>   rows;         // by relevant dof
-    std::vector<int>        owned_number; // by relevant unknown
-    /** 1 where the columns of an unknown's components follow each other. On
-     *  three or more ranks Epetra may order a rank's ghost columns otherwise;
-     *  then dim: each component has a position of its own. */
-    unsigned int                           width = 1;
-    std::vector<std::vector<unsigned int>> positions; // by cell: m x m x width
+    const SplineSpace<dim>                &space;
+    Matrix                                &matrix;
+    const MPI_Comm                         comm;
+    std::vector<double *>                  rows;         // by relevant dof
+    std::vector<int>                       owned_number; // by relevant unknown
+    std::vector<std::vector<unsigned int>> positions;    // by cell: m x m
 
     /** By owner: values of its rows, one after the other. */
     std::map<unsigned int, std::vector<double>>   sent;

@@ -167,7 +167,7 @@ namespace Morula
         return space;
       }
     const TimerOutput::Scope section(timer, "grid");
-    tissue.defragment();
+    tissue.defragment(); // here, where a step holds least memory
     return tissue.splines();
   }
 

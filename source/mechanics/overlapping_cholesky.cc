@@ -22,6 +22,57 @@ namespace Morula
       return Epetra_Map(
         -1, rows.size(), rows.data(), 0, K.trilinos_matrix().Comm());
     }
+
+    /** Entries of a block on and above the diagonal, row by row: Ifpack reads
+     *  no others. */
+    struct Triangle
+    {
+      std::vector<int>    lengths, columns;
+      std::vector<double> values;
+    };
+
+    /** The rows are those of K on this rank, then the received ones. */
+    Triangle
+    upper_triangle(const Epetra_CrsMatrix &K,
+                   const Epetra_CrsMatrix &received,
+                   const Epetra_Map       &rows)
+    {
+      // Tables, as to ask the map for each entry takes longer than the rest.
+      const int        n_own = K.NumMyRows(), n = rows.NumMyElements();
+      std::vector<int> numbers(K.NumGlobalRows(), -1);
+      for (int k = 0; k < n; ++k)
+        numbers[rows.GID(k)] = k;
+      std::vector<int> numbers_of_columns(K.NumMyCols());
+      for (int k = 0; k < K.NumMyCols(); ++k)
+        numbers_of_columns[k] = numbers[K.GCID(k)];
+
+      Triangle          result;
+      const std::size_t n_most = K.NumMyNonzeros() + received.NumMyNonzeros();
+      result.columns.reserve(n_most);
+      result.values.reserve(n_most);
+      for (int row = 0; row < n; ++row)
+        {
+          const std::size_t begin = result.columns.size();
+          const bool        own   = row < n_own;
+          int               length, *ids;
+          double           *entries;
+          if (own)
+            K.ExtractMyRowView(row, length, entries, ids);
+          else
+            received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
+          for (int k = 0; k < length; ++k)
+            {
+              const int column = (own ? numbers_of_columns : numbers)[ids[k]];
+              if (column >= row)
+                {
+                  result.columns.push_back(column);
+                  result.values.push_back(entries[k]);
+                }
+            }
+          result.lengths.push_back(result.columns.size() - begin);
+        }
+      return result;
+    }
   } // namespace
 
   OverlappingCholesky::OverlappingCholesky(const Matrix     &K,
@@ -45,54 +96,20 @@ namespace Morula
     const Epetra_Map others(
       -1, n - n_own, rows.MyGlobalElements() + n_own, 0, rows.Comm());
     Epetra_CrsMatrix received(Copy, others, 0);
-    const int        error =
-      received.Import(K, Epetra_Import(others, K.RowMap()), Insert);
+    int error = received.Import(K, Epetra_Import(others, K.RowMap()), Insert);
     AssertThrow(error == 0, ExcTrilinosError(error));
 
-    // Two tables, as to ask the map for each entry would take longer than the
-    // rest.
-    std::vector<int> numbers(K.NumGlobalRows(), -1);
-    for (int k = 0; k < n; ++k)
-      numbers[rows.GID(k)] = k;
-    std::vector<int> numbers_of_columns(K.NumMyCols());
-    for (int k = 0; k < K.NumMyCols(); ++k)
-      numbers_of_columns[k] = numbers[K.GCID(k)];
-    std::vector<int>    lengths, columns;
-    std::vector<double> values;
-    const std::size_t   n_most = K.NumMyNonzeros() + received.NumMyNonzeros();
-    columns.reserve(n_most);
-    values.reserve(n_most);
-    for (int row = 0; row < n; ++row)
-      {
-        const std::size_t begin = columns.size();
-        int               length, *ids;
-        double           *entries;
-        if (row < n_own)
-          K.ExtractMyRowView(row, length, entries, ids);
-        else
-          received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
-        for (int k = 0; k < length; ++k)
-          {
-            const int column =
-              (row < n_own ? numbers_of_columns : numbers)[ids[k]];
-            if (column >= row) // Ifpack reads no others
-              {
-                columns.push_back(column);
-                values.push_back(entries[k]);
-              }
-          }
-        lengths.push_back(columns.size() - begin);
-      }
-
-    // All rows at once: one by one they take three times as long.
-    auto result = std::make_unique<Epetra_CrsMatrix>(
-      Copy, local, local, lengths.data(), true);
-    for (int row = 0, begin = 0; row < n; begin += lengths[row++])
+    // All rows are inserted at once: one by one takes three times as long.
+    const Triangle triangle = upper_triangle(K, received, rows);
+    auto           result   = std::make_unique<Epetra_CrsMatrix>(
+      Copy, local, local, triangle.lengths.data(), true);
+    for (int row = 0, begin = 0; row < n; begin += triangle.lengths[row++])
       result->InsertMyValues(row,
-                             lengths[row],
-                             &values[begin],
-                             &columns[begin]);
-    result->FillComplete();
+                             triangle.lengths[row],
+                             &triangle.values[begin],
+                             &triangle.columns[begin]);
+    error = result->FillComplete();
+    AssertThrow(error == 0, ExcTrilinosError(error));
     return result;
   }
 

@@ -182,10 +182,10 @@ namespace Morula
   PointStore<dim>::reserve(const std::size_t n)
   {
     // deal.II's pool would double, and for a moment hold three times what a
-    // growing tissue needs.
+    // growing tissue needs. What is not used yet takes no memory.
     if (n <= capacity)
       return;
-    capacity = capacity == 0 ? n : std::max(n, capacity + capacity / 4);
+    capacity = n + n / 8;
     handler.get_property_pool().reserve(capacity);
   }
 

@@ -19,6 +19,9 @@ NO_STEP = ("total", "seeding", "output", "snapshot", "statistics")
 HALF_FIXED = "prm/paper/fig-2b.prm"
 PROLIFERATING = "prm/paper/fig-4b.prm"
 CYCLE = "Proliferation/Cell cycle/"
+# Medians of so many rounds: where other machines share the processor, a core
+# can be a quarter slower than the other for a while.
+ROUNDS = 5
 
 
 def google_benchmark(program, blas, pattern="."):
@@ -60,18 +63,25 @@ def kernels(program, blas):
 def phases(runner):
     """A step of the half-fixed sphere, 65,752 cells, h = 50 µm."""
     keys = {"Output/Formats": "csv"}
-    plain = runner.run("plain", HALF_FIXED, {**keys, "Solver/Kernel": "plain"})
-    fast = runner.run("automatic", HALF_FIXED, keys)
+    rounds = [(runner.run("plain", HALF_FIXED,
+                          {**keys, "Solver/Kernel": "plain"}),
+               runner.run("automatic", HALF_FIXED, keys))
+              for _ in range(ROUNDS)]
     # One assembly: tangent and residual by the plain kernel.
-    unit = (plain.time("tangent") / plain.calls["tangent"]
-            + plain.time("residual") / plain.calls["residual"])
+    units = [plain.time("tangent") / plain.calls["tangent"]
+             + plain.time("residual") / plain.calls["residual"]
+             for plain, _ in rounds]
     rows = [("phase", "plain kernel, s", "s", "of a plain assembly")]
+    fast = rounds[0][1]
     iterations, steps = fast.calls["tangent"], len(fast.rows) - 1
 
     def line(text, names, n):
-        times = [run.time(*names) / n for run in (plain, fast)]
-        rows.append((text, f"{times[0]:.3f}", f"{times[1]:.3f}",
-                     f"{times[1] / unit:.2f}"))
+        times = [[run.time(*names) / n for run in runs]
+                 for runs in zip(*rounds)]
+        ratios = [time / unit for time, unit in zip(times[1], units)]
+        rows.append((text, *(f"{statistics.median(part):.3f}"
+                             for part in times),
+                     f"{statistics.median(ratios):.2f}"))
     line("Newton iteration", NEWTON, iterations)
     for name in NEWTON:
         line(f"— {name}", (name,), iterations)
@@ -177,11 +187,6 @@ def model(runner):
     return scaling.model(runner, PROLIFERATING, sphere, float(found[-1][2]))
 
 
-# Medians of this many ratios are taken: where other machines share the
-# processor, a core can be a quarter slower than the other for a while.
-REPETITIONS = 5
-
-
 def concurrent(program, blas, name, counter):
     """Rate of two processes at once over that of one."""
     alone = google_benchmark(program, blas, f"^{name}$")[name][counter]
@@ -206,7 +211,7 @@ def ranks(runner, program, blas):
     total, half = "Morula, 2·10⁵ cells, five steps", (
         "10⁵ cells on one rank over 2·10⁵ on two, time")
     ratios = {}
-    for _ in range(REPETITIONS):
+    for _ in range(ROUNDS):
         one, two = (runner.run(f"ranks-{n}", PROLIFERATING,
                                sphere(200000, **keys), n) for n in (1, 2))
         smaller = runner.run("ranks-half", PROLIFERATING,
@@ -222,7 +227,7 @@ def ranks(runner, program, blas):
         found[half] = step_seconds(smaller) / step_seconds(two)
         for name, ratio in found.items():
             ratios.setdefault(name, []).append(ratio)
-    rows = [("", f"two over one, median of {REPETITIONS}", "range")]
+    rows = [("", f"two over one, median of {ROUNDS}", "range")]
     rows += [(name, f"{statistics.median(values):.2f}",
               f"{min(values):.2f} to {max(values):.2f}")
              for name, values in ratios.items()]

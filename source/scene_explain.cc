@@ -101,7 +101,7 @@ namespace Morula
       print_effect(out,
                    "division (Voronoi)",
                    divides,
-                   cycle.division_axis + " axis" +
+                   "axis = " + cycle.division_axis +
                      values_of(scene.catalogue.division_rules,
                                cycle.division_axis) +
                      (cycle.axis_follows_rotation ? ", follows rotation" : ""));

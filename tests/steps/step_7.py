@@ -97,7 +97,7 @@ class Step7(StepTest):
             self.assertIn(line, keys)
         text = self.step("--explain")
         self.assertIn("crowding limited, Rate = 0.1, Crowding = 0.2", text)
-        self.assertIn("long axis axis, Least elongation = 1.02", text)
+        self.assertIn("axis = long axis, Least elongation = 1.02", text)
         for key, value in ((LAW + "Crowding", "0"), (LAW + "Crowding", "1"),
                            (LAW + "Rate", "1 +"),
                            (RULE[:-13] + "Long axis/Least elongation", "0.5"),

@@ -7,8 +7,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace Morula
@@ -35,6 +37,21 @@ namespace Morula
       value = (*best)[0];
       for (unsigned int d = 0; d < dim; ++d)
         place[d] = (*best)[1 + d];
+    }
+
+    /** Which unknowns of a grid cell its extended splines depend on. */
+    template <int dim>
+    std::set<unsigned int>
+    unknowns_of_extensions(const typename SplineSpace<dim>::Cell &cell)
+    {
+      const std::size_t      n = cell.unknowns.size();
+      std::set<unsigned int> result;
+      for (auto row = cell.weights.begin(); row != cell.weights.end(); row += n)
+        if (std::count(row, row + n, 0.) + 1 < static_cast<long>(n))
+          for (std::size_t k = 0; k < n; ++k)
+            if (row[k] != 0.)
+              result.insert(cell.unknowns[k]);
+      return result;
     }
   } // namespace
 
@@ -261,12 +278,11 @@ namespace Morula
   {
     IndexSet dofs(space.relevant_dofs().size());
     for (const auto &cell : space.cells())
-      if (!cell.weights.empty())
-        for (const unsigned int s : cell.unknowns)
-          {
-            const auto first = space.relevant().nth_index_in_set(s) * dim;
-            dofs.add_range(first, first + dim);
-          }
+      for (const unsigned int s : unknowns_of_extensions<dim>(cell))
+        {
+          const auto first = space.relevant().nth_index_in_set(s) * dim;
+          dofs.add_range(first, first + dim);
+        }
     dofs.compress();
     return dofs;
   }

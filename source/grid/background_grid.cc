@@ -6,20 +6,80 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
+
 namespace Morula
 {
   namespace
   {
-    /** Grid cells of a coarse cell per direction. A triangulation of coarse
-     *  cells alone is several times dearer to make. */
-    constexpr unsigned int n_refinements = 2;
-    constexpr int          coarse_size   = 1 << n_refinements;
-
+    /** How often a length of so many grid cells, or a few more, is halved. */
     int
-    floor_to_coarse(const int i)
+    n_halvings(const int n)
     {
-      return coarse_size *
-             static_cast<int>(std::floor(static_cast<double>(i) / coarse_size));
+      int result = 0;
+      while ((1 << result) < n)
+        ++result;
+      return result;
+    }
+
+    /**
+     * Two coarse cells of 2^n_refinements grid cells per direction that meet in
+     * the middle of the box. The ranks share out the tree's leaves in its
+     * order: what lies in the middle of the tree is cut by planes
+     * (doc/performance.md, Two ranks).
+     */
+    template <int dim>
+    struct CoarseCells
+    {
+      explicit CoarseCells(const GridBox<dim> &box)
+        : repetitions(dim, 1)
+        , first(box.first())
+      {
+        const GridIndex<dim> &n = box.n();
+        // The first direction that is about as long as any: bodies are mostly
+        // held and loaded along their last, and each half shall have its share.
+        const int    longest = *std::max_element(n.begin(), n.end());
+        unsigned int split   = 0;
+        while (3 * n[split] < 2 * longest)
+          ++split;
+        repetitions[split] = 2;
+        for (unsigned int d = 0; d < dim; ++d)
+          n_refinements =
+            std::max(n_refinements,
+                     n_halvings(d == split ? (n[d] + 1) / 2 : n[d]));
+
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            // A short direction is put in the middle of a descendant that just
+            // holds it, so that it is cut after the long ones.
+            const int middle =
+              d == split ? 1 << n_refinements : (1 << n_halvings(n[d])) / 2;
+            first[d] += n[d] / 2 - middle;
+            end[d] = first[d] + repetitions[d] * (1 << n_refinements);
+          }
+      }
+
+      int                       n_refinements = 0;
+      std::vector<unsigned int> repetitions;
+      GridIndex<dim>            first, end;
+    };
+
+    /** Whether a cell of any level holds grid cells of the box. */
+    template <int dim>
+    bool
+    overlaps(const typename Triangulation<dim>::cell_iterator &cell,
+             const GridBox<dim>                               &box)
+    {
+      Tensor<1, dim> half;
+      for (unsigned int d = 0; d < dim; ++d)
+        half[d] = box.spacing() / 2;
+      const GridIndex<dim> first = box.locate(cell->vertex(0) + half);
+      const GridIndex<dim> last =
+        box.locate(cell->vertex(cell->n_vertices() - 1) - half);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (last[d] < box.first()[d] || first[d] >= box.first()[d] + box.n()[d])
+          return false;
+      return true;
     }
   } // namespace
 
@@ -56,8 +116,8 @@ namespace Morula
     for (unsigned int d = 0; d < dim; ++d)
       {
         const int padding = 2 + (last[d] - first[d] + 1) / 8;
-        lower[d]          = floor_to_coarse(first[d] - padding);
-        n[d] = floor_to_coarse(last[d] + padding) + coarse_size - lower[d];
+        lower[d]          = first[d] - padding;
+        n[d]              = last[d] + padding + 1 - lower[d];
       }
     make(lower, n);
   }
@@ -68,20 +128,20 @@ namespace Morula
                             const GridIndex<dim> &n)
   {
     box_ = GridBox<dim>(first, n, h, offset);
-    std::vector<unsigned int> repetitions(dim);
-    GridIndex<dim>            end;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        repetitions[d] = n[d] / coarse_size;
-        end[d]         = first[d] + n[d];
-      }
+    const CoarseCells<dim> coarse(box_);
     cells.clear();
     tria.clear();
     GridGenerator::subdivided_hyper_rectangle(tria,
-                                              repetitions,
-                                              box_.corner(first),
-                                              box_.corner(end));
-    tria.refine_global(n_refinements);
+                                              coarse.repetitions,
+                                              box_.corner(coarse.first),
+                                              box_.corner(coarse.end));
+    for (int i = 0; i < coarse.n_refinements; ++i)
+      {
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned() && overlaps<dim>(cell, box_))
+            cell->set_refine_flag();
+        tria.execute_coarsening_and_refinement();
+      }
     weights_.assign(box_.size(), 1);
     tabulate();
   }
@@ -97,7 +157,8 @@ namespace Morula
     const auto connection = tria.signals.weight.connect(
       [&](const typename Triangulation<dim>::cell_iterator &cell,
           const typename Triangulation<dim>::CellStatus) -> unsigned int {
-        return 1 + weights_[box_.number(box_.locate(cell->center()))];
+        const GridIndex<dim> index = box_.locate(cell->center());
+        return 1 + (box_.contains(index) ? weights_[box_.number(index)] : 0);
       });
     tria.repartition();
     connection.disconnect();
@@ -112,9 +173,10 @@ namespace Morula
     owners.assign(box_.size(), 0);
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     for (const auto &cell : tria.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (const GridIndex<dim> index = box_.locate(cell->center());
+          cell->is_locally_owned() && box_.contains(index))
         {
-          const unsigned int number = box_.number(box_.locate(cell->center()));
+          const unsigned int number = box_.number(index);
           cells[number]             = cell;
           owners[number]            = rank;
         }

@@ -11,7 +11,7 @@ ROWS = ("preconditioner", "linear solver", "sparsity pattern")
 LATENCY = 2e-6       # s, of a message
 BANDWIDTH = 1e10     # bytes a second and rank
 MESSAGES = 3         # reductions of a CG iteration
-OVERLAP = 3          # layers of splines of a block's border
+OVERLAP = 3          # splines for each one along a block's rim at the surface
 
 
 def counts(runner, proliferating, sphere):
@@ -69,9 +69,10 @@ class Model:
         more = ((cells / self.cells)**self.growth
                 * (penalty if ranks > 1 else 1))
         rows = self.rows * cells / ranks
-        # A block's border: layers of splines around a cube of them.
+        # Blocks overlap where the tissue's surface has their rim: the slowest
+        # is a cube of which one face lies in the surface.
         edge = (rows / 3)**(1 / 3)
-        block = ((edge + OVERLAP) / edge)**3 if ranks > 1 else 1
+        block = 1 + 4 * edge * OVERLAP / edge**3 if ranks > 1 else 1
         iterations = self.newton * self.iterations * more
         messages = iterations * (
             MESSAGES * LATENCY * math.log2(max(ranks, 1))

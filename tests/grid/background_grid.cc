@@ -92,7 +92,6 @@ namespace
     EXPECT_FALSE(grid.covers(first, last));
     grid.enclose(first, last);
     EXPECT_TRUE(grid.covers(first, last));
-    EXPECT_EQ(grid.triangulation().n_global_active_cells(), grid.box().size());
     for (unsigned int d = 0; d < dim; ++d)
       {
         // Two grid cells of padding at least, of which one is spare.
@@ -167,6 +166,32 @@ namespace
                   total / n_ranks,
                   1000. * Utilities::pow(2, dim) + weights.size());
   }
+
+  /** Two ranks part a box by a plane across its longest direction, the first of
+   *  equal ones. */
+  template <int dim>
+  void
+  check_cut()
+  {
+    if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) != 2)
+      return;
+    BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
+    for (unsigned int longest = 0; longest < dim; ++longest)
+      for (const int other : {6, 10, 24})
+        {
+          auto n     = index<dim>(other, other, other);
+          n[longest] = 24;
+          grid.make(index<dim>(-3, 5, 1), n);
+          grid.partition(std::vector<unsigned int>(grid.box().size(), 7));
+          const unsigned int across = other == 24 ? 0 : longest;
+          const GridBox<dim> box    = grid.box();
+          for (unsigned int number = 0; number < box.size(); ++number)
+            EXPECT_EQ(grid.owner(number),
+                      box.index(number)[across] - box.first()[across] < 12 ? 0 :
+                                                                             1)
+              << other << " grid cells, and 24 along " << longest;
+        }
+  }
 } // namespace
 
 
@@ -180,6 +205,9 @@ TEST(BackgroundGrid,
 
 TEST(BackgroundGrid,
      IsDistributedByPoints){MORULA_BOTH_DIMENSIONS(check_partition)}
+
+
+TEST(BackgroundGrid, IsCutAcrossItsLength){MORULA_BOTH_DIMENSIONS(check_cut)}
 
 
 TEST(BackgroundGrid, LocatesPointsBetweenGridLines)

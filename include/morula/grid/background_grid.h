@@ -18,7 +18,8 @@ namespace Morula
    * around the tissue, distributed over the ranks by the number of points in
    * each grid cell. The user gives a spacing, never a box: the triangulation
    * is kept while the tissue stays inside its padding, and re-made larger
-   * otherwise.
+   * otherwise. The grid cells of the box are the leaves of an octree of which
+   * it takes the middle; what is left of the tree stays coarse.
    *
    * Tables over the grid cells of the box (owner, fill, ...) are replicated on
    * all ranks. There are some hundred times fewer grid cells than points, so

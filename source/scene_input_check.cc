@@ -148,7 +148,7 @@ namespace Morula
                     "0 lets Newton's method choose.");
       std::string runnable = "automatic, plain";
       bool known = solver.kernel == "automatic" || solver.kernel == "plain";
-      for (const VectorKernels &kernels : available_vector_kernels())
+      for (const auto &kernels : available_vector_kernels<3>())
         {
           runnable += std::string(", ") + kernels.name;
           known = known || solver.kernel == kernels.name;

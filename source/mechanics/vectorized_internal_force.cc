@@ -5,23 +5,27 @@
 
 namespace Morula
 {
-  // What the kernels take arrays of these for.
-  static_assert(sizeof(Point<3>) == 3 * sizeof(double));
-  static_assert(sizeof(ElasticState<3>) == 10 * sizeof(double));
-  static_assert(sizeof(Lame) == 2 * sizeof(double));
-  static_assert(sizeof(LocalField<3>) == 81 * sizeof(double));
-
-  VectorizedInternalForce::VectorizedInternalForce(
-    const MaterialPoints<3> &points, const VectorKernels &kernels)
+  template <int dim>
+  VectorizedInternalForce<dim>::VectorizedInternalForce(
+    const MaterialPoints<dim> &points, const VectorKernels<dim> &kernels)
     : points(points)
     , kernels(kernels)
-  {}
+  {
+    // What the kernels take arrays of these for.
+    static_assert(sizeof(Point<dim>) == dim * sizeof(double));
+    static_assert(sizeof(ElasticState<dim>) ==
+                  (dim * dim + 1) * sizeof(double));
+    static_assert(sizeof(Lame) == 2 * sizeof(double));
+    static_assert(sizeof(LocalField<dim>) ==
+                  LocalSystem<dim>::n_dofs * sizeof(double));
+  }
 
+  template <int dim>
   void
-  VectorizedInternalForce::add(const unsigned int   cell,
-                               const LocalField<3> &field,
-                               const GrowthAt       growth,
-                               LocalSystem<3>      &system) const
+  VectorizedInternalForce<dim>::add(const unsigned int     cell,
+                                    const LocalField<dim> &field,
+                                    const GrowthAt         growth,
+                                    LocalSystem<dim>      &system) const
   {
     const unsigned int first  = points.offsets[cell],
                        n      = points.offsets[cell + 1] - first,
@@ -36,11 +40,11 @@ namespace Morula
                                 points.h,
                                 &field.coefficient[0][0]};
     const KernelResult found =
-      system.wanted == LocalSystem<3>::tangent ?
+      system.wanted == LocalSystem<dim>::tangent ?
         kernels.tangent(input, system.matrix.data()) :
         kernels.residual(input,
                          system.residual.data(),
-                         system.wanted == LocalSystem<3>::rounding ?
+                         system.wanted == LocalSystem<dim>::rounding ?
                            system.magnitude.data() :
                            nullptr);
     system.admits(1., found.smallest_J, points.xi[first + found.at]);
@@ -53,14 +57,16 @@ namespace Morula
                  const VolumetricStrain     form,
                  const std::string         &kernel)
   {
-    if constexpr (dim == 3)
-      if (form == VolumetricStrain::pointwise)
-        for (const VectorKernels &kernels : available_vector_kernels())
-          if (kernel == "automatic" || kernel == kernels.name)
-            return std::make_unique<VectorizedInternalForce>(points, kernels);
+    if (form == VolumetricStrain::pointwise)
+      for (const auto &kernels : available_vector_kernels<dim>())
+        if (kernel == "automatic" || kernel == kernels.name)
+          return std::make_unique<VectorizedInternalForce<dim>>(points,
+                                                                kernels);
     return std::make_unique<InternalForce<dim>>(points, form);
   }
 
+  template class VectorizedInternalForce<2>;
+  template class VectorizedInternalForce<3>;
   template std::unique_ptr<Term<2>>
   internal_force(const MaterialPoints<2> &,
                  const VolumetricStrain,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// The internal force on grid cells of 125 particles, plain and vectorised, next
-// to what the core can do: a matrix product and the triad of STREAM. The
-// environment variable MORULA_BLAS names a shared library with a fast dgemm_.
-// contrib/benchmark runs this and writes doc/performance.md.
+// The internal force on grid cells of 125 particles (2-D: 25), plain and
+// vectorised, next to what the core can do: a matrix product and the triad of
+// STREAM. The environment variable MORULA_BLAS names a shared library with a
+// fast dgemm_. contrib/benchmark runs this and writes doc/performance.md.
 
 #include <morula/mechanics/vectorized_internal_force.h>
 
@@ -18,31 +18,38 @@ using namespace Morula;
 
 namespace
 {
-  constexpr unsigned int n_grid_cells = 64, n_points = 125;
+  constexpr unsigned int n_grid_cells = 64;
 
-  /** A particle's part of a tangent, in the smallest known form. */
+  /** Of a grid cell. */
+  template <int dim>
+  constexpr unsigned int n_points = dim == 2 ? 25 : 125;
+
+  /** A particle's part of a tangent in 3-D, in the smallest known form. */
   constexpr double flop_of_tangent = 11e3;
 
-  MaterialPoints<3>
+  template <int dim>
+  MaterialPoints<dim>
   random_points()
   {
     std::mt19937                           generator(1);
     std::uniform_real_distribution<double> uniform(0., 1.);
-    MaterialPoints<3>                      points;
+    MaterialPoints<dim>                    points;
     points.h    = 50.;
     points.lame = {lame(1., 0.4)};
     points.offsets.push_back(0);
     for (unsigned int c = 0; c < n_grid_cells; ++c)
       {
-        for (unsigned int p = 0; p < n_points; ++p)
+        for (unsigned int p = 0; p < n_points<dim>; ++p)
           {
-            points.xi.emplace_back(uniform(generator),
-                                   uniform(generator),
-                                   uniform(generator));
-            ElasticState<3> state;
-            for (unsigned int d = 0; d < 3; ++d)
-              for (unsigned int e = 0; e < 3; ++e)
-                state.A[d][e] = (d == e) + 0.1 * uniform(generator);
+            Point<dim>        xi;
+            ElasticState<dim> state;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                xi[d] = uniform(generator);
+                for (unsigned int e = 0; e < dim; ++e)
+                  state.A[d][e] = (d == e) + 0.1 * uniform(generator);
+              }
+            points.xi.push_back(xi);
             state.W = 1000. * (1. + uniform(generator));
             points.current.push_back(state);
           }
@@ -51,21 +58,22 @@ namespace
     return points;
   }
 
+  template <int dim>
   void
-  assemble(benchmark::State            &state,
-           const std::string           &kernel,
-           const LocalSystem<3>::Wanted wanted)
+  assemble(benchmark::State                       &state,
+           const std::string                      &kernel,
+           const typename LocalSystem<dim>::Wanted wanted)
   {
-    const MaterialPoints<3> points = random_points();
-    const auto              term =
+    const MaterialPoints<dim> points = random_points<dim>();
+    const auto                term =
       internal_force(points, VolumetricStrain::pointwise, kernel);
     std::mt19937                           generator(2);
     std::uniform_real_distribution<double> uniform(-2., 2.);
-    LocalField<3>                          field;
+    LocalField<dim>                        field;
     for (auto &component : field.coefficient)
       for (double &value : component)
         value = uniform(generator);
-    LocalSystem<3> system(wanted);
+    LocalSystem<dim> system(wanted);
     for (auto _ : state)
       for (unsigned int c = 0; c < n_grid_cells; ++c)
         {
@@ -74,10 +82,10 @@ namespace
           benchmark::DoNotOptimize(system.residual.data());
           benchmark::DoNotOptimize(system.matrix.data());
         }
-    const double n = 1. * n_grid_cells * n_points * state.iterations();
+    const double n = 1. * n_grid_cells * n_points<dim> * state.iterations();
     state.counters["seconds_per_point"] = benchmark::Counter(
       n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    if (wanted == LocalSystem<3>::tangent)
+    if (dim == 3 && wanted == LocalSystem<dim>::tangent)
       state.counters["flop_rate"] =
         benchmark::Counter(n * flop_of_tangent, benchmark::Counter::kIsRate);
   }
@@ -149,26 +157,35 @@ namespace
       benchmark::Counter(24. * n * state.iterations(),
                          benchmark::Counter::kIsRate);
   }
+
+  template <int dim>
+  void
+  register_assembly()
+  {
+    std::vector<std::string> kernels = {"plain"};
+    for (const auto &available : available_vector_kernels<dim>())
+      kernels.push_back(available.name);
+    const std::string where = std::to_string(dim) + "-D/";
+    for (const std::string &kernel : kernels)
+      {
+        benchmark::RegisterBenchmark((where + "tangent/" + kernel).c_str(),
+                                     assemble<dim>,
+                                     kernel,
+                                     LocalSystem<dim>::tangent);
+        benchmark::RegisterBenchmark((where + "residual/" + kernel).c_str(),
+                                     assemble<dim>,
+                                     kernel,
+                                     LocalSystem<dim>::energy_and_residual);
+      }
+  }
 } // namespace
 
 int
 main(int argc, char **argv)
 {
-  std::vector<std::string> kernels = {"plain"};
-  for (const VectorKernels &available : available_vector_kernels())
-    kernels.push_back(available.name);
   benchmark::RegisterBenchmark("dgemm", dgemm);
-  for (const std::string &kernel : kernels)
-    {
-      benchmark::RegisterBenchmark(("tangent/" + kernel).c_str(),
-                                   assemble,
-                                   kernel,
-                                   LocalSystem<3>::tangent);
-      benchmark::RegisterBenchmark(("residual/" + kernel).c_str(),
-                                   assemble,
-                                   kernel,
-                                   LocalSystem<3>::energy_and_residual);
-    }
+  register_assembly<3>();
+  register_assembly<2>();
   benchmark::RegisterBenchmark("dgemm again", dgemm);
   benchmark::RegisterBenchmark("triad", triad);
   benchmark::Initialize(&argc, argv);

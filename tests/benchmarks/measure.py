@@ -40,19 +40,20 @@ def kernels(program, blas):
     peak = max(found[name]["flop_rate"] for name in ("dgemm", "dgemm again"))
     rows = [("kernel", "tangent, µs a particle", "of DGEMM's rate",
              "plain / this", "residual, µs a particle", "plain / this")]
-    plain = [found[f"{what}/plain"]["seconds_per_point"]
-             for what in ("tangent", "residual")]
     for name in found:
-        if not name.startswith("tangent/"):
+        where, what, kernel = (name + "//").split("/")[:3]
+        if what != "tangent":
             continue
-        kernel = name.split("/")[1]
         tangent = found[name]
-        residual = found[f"residual/{kernel}"]["seconds_per_point"]
-        time = tangent["seconds_per_point"]
-        rows.append((kernel, f"{1e6 * time:.2f}",
-                     f"{100 * tangent['flop_rate'] / peak:.0f} %",
-                     f"{plain[0] / time:.1f}", f"{1e6 * residual:.3f}",
-                     f"{plain[1] / residual:.1f}"))
+        times = [(found[f"{where}/{what}/{kernel}"]["seconds_per_point"],
+                  found[f"{where}/{what}/plain"]["seconds_per_point"])
+                 for what in ("tangent", "residual")]
+        rate = tangent.get("flop_rate")
+        rows.append((f"{kernel}, {where}", f"{1e6 * times[0][0]:.2f}",
+                     f"{100 * rate / peak:.0f} %" if rate else "",
+                     f"{times[0][1] / times[0][0]:.1f}",
+                     f"{1e6 * times[1][0]:.3f}",
+                     f"{times[1][1] / times[1][0]:.1f}"))
     rows.append(("DGEMM, n = 1000", f"{peak / 1e9:.1f} GFLOP/s", "", "", "", ""))
     rows.append(("STREAM's triad",
                  f"{found['triad']['byte_rate'] / 1e9:.1f} GB/s", "", "", "",

@@ -14,28 +14,30 @@ using namespace Morula;
 
 namespace
 {
-  MaterialPoints<3>
+  template <int dim>
+  MaterialPoints<dim>
   random_material_points(std::mt19937      &generator,
                          const unsigned int n,
                          const bool         uniform)
   {
-    MaterialPoints<3> points;
-    static_cast<GroupedPoints<3> &>(points) =
-      random_points_in_cell<3>(generator, n);
+    MaterialPoints<dim> points;
+    static_cast<GroupedPoints<dim> &>(points) =
+      random_points_in_cell<dim>(generator, n);
     for (unsigned int p = 0; p < (uniform ? 1 : n); ++p)
       points.lame.push_back(lame(1. + p, 0.3 + 0.1 * (p % 2)));
-    points.current  = random_states<3>(generator, n);
-    points.previous = random_states<3>(generator, n);
+    points.current  = random_states<dim>(generator, n);
+    points.previous = random_states<dim>(generator, n);
     return points;
   }
 
-  LocalSystem<3>
-  system_of(const Term<3>               &term,
-            const LocalField<3>         &field,
-            const GrowthAt               growth,
-            const LocalSystem<3>::Wanted wanted)
+  template <int dim>
+  LocalSystem<dim>
+  system_of(const Term<dim>                        &term,
+            const LocalField<dim>                  &field,
+            const GrowthAt                          growth,
+            const typename LocalSystem<dim>::Wanted wanted)
   {
-    LocalSystem<3> system(wanted);
+    LocalSystem<dim> system(wanted);
     term.add(0, field, growth, system);
     return system;
   }
@@ -52,8 +54,9 @@ namespace
       ASSERT_NEAR(found[k], expected[k], 1e-13 * size) << "entry " << k;
   }
 
+  template <int dim>
   void
-  expect_same(const LocalSystem<3> &found, const LocalSystem<3> &expected)
+  expect_same(const LocalSystem<dim> &found, const LocalSystem<dim> &expected)
   {
     expect_same(found.residual, expected.residual);
     expect_same(found.magnitude, expected.magnitude);
@@ -75,90 +78,113 @@ namespace
     EXPECT_EQ(found.smallest_J.xi, expected.smallest_J.xi);
     EXPECT_EQ(found.inverted, expected.inverted);
   }
+
+  template <int dim>
+  void
+  check_any_number()
+  {
+    for (const auto &kernels : available_vector_kernels<dim>())
+      for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
+        for (const bool uniform : {true, false})
+          {
+            SCOPED_TRACE(kernels.name + std::string(", points: ") +
+                         std::to_string(n));
+            std::mt19937 generator(n);
+            const auto   points =
+              random_material_points<dim>(generator, n, uniform);
+            const auto               field = random_field<dim>(generator, 0.15);
+            const InternalForce<dim> plain(points);
+            const VectorizedInternalForce<dim> vectorized(points, kernels);
+            for (const GrowthAt growth :
+                 {GrowthAt::previous, GrowthAt::current})
+              for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
+                                        LocalSystem<dim>::rounding,
+                                        LocalSystem<dim>::tangent})
+                expect_same(system_of(vectorized, field, growth, wanted),
+                            system_of(plain, field, growth, wanted));
+          }
+  }
+
+  template <int dim>
+  void
+  check_sums()
+  {
+    std::mt19937 generator(3);
+    const auto   points = random_material_points<dim>(generator, 5, true);
+    const auto   field  = random_field<dim>(generator, 0.15);
+    for (const auto &kernels : available_vector_kernels<dim>())
+      for (const auto wanted :
+           {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
+        {
+          const VectorizedInternalForce<dim> term(points, kernels);
+          LocalSystem<dim>                   twice =
+                             system_of(term, field, GrowthAt::current, wanted),
+                           once = twice;
+          term.add(0, field, GrowthAt::current, twice);
+          for (double &entry : once.residual)
+            entry *= 2.;
+          for (double &entry : once.matrix)
+            entry *= 2.;
+          expect_same(twice.residual, once.residual);
+          expect_same(twice.matrix, once.matrix);
+          EXPECT_NEAR(twice.energy, 2. * once.energy, 1e-13 * twice.energy);
+        }
+  }
+
+  template <int dim>
+  void
+  check_no_points()
+  {
+    std::mt19937 generator(4);
+    auto         points = random_material_points<dim>(generator, 1, true);
+    points.offsets      = {0, 0};
+    const auto field    = random_field<dim>(generator, 0.15);
+    for (const auto &kernels : available_vector_kernels<dim>())
+      expect_same(system_of(VectorizedInternalForce<dim>(points, kernels),
+                            field,
+                            GrowthAt::current,
+                            LocalSystem<dim>::tangent),
+                  LocalSystem<dim>(LocalSystem<dim>::tangent));
+  }
+
+  template <int dim>
+  void
+  check_inverted()
+  {
+    std::mt19937 generator(5);
+    auto         points = random_material_points<dim>(generator, 11, true);
+    points.current[9].A[0][0] *= -1.; // J_e < 0
+    const auto field = random_field<dim>(generator, 0.05);
+    for (const auto &kernels : available_vector_kernels<dim>())
+      for (const auto wanted :
+           {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
+        {
+          const LocalSystem<dim> system =
+            system_of(VectorizedInternalForce<dim>(points, kernels),
+                      field,
+                      GrowthAt::current,
+                      wanted);
+          EXPECT_TRUE(system.inverted);
+          EXPECT_LT(system.smallest_J.value, 0.);
+          EXPECT_EQ(system.smallest_J.xi, points.xi[9]);
+          for (const double entry : system.residual)
+            ASSERT_EQ(entry, 0.);
+        }
+  }
 } // namespace
 
-TEST(VectorizedInternalForce, IsThePlainOneWithAnyNumberOfPoints)
-{
-  for (const VectorKernels &kernels : available_vector_kernels())
-    for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
-      for (const bool uniform : {true, false})
-        {
-          SCOPED_TRACE(kernels.name + std::string(", points: ") +
-                       std::to_string(n));
-          std::mt19937 generator(n);
-          const auto   points = random_material_points(generator, n, uniform);
-          const auto   field  = random_field<3>(generator, 0.15);
-          const InternalForce<3>        plain(points);
-          const VectorizedInternalForce vectorized(points, kernels);
-          for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
-            for (const auto wanted : {LocalSystem<3>::energy_and_residual,
-                                      LocalSystem<3>::rounding,
-                                      LocalSystem<3>::tangent})
-              expect_same(system_of(vectorized, field, growth, wanted),
-                          system_of(plain, field, growth, wanted));
-        }
-}
+TEST(VectorizedInternalForce, IsThePlainOneWithAnyNumberOfPoints){
+  MORULA_BOTH_DIMENSIONS(check_any_number)}
 
-TEST(VectorizedInternalForce, AddsToWhatIsThere)
-{
-  std::mt19937 generator(3);
-  const auto   points = random_material_points(generator, 5, true);
-  const auto   field  = random_field<3>(generator, 0.15);
-  for (const VectorKernels &kernels : available_vector_kernels())
-    for (const auto wanted :
-         {LocalSystem<3>::energy_and_residual, LocalSystem<3>::tangent})
-      {
-        const VectorizedInternalForce term(points, kernels);
-        LocalSystem<3>                twice =
-                         system_of(term, field, GrowthAt::current, wanted),
-                       once = twice;
-        term.add(0, field, GrowthAt::current, twice);
-        for (double &entry : once.residual)
-          entry *= 2.;
-        for (double &entry : once.matrix)
-          entry *= 2.;
-        expect_same(twice.residual, once.residual);
-        expect_same(twice.matrix, once.matrix);
-        EXPECT_NEAR(twice.energy, 2. * once.energy, 1e-13 * twice.energy);
-      }
-}
+TEST(VectorizedInternalForce,
+     AddsToWhatIsThere){MORULA_BOTH_DIMENSIONS(check_sums)}
 
-TEST(VectorizedInternalForce, NoPointsAddNothing)
-{
-  std::mt19937 generator(4);
-  auto         points = random_material_points(generator, 1, true);
-  points.offsets      = {0, 0};
-  const auto field    = random_field<3>(generator, 0.15);
-  for (const VectorKernels &kernels : available_vector_kernels())
-    expect_same(system_of(VectorizedInternalForce(points, kernels),
-                          field,
-                          GrowthAt::current,
-                          LocalSystem<3>::tangent),
-                LocalSystem<3>(LocalSystem<3>::tangent));
-}
+TEST(VectorizedInternalForce,
+     NoPointsAddNothing){MORULA_BOTH_DIMENSIONS(check_no_points)}
 
-TEST(VectorizedInternalForce, SaysWhichPointIsInverted)
-{
-  std::mt19937 generator(5);
-  auto         points = random_material_points(generator, 11, true);
-  points.current[9].A *= -1.; // of odd dimension: J_e < 0
-  const auto field = random_field<3>(generator, 0.05);
-  for (const VectorKernels &kernels : available_vector_kernels())
-    for (const auto wanted :
-         {LocalSystem<3>::energy_and_residual, LocalSystem<3>::tangent})
-      {
-        const LocalSystem<3> system =
-          system_of(VectorizedInternalForce(points, kernels),
-                    field,
-                    GrowthAt::current,
-                    wanted);
-        EXPECT_TRUE(system.inverted);
-        EXPECT_LT(system.smallest_J.value, 0.);
-        EXPECT_EQ(system.smallest_J.xi, points.xi[9]);
-        for (const double entry : system.residual)
-          ASSERT_EQ(entry, 0.);
-      }
-}
+TEST(VectorizedInternalForce,
+     SaysWhichPointIsInverted){MORULA_BOTH_DIMENSIONS(check_inverted)}
+
 
 // The kernels have a logarithm of their own: from the smallest to the largest
 // volume ratios, with the accuracy of libm's.
@@ -166,7 +192,7 @@ TEST(VectorizedInternalForce, LogarithmsAreAccurate)
 {
   std::mt19937  generator(6);
   LocalField<3> rest = {};
-  for (const VectorKernels &kernels : available_vector_kernels())
+  for (const auto &kernels : available_vector_kernels<3>())
     for (const double J : {1e-100,
                            1e-9,
                            0.1,
@@ -181,15 +207,16 @@ TEST(VectorizedInternalForce, LogarithmsAreAccurate)
                            1e9,
                            1e100})
       {
-        auto points        = random_material_points(generator, 1, true);
-        points.lame        = {{1., 0.}}; // τ = λ ln J_e I alone
-        auto &A            = points.current[0].A;
-        A                  = unit_symmetric_tensor<3>();
-        A[0][0]            = J;
-        const auto   found = system_of(VectorizedInternalForce(points, kernels),
-                                     rest,
-                                     GrowthAt::current,
-                                     LocalSystem<3>::energy_and_residual);
+        auto points = random_material_points<3>(generator, 1, true);
+        points.lame = {{1., 0.}}; // τ = λ ln J_e I alone
+        auto &A     = points.current[0].A;
+        A           = unit_symmetric_tensor<3>();
+        A[0][0]     = J;
+        const auto found =
+          system_of(VectorizedInternalForce<3>(points, kernels),
+                    rest,
+                    GrowthAt::current,
+                    LocalSystem<3>::energy_and_residual);
         const double log_J = std::log(J);
         EXPECT_NEAR(std::sqrt(2. * found.energy / points.current[0].W),
                     std::abs(log_J),
@@ -202,10 +229,10 @@ TEST(VectorizedInternalForce, LogarithmsAreAccurate)
 TEST(VectorizedInternalForce, IsChosenByName)
 {
   std::mt19937 generator(7);
-  const auto   points        = random_material_points(generator, 3, true);
+  const auto   points        = random_material_points<3>(generator, 3, true);
   const auto   is_vectorized = [&](const VolumetricStrain form,
                                  const std::string     &kernel) {
-    return dynamic_cast<VectorizedInternalForce *>(
+    return dynamic_cast<VectorizedInternalForce<3> *>(
              internal_force(points, form, kernel).get()) != nullptr;
   };
   EXPECT_TRUE(is_vectorized(VolumetricStrain::pointwise, "automatic"));

@@ -13,14 +13,15 @@
 namespace Morula
 {
   /**
-   * The particles of one grid cell in 3-D, as MaterialPoints and ElasticState
-   * store them, and the 27 coefficients of each component of the displacement.
+   * The particles of one grid cell, as MaterialPoints and ElasticState
+   * store them, and the 3^dim coefficients of each component of the
+   * displacement.
    */
   struct KernelInput
   {
     unsigned int  n;
-    const double *xi;          // 3 for each point
-    const double *states;      // 10 for each point: A row by row, W
+    const double *xi;          // dim for each point
+    const double *states;      // for each point: A row by row, W
     const double *lame;        // λ, μ
     unsigned int  lame_stride; // 2, or 0 if they are the same for all points
     double        h;           // µm
@@ -41,22 +42,24 @@ namespace Morula
    * for one instruction set (doc/performance.md). Add nothing if a point
    * is inverted.
    */
+  template <int dim>
   struct VectorKernels
   {
     const char *name;
 
-    /** Adds to the residual, 81 values by component, and, if not null, to the
-     *  sums of the magnitudes of its contributions. */
+    /** Adds to the residual, dim 3^dim values by component, and, if not null,
+     *  to the sums of the magnitudes of its contributions. */
     KernelResult (*residual)(const KernelInput &input,
                              double            *residual,
                              double            *magnitudes);
 
-    /** Adds to the tangent, 81 x 81 values row by row. */
+    /** Adds to the tangent row by row. */
     KernelResult (*tangent)(const KernelInput &input, double *matrix);
   };
 
   /** Those that this processor can run, the fastest first. */
-  std::vector<VectorKernels>
+  template <int dim>
+  std::vector<VectorKernels<dim>>
   available_vector_kernels();
 } // namespace Morula
 

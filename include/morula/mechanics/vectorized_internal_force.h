@@ -10,25 +10,26 @@
 namespace Morula
 {
   /**
-   * The pointwise InternalForce in 3-D, all particles of a grid cell at once
-   * and some in a register: the same to rounding, several times faster.
+   * The pointwise InternalForce, all particles of a grid cell at once and some
+   * in a register: the same to rounding, several times faster.
    */
-  class VectorizedInternalForce : public Term<3>
+  template <int dim>
+  class VectorizedInternalForce : public Term<dim>
   {
   public:
     /** Keeps a reference to the points. */
-    VectorizedInternalForce(const MaterialPoints<3> &points,
-                            const VectorKernels     &kernels);
+    VectorizedInternalForce(const MaterialPoints<dim> &points,
+                            const VectorKernels<dim>  &kernels);
 
     void
-    add(const unsigned int   cell,
-        const LocalField<3> &field,
-        const GrowthAt       growth,
-        LocalSystem<3>      &system) const override;
+    add(const unsigned int     cell,
+        const LocalField<dim> &field,
+        const GrowthAt         growth,
+        LocalSystem<dim>      &system) const override;
 
   private:
-    const MaterialPoints<3> &points;
-    const VectorKernels      kernels;
+    const MaterialPoints<dim> &points;
+    const VectorKernels<dim>   kernels;
   };
 
   /**

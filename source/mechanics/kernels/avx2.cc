@@ -8,6 +8,15 @@
 
 namespace Morula
 {
-  extern const VectorKernels avx2_kernels;
-  const VectorKernels avx2_kernels = {"avx2", &avx2::residual, &avx2::tangent};
+  template <int dim>
+  VectorKernels<dim>
+  avx2_kernels()
+  {
+    return {"avx2", &avx2::residual<dim>, &avx2::tangent<dim>};
+  }
+
+  template VectorKernels<2>
+  avx2_kernels();
+  template VectorKernels<3>
+  avx2_kernels();
 } // namespace Morula

@@ -8,8 +8,15 @@
 
 namespace Morula
 {
-  extern const VectorKernels avx512_kernels;
-  const VectorKernels        avx512_kernels = {"avx512",
-                                               &avx512::residual,
-                                               &avx512::tangent};
+  template <int dim>
+  VectorKernels<dim>
+  avx512_kernels()
+  {
+    return {"avx512", &avx512::residual<dim>, &avx512::tangent<dim>};
+  }
+
+  template VectorKernels<2>
+  avx512_kernels();
+  template VectorKernels<3>
+  avx512_kernels();
 } // namespace Morula

@@ -8,8 +8,15 @@
 
 namespace Morula
 {
-  extern const VectorKernels baseline_kernels;
-  const VectorKernels        baseline_kernels = {"baseline",
-                                                 &baseline::residual,
-                                                 &baseline::tangent};
+  template <int dim>
+  VectorKernels<dim>
+  baseline_kernels()
+  {
+    return {"baseline", &baseline::residual<dim>, &baseline::tangent<dim>};
+  }
+
+  template VectorKernels<2>
+  baseline_kernels();
+  template VectorKernels<3>
+  baseline_kernels();
 } // namespace Morula

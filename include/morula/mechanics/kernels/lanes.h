@@ -130,6 +130,18 @@ namespace Morula
       return determinant;
     }
 
+    /** The same in the plane. */
+    MORULA_INLINE Lanes
+    invert(const Lanes (&M)[2][2], Lanes (&inverse)[2][2])
+    {
+      const Lanes determinant = M[0][0] * M[1][1] - M[0][1] * M[1][0];
+      inverse[0][0]           = M[1][1] / determinant;
+      inverse[0][1]           = -M[0][1] / determinant;
+      inverse[1][0]           = -M[1][0] / determinant;
+      inverse[1][1]           = M[0][0] / determinant;
+      return determinant;
+    }
+
     /** Three numbers and a zero: a quarter more work, but no remainder. */
     using Quad = double __attribute__((vector_size(4 * sizeof(double))));
 

@@ -8,21 +8,29 @@ namespace Morula
 {
   namespace MORULA_KERNELS
   {
-    constexpr unsigned int n_splines = 27;
-    constexpr unsigned int n_columns = (n_splines + lanes - 1) / lanes;
+    /** Sizes of the rows and blocks of a grid cell. */
+    template <int dim>
+    struct Sizes
+    {
+      static constexpr unsigned int n_splines = dim == 2 ? 9 : 27;
+      static constexpr unsigned int n_columns = (n_splines + lanes - 1) / lanes;
 
-    /** Of a row in memory: 27 and zeros. A Quad at 24 must fit. */
-    constexpr unsigned int width = n_columns * lanes;
-    static_assert(width >= 28, "a Quad must fit behind the last row");
+      /** Of a row in memory: the splines and zeros. */
+      static constexpr unsigned int width = n_columns * lanes;
+      static_assert(width > n_splines, "a Quad must fit behind the last three");
 
-    /** Rows of the registers' tile: all sums and a row of factors fit. */
-    constexpr unsigned int tile_rows    = lanes == 8 ? 4 : 3;
-    constexpr unsigned int tile_columns = n_columns < 4 ? n_columns : 4;
+      /** Rows of the registers' tile: all sums and a row of factors fit. */
+      static constexpr unsigned int tile_rows = lanes == 8 ? 4 : 3;
+      static constexpr unsigned int tile_columns =
+        n_columns < 4 ? n_columns : 4;
+    };
 
     /** By direction, for each spline: what the updates of one point take. */
+    template <int dim>
     struct PointRows
     {
-      using Rows = double[3][width];
+      static constexpr unsigned int width = Sizes<dim>::width;
+      using Rows                          = double[dim][width];
 
       alignas(64) Rows g;
       Rows m;
@@ -32,7 +40,7 @@ namespace Morula
       MORULA_INLINE void
       scale(const double c1, const double c2)
       {
-        for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < width; ++a)
             {
               g_c1[i][a]   = c1 * g[i][a];
@@ -43,36 +51,39 @@ namespace Morula
     };
 
     /** A factor of an update: rows of PointRows. */
+    template <int dim>
     struct Factor
     {
-      PointRows::Rows PointRows::*rows;
-      unsigned int                direction;
+      typename PointRows<dim>::Rows PointRows<dim>::*rows;
+      unsigned int                                   direction;
 
       /** This factor's row of a point. */
       MORULA_INLINE const double *
-      of(const PointRows &point) const
+      of(const PointRows<dim> &point) const
       {
         return (point.*rows)[direction];
       }
     };
 
     /** Adds the sum over points and products of left[a] right[c]. */
+    template <int dim>
     struct Update
     {
-      Factor left, right;
+      Factor<dim> left, right;
     };
 
-    using Block = double[n_splines][width];
+    template <int dim>
+    using Block = double[Sizes<dim>::n_splines][Sizes<dim>::width];
 
     /** Adds the updates to R rows and C lanes-wide columns of a block. */
-    template <unsigned int R, unsigned int C, unsigned int K>
+    template <unsigned int R, unsigned int C, int dim, unsigned int K>
     MORULA_INLINE void
-    update_tile(const PointRows   *points,
-                const unsigned int n,
-                const Update (&updates)[K],
+    update_tile(const PointRows<dim> *points,
+                const unsigned int    n,
+                const Update<dim> (&updates)[K],
                 const unsigned int row,
                 const unsigned int column,
-                Block             &block)
+                Block<dim>        &block)
     {
       Lanes sums[R][C];
       for (unsigned int r = 0; r < R; ++r)
@@ -102,16 +113,18 @@ namespace Morula
     }
 
     /** A row of tiles, from a column on. */
-    template <unsigned int R, unsigned int K>
+    template <unsigned int R, int dim, unsigned int K>
     MORULA_INLINE void
-    update_rows(const PointRows   *points,
-                const unsigned int n,
-                const Update (&updates)[K],
+    update_rows(const PointRows<dim> *points,
+                const unsigned int    n,
+                const Update<dim> (&updates)[K],
                 const unsigned int row,
                 unsigned int       column,
-                Block             &block)
+                Block<dim>        &block)
     {
-      constexpr unsigned int step = tile_columns * lanes;
+      constexpr unsigned int width        = Sizes<dim>::width;
+      constexpr unsigned int tile_columns = Sizes<dim>::tile_columns;
+      constexpr unsigned int step         = tile_columns * lanes;
       for (; column + step <= width; column += step)
         update_tile<R, tile_columns>(points, n, updates, row, column, block);
       switch ((width - column) / lanes)
@@ -130,15 +143,17 @@ namespace Morula
     }
 
     /** @param symmetric only the entries from the diagonal on are needed */
-    template <unsigned int K>
+    template <int dim, unsigned int K>
     MORULA_INLINE void
-    update(const PointRows   *points,
-           const unsigned int n,
-           const Update (&updates)[K],
-           const bool symmetric,
-           Block     &block)
+    update(const PointRows<dim> *points,
+           const unsigned int    n,
+           const Update<dim> (&updates)[K],
+           const bool  symmetric,
+           Block<dim> &block)
     {
-      const auto first_column = [symmetric](const unsigned int row) {
+      constexpr unsigned int n_splines = Sizes<dim>::n_splines;
+      constexpr unsigned int tile_rows = Sizes<dim>::tile_rows;
+      const auto first_column          = [symmetric](const unsigned int row) {
         return symmetric ? row / lanes * lanes : 0;
       };
       unsigned int row = 0;
@@ -151,40 +166,43 @@ namespace Morula
     }
 
     /** The blocks (i, j), i <= j, of the tangent of a grid cell. */
+    template <int dim>
     struct Blocks
     {
-      alignas(64) Block geometric   = {}; // of all (i, i)
-      alignas(64) Block diagonal[3] = {};
-      alignas(64) Block other[3]    = {}; // (0, 1), (0, 2), (1, 2)
+      alignas(64) Block<dim> geometric     = {}; // of all (i, i)
+      alignas(64) Block<dim> diagonal[dim] = {};
+      // (0, 1), and in 3-D (0, 2), (1, 2)
+      alignas(64) Block<dim> other[dim == 2 ? 1 : 3] = {};
 
       /** Adds the products of the rows of @p n points. */
       MORULA_INLINE void
-      update(const PointRows *points, const unsigned int n)
+      update(const PointRows<dim> *points, const unsigned int n)
       {
-        using R           = PointRows;
-        const Update gg[] = {{{&R::m, 0}, {&R::m, 0}},
-                             {{&R::m, 1}, {&R::m, 1}},
-                             {{&R::m, 2}, {&R::m, 2}}};
-        MORULA_KERNELS::update(points, n, gg, true, geometric);
-        for (unsigned int i = 0, k = 0; i < 3; ++i)
+        using R = PointRows<dim>;
+        Update<dim> gg[dim];
+        for (unsigned int i = 0; i < dim; ++i)
+          gg[i] = {{&R::m, i}, {&R::m, i}};
+        MORULA_KERNELS::update<dim>(points, n, gg, true, geometric);
+        for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
-            const Update ii[] = {{{&R::g_both, i}, {&R::g, i}}};
-            MORULA_KERNELS::update(points, n, ii, true, diagonal[i]);
-            for (unsigned int j = i + 1; j < 3; ++j, ++k)
+            const Update<dim> ii[] = {{{&R::g_both, i}, {&R::g, i}}};
+            MORULA_KERNELS::update<dim>(points, n, ii, true, diagonal[i]);
+            for (unsigned int j = i + 1; j < dim; ++j, ++k)
               {
-                const Update ij[] = {{{&R::g_c1, i}, {&R::g, j}},
-                                     {{&R::g_c2, j}, {&R::g, i}}};
-                MORULA_KERNELS::update(points, n, ij, false, other[k]);
+                const Update<dim> ij[] = {{{&R::g_c1, i}, {&R::g, j}},
+                                          {{&R::g_c2, j}, {&R::g, i}}};
+                MORULA_KERNELS::update<dim>(points, n, ij, false, other[k]);
               }
           }
       }
 
-      /** Adds all nine blocks. */
+      /** Adds all blocks. */
       MORULA_INLINE void
       add_to(double *matrix) const
       {
-        constexpr unsigned int n_dofs = 3 * n_splines;
-        for (unsigned int i = 0, k = 0; i < 3; ++i)
+        constexpr unsigned int n_splines = Sizes<dim>::n_splines;
+        constexpr unsigned int n_dofs    = dim * n_splines;
+        for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
             for (unsigned int a = 0; a < n_splines; ++a)
               for (unsigned int c = a; c < n_splines; ++c)
@@ -196,7 +214,7 @@ namespace Morula
                   if (c > a)
                     matrix[column * n_dofs + row] += entry;
                 }
-            for (unsigned int j = i + 1; j < 3; ++j, ++k)
+            for (unsigned int j = i + 1; j < dim; ++j, ++k)
               for (unsigned int a = 0; a < n_splines; ++a)
                 for (unsigned int c = 0; c < n_splines; ++c)
                   {

@@ -35,6 +35,29 @@ namespace Morula
           observe();
         return;
       }
+    begin();
+    const StopSignals signals(comm);
+    record_failure([&]() {
+      if (observe)
+        observe();
+      while (!must_stop())
+        {
+          stop_if_asked(signals);
+          step();
+          files->step(row, births);
+          write_condition();
+          output(must_stop());
+          if (observe)
+            observe();
+        }
+    });
+    finish();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::begin()
+  {
     files.emplace(scene, resumed_from, clock, comm);
     if (!resumed_from)
       {
@@ -45,22 +68,15 @@ namespace Morula
         output(must_stop());
       }
     resumed_from.reset();
+  }
 
-    const StopSignals signals(comm);
+  template <int dim>
+  void
+  Simulation<dim>::record_failure(const std::function<void()> &steps)
+  {
     try
       {
-        if (observe)
-          observe();
-        while (!must_stop())
-          {
-            stop_if_asked(signals);
-            step();
-            files->step(row, births);
-            write_condition();
-            output(must_stop());
-            if (observe)
-              observe();
-          }
+        steps();
       }
     catch (const std::bad_alloc &)
       {
@@ -80,7 +96,12 @@ namespace Morula
         files->fail(text.str());
         throw std::runtime_error(text.str());
       }
+  }
 
+  template <int dim>
+  void
+  Simulation<dim>::finish()
+  {
     files->write_timings(timer);
     files->finish(time_steps.finished() ? "Finished: End time reached" :
                                           "Finished: Stop at cells reached",
@@ -138,20 +159,7 @@ namespace Morula
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
-    try
-      {
-        refine_surface([&space](const Point<dim> &x) {
-          return space.occupancy().crowded(x);
-        });
-      }
-    catch (const SurfaceTorn &error)
-      {
-        // This step is done; the next one could not be.
-        complete_row(space);
-        files->step(row, births);
-        ++n_steps;
-        give_up(error.what() + std::string("."));
-      }
+    refine_stretched_surface(space);
     complete_row(space);
   }
 
@@ -397,6 +405,26 @@ namespace Morula
     if (Morula::refine_surface(
           points, 0.5 * scene.grid.spacing, crowded, next_boundary_id, comm))
       tissue.replace_surface(points);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::refine_stretched_surface(const SplineSpace<dim> &space)
+  {
+    try
+      {
+        refine_surface([&space](const Point<dim> &x) {
+          return space.occupancy().crowded(x);
+        });
+      }
+    catch (const SurfaceTorn &error)
+      {
+        // This step is done; the next one could not be.
+        complete_row(space);
+        files->step(row, births);
+        ++n_steps;
+        give_up(error.what() + std::string("."));
+      }
   }
 
   template <int dim>

@@ -75,6 +75,13 @@ namespace Morula
     void
     check_resumed_cycle() const; // Step may have changed
 
+    void
+    begin();
+    /** Runs @p steps; what makes them fail goes into the run's files, too. */
+    void
+    record_failure(const std::function<void()> &steps);
+    void
+    finish();
     bool
     must_stop() const;
     void
@@ -104,6 +111,8 @@ namespace Morula
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     void
     refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
+    void
+    refine_stretched_surface(const SplineSpace<dim> &space);
     void
     divide();
     void

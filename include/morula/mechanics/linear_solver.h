@@ -20,9 +20,9 @@ namespace Morula
    * gradient method that reacts to negative curvature, with an incomplete
    * Cholesky factorisation that is made once a step and kept
    * (doc/theory.md, section 5); where that is not positive, Jacobi.
-   * Unsymmetric systems (following pressure) go to GMRES with an incomplete LU
-   * factorisation. Along the problem's null space nothing is solved for: there
-   * rounding could pass for negative curvature.
+   * Unsymmetric systems (following pressure) go to GMRES, with the
+   * factorisation of their symmetric part. Along the problem's null space
+   * nothing is solved for: there rounding could pass for negative curvature.
    * `automatic` does the same, and turns to the direct solver for a system that
    * this cannot solve.
    * `direct` uses MUMPS, or KLU where Trilinos lacks it.

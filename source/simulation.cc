@@ -44,7 +44,7 @@ namespace Morula
         {
           stop_if_asked(signals);
           step();
-          files->step(row, births);
+          write_rows();
           write_condition();
           output(must_stop());
           if (observe)
@@ -64,7 +64,7 @@ namespace Morula
         for (const std::string &warning : warnings)
           files->message(warning);
         begin_rows();
-        files->step(row, births);
+        write_rows();
         output(must_stop());
       }
     resumed_from.reset();
@@ -257,6 +257,14 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::write_rows()
+  {
+    const TimerOutput::Scope section(timer, "rows");
+    files->step(row, births);
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::write_condition()
   {
     if (condition)
@@ -421,7 +429,7 @@ namespace Morula
       {
         // This step is done; the next one could not be.
         complete_row(space);
-        files->step(row, births);
+        write_rows();
         ++n_steps;
         give_up(error.what() + std::string("."));
       }

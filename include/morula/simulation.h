@@ -116,6 +116,8 @@ namespace Morula
     void
     divide();
     void
+    write_rows();
+    void
     write_condition();
 
     typename MomentumBalance<dim>::TermList

@@ -167,6 +167,7 @@ CASE = Case(
               timeout=600),
         Trial("layer", "growing-layer.prm",
               quick={"Growth/Isotropic/Stretch": "1.5 + 0.4*t",
-                     "Time/Step": "0.05", "Output/Interval": "0.05"},
+                     "Time/Step": "0.05", "Time/End time": "1",
+                     "Output/Interval": "0.05"},
               timeout=600),
     ])

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The whole page from its parts."""
+"""The whole page from its parts. All text of a run goes through text(): the
+run may come from somebody else."""
+import base64
+import hashlib
 import string
 from html import escape
 from pathlib import Path
@@ -30,7 +33,7 @@ def page(run, program, options, say):
     if cells:
         blocks += cells.blocks
         left_out = [*cells.selection.words, *left_out]
-    last = run.statistics[-1]
+    last, code = run.statistics[-1], scripts(cells is not None)
     parts = {
         "title": escape(run.name),
         "subtitle": f"{last['cells']:,.0f} cells at day {last['time']:g}",
@@ -49,7 +52,9 @@ def page(run, program, options, say):
         "view_state": "" if cells else "hidden",
         "no_view": why_no_view(run, options) if not cells else "",
         "blocks": json_block("about", about) + "".join(blocks),
-        "scripts": scripts(cells is not None)}
+        "script_digests": " ".join(map(digest, code)),
+        "scripts": "\n".join(f"<script>{script}</script>"
+                             for script in code)}
     template = string.Template(
         (PAGE / "template.html").read_text(encoding="utf-8"))
     return template.substitute(parts)
@@ -105,6 +110,13 @@ def scripts(with_view):
     found = three() if with_view else []
     found += [(PAGE / name).read_text(encoding="utf-8") for name in SCRIPTS]
     for script in found:
-        if "</script" in script.lower():
-            raise ValueError("a script would end its own element")
-    return "\n".join(f"<script>\n{script}\n</script>" for script in found)
+        if "</script" in script.lower() or "<!--" in script:
+            raise ValueError("a script would end its own element, or hide it")
+    return [f"\n{script}\n" for script in found]
+
+
+def digest(script):
+    """What the page's policy knows a script by: a browser runs these scripts
+    and no other, not even one that gets into the page past text()."""
+    sha = hashlib.sha256(script.encode()).digest()
+    return f"'sha256-{base64.b64encode(sha).decode()}'"

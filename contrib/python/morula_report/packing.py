@@ -4,6 +4,7 @@
 import base64
 import json
 import zlib
+from html import escape
 
 import numpy as np
 
@@ -25,13 +26,17 @@ def packed(*arrays):
 
 def block(name, content):
     """An element that a browser neither shows nor runs."""
-    return f'<script type="text/plain" id="{name}">{content}</script>\n'
+    return (f'<script type="text/plain" id="{escape(name)}">{content}'
+            "</script>\n")
 
 
 def json_block(name, value):
-    # "</" must not end the element.
-    content = json.dumps(value, separators=(",", ":")).replace("</", "<\\/")
-    return f'<script type="application/json" id="{name}">{content}</script>\n'
+    """A value as JSON in such an element. No "<" stays in it: "</script>"
+    would end the element, and after "<!--" and "<script" a browser looks for
+    an end that never comes and takes the rest of the page for data."""
+    content = json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
+    return (f'<script type="application/json" id="{escape(name)}">{content}'
+            "</script>\n")
 
 
 def quantised(values, low, high, dtype):

@@ -89,10 +89,11 @@ def find_program(wanted):
 
 
 def write(text, file):
-    """Written aside and renamed, so that no half page replaces a good one."""
+    """Written aside and renamed, so that no half page replaces a good one. A
+    file's name need not be UTF-8: the page is."""
     with tempfile.NamedTemporaryFile(
-            "w", encoding="utf-8", dir=file.parent, prefix=f".{file.name}.",
-            delete=False) as stream:
+            "w", encoding="utf-8", errors="replace", dir=file.parent,
+            prefix=f".{file.name}.", delete=False) as stream:
         try:
             stream.write(text)
             stream.flush()
@@ -104,6 +105,7 @@ def write(text, file):
 
 
 def main(words=None):
+    sys.stdout.reconfigure(errors="backslashreplace")
     options = arguments(words)
     try:
         run = Run(options.directory)

@@ -6,6 +6,17 @@
 
 const byId = (id) => document.getElementById(id);
 
+/** An element with its attributes and what is in it, elements or text. Text of
+ * a run stays text, whatever stands in it: no part of the page is made of
+ * strings with markup in which such text could be. */
+function made(name, attributes = {}, ...content) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes))
+    element.setAttribute(key, value);
+  element.append(...content);
+  return element;
+}
+
 /** The bytes of a block; null if the page has none of that name. */
 async function unpack(name) {
   const element = byId(name);

@@ -148,24 +148,29 @@ class Panel {
       const k = 3 * Math.min(255, Math.floor(256 * t));
       return `rgb(${colours[k]},${colours[k + 1]},${colours[k + 2]})`;
     };
-    const title = `<b>${field.label}${field.unit && `, ${field.unit}`}</b>`;
+    const title = made("b", {}, field.label + (field.unit && ", ")
+      + field.unit);
     if (field.clone) {
-      byId("bar").innerHTML = `${title} (colours repeat)`;
+      byId("bar").replaceChildren(title, " (colours repeat)");
     } else if (field.whole && field.high - field.low < 16) {
-      const n = field.high - field.low + 1;
-      byId("bar").innerHTML = title + Array.from({length: n}, (_, i) => {
+      const n = field.high - field.low + 1, parts = [title];
+      for (let i = 0; i < n; ++i) {
         const value = field.low + i;
         const word = field.name === "phase" ? PHASES[value] : value;
-        return word === undefined ? "" : '<span class="swatch" style="'
-          + `background:${colour((i + 0.5) / n)}"></span>${word}`;
-      }).join("");
+        if (word !== undefined)
+          parts.push(made("span", {class: "swatch",
+            style: `background:${colour((i + 0.5) / n)}`}), String(word));
+      }
+      byId("bar").replaceChildren(...parts);
     } else {
       const stops = Array.from({length: 17}, (_, i) => colour(i / 16));
-      byId("bar").innerHTML = `${title}<div class="ramp" style="background:`
-        + `linear-gradient(to right,${stops})"></div><div class="ends">`
-        + `<span>${byId("lowest").value}</span><span>all values: `
-        + `${shown(field.min)} to ${shown(field.max)}</span>`
-        + `<span>${byId("highest").value}</span></div>`;
+      const ends = [byId("lowest").value, "all values: "
+        + `${shown(field.min)} to ${shown(field.max)}`, byId("highest").value];
+      byId("bar").replaceChildren(title,
+        made("div", {class: "ramp",
+          style: `background:linear-gradient(to right,${stops})`}),
+        made("div", {class: "ends"}, ...ends.map((end) =>
+          made("span", {}, end))));
     }
   }
 

@@ -22,7 +22,7 @@ class Tabs {
     });
     list.addEventListener("keydown", (event) => this.key(event));
     this.onShow = () => {};
-    const wanted = decodeURIComponent(location.hash.slice(1));
+    const wanted = location.hash.slice(1);
     this.show(this.sections.some((s) => s.id === wanted) ? wanted
       : this.sections[0].id);
   }

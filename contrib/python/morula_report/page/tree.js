@@ -142,6 +142,7 @@ class Tree {
         parts.push(`<text x="${x(cell.end) + 6}" y="${y(cell.row) + 4}">`
           + `${cell.id}</text>`);
     }
+    // of numbers alone, which need no escaping
     byId("tree").innerHTML = `<svg width="${width}" height="${bottom + foot}" `
       + `role="img" aria-label="${byId("tree-words").textContent}">`
       + `${parts.join("")}</svg>`;

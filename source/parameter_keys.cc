@@ -5,6 +5,7 @@
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 
 #include <morula/input_error.h>
+#include <morula/method.h>
 #include <morula/parameter_keys.h>
 #include <morula/suggestion.h>
 
@@ -287,6 +288,9 @@ namespace Morula
         for (const auto &[old, path] : renamed)
           if (path == key.path)
             out << indent() << "# Formerly: " << old << '\n';
+        for (const auto &[path, value] : Method::values("consistent"))
+          if (path == key.path)
+            out << indent() << "# With Method = consistent: " << value << '\n';
         out << indent() << "set " << name << " = " << key.default_value << '\n';
       }
     while (!open.empty())

@@ -64,6 +64,13 @@ namespace Morula
   void
   Scene::declare(ParameterHandler &prm)
   {
+    prm.add_parameter("Method",
+                      method,
+                      "Defaults of the keys that say 'With Method'; those that "
+                      "the scene sets keep their values. paper: the paper's. "
+                      "consistent: much more exact beside the edge of a fixed "
+                      "surface (doc/accuracy-and-cost.md says when not).",
+                      Patterns::Selection(Method::choices));
     prm.add_parameter("Dimension",
                       dimension,
                       "3, or 2 for plane strain per um of thickness.",
@@ -150,6 +157,9 @@ namespace Morula
                                       "' rewrites the file");
           }
       }
+    for (const auto &[path, value] : Method::values(scene.method))
+      if (scene.as_written.count(path) == 0)
+        keys.apply({Statement::set, path, value, ""}, prm);
     return scene;
   }
 

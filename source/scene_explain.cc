@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/expression.h>
+#include <morula/method.h>
+#include <morula/parameter_keys.h>
 #include <morula/particles/cell_state.h>
 #include <morula/particles/seeding.h>
 #include <morula/scene_checks.h>
@@ -55,6 +57,23 @@ namespace Morula
         for (const ParameterKey &key : choice->keys())
           text += ", " + key.path + " = " + key.default_value;
       return text;
+    }
+
+    /** What `Method` stands for in this scene, a key a line. */
+    void
+    print_method(std::ostream &out, Scene scene)
+    {
+      ParameterHandler prm;
+      scene.declare(prm);
+      const ParameterKeys keys(prm);
+      out << "Method\n  " << scene.method << ", which stands for\n";
+      for (const auto &[path, consistent] : Method::values("consistent"))
+        for (const ParameterKey &key : keys.list())
+          if (key.path == path)
+            out << "    " << path << " = " << key.default_value
+                << (scene.as_written.count(path) > 0 ? " (set by the scene)" :
+                                                       "")
+                << '\n';
     }
 
     bool
@@ -242,6 +261,7 @@ namespace Morula
            << " um, cell spacing " << scene.tissue.cell_spacing << " um\n"
            << "  until " << scene.time.end_time << " day in steps of "
            << scene.time.step << " day\n";
+      print_method(text, scene);
       print_effects(text, scene, counts);
       print_slots(text,
                   CellSlots<dim>(scene.has_growth(),

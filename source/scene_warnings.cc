@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/method.h>
 #include <morula/scene_estimates.h>
 #include <morula/scene_grid_warnings.h>
 #include <morula/scene_refusals.h>
@@ -160,6 +161,31 @@ namespace Morula
             "unsymmetric.");
     }
 
+    /** Method = consistent in a file that sets, to other values, all that it
+     *  stands for, as one made of the output of --parameters does. */
+    void
+    warn_of_method(const Scene &scene, Warnings &warnings)
+    {
+      const auto  values = Method::values(scene.method);
+      std::string paths;
+      for (const auto &[path, value] : values)
+        {
+          const auto written = scene.as_written.find(path);
+          if (written == scene.as_written.end() ||
+              Refusals::same_value(written->second, value))
+            return;
+          paths += (paths.empty() ? "" : ", ") + path;
+        }
+      if (!values.empty())
+        add(warnings,
+            "Method",
+            scene.method,
+            "it changes nothing, as the scene itself sets all that it stands "
+            "for: " +
+              paths + ".",
+            "Remove these keys, or this one.");
+    }
+
     template <int dim>
     void
     warn_of_output(const Scene         &scene,
@@ -208,6 +234,7 @@ namespace Morula
     warnings.insert(warnings.end(), of_grid.begin(), of_grid.end());
     warn_of_steps(scene, founders.positions, comm, warnings);
     warn_of_material(scene, warnings);
+    warn_of_method(scene, warnings);
     warn_of_output(scene, founders, comm, warnings);
     return warnings;
   }

@@ -16,9 +16,11 @@ namespace Morula
     bool
     may_differ(const std::string &path)
     {
-      return path == "Output directory" || path == "Time/End time" ||
-             path == "Time/Step" || path == "Time/Stop at cells" ||
-             path.rfind("Solver/", 0) == 0 || path.rfind("Output/", 0) == 0;
+      // the keys that Method stands for are compared by themselves
+      return path == "Method" || path == "Output directory" ||
+             path == "Time/End time" || path == "Time/Step" ||
+             path == "Time/Stop at cells" || path.rfind("Solver/", 0) == 0 ||
+             path.rfind("Output/", 0) == 0;
     }
 
     std::map<std::string, std::string>

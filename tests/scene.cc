@@ -99,6 +99,7 @@ TEST(Scene, HasTheDefaultsOfTheContract)
     }
   const std::map<std::string, std::string> contract = {
     {"Dimension", "3"},
+    {"Method", "paper"},
     {"Output directory", "output"},
     {"Random seed", "1"},
     {"Time/End time", "1"},

@@ -190,6 +190,28 @@ TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
 }
 
 
+TEST(SceneWarnings, OfAMethodThatChangesNothing)
+{
+  Scene scene                                          = good_scene();
+  scene.method                                         = "consistent";
+  scene.as_written["Boundary conditions/Nitsche form"] = "symmetric";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  expect_warning(scene,
+                 {"Method = 'consistent'",
+                  "changes nothing",
+                  "Nitsche form",
+                  "Nitsche penalty",
+                  "Remove"});
+  // one of them has the method's value: a choice
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "20.0";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.method                                            = "paper";
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
 TEST(SceneWarnings, OfIntervalsBelowTheStep)
 {
   Scene scene           = good_scene();

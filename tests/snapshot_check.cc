@@ -52,6 +52,27 @@ TEST(SnapshotCheck, TakesAKeyThatTheSnapshotLacksForItsDefault)
 }
 
 
+TEST(SnapshotCheck, ComparesWhatMethodStandsFor)
+{
+  // a snapshot of before that key holds the values that the paper's method has
+  Scene             scene;
+  const std::string older = without("Method", scene);
+  ASSERT_NE(older, scene.parameters());
+  check_resumable(scene, older);
+
+  // the word alone does not matter ...
+  scene.method = "consistent";
+  check_resumable(scene, older);
+  // ... what it has set does
+  scene.boundary_conditions.nitsche_form    = "unsymmetric";
+  scene.boundary_conditions.nitsche_penalty = 20.;
+  EXPECT_THROW(check_resumable(scene, older), InputError);
+  Scene words  = scene;
+  words.method = "paper";
+  check_resumable(words, scene.parameters());
+}
+
+
 TEST(SnapshotCheck, RefusesKeysOfALaterProgram)
 {
   const Scene scene;

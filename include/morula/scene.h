@@ -12,6 +12,7 @@
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
 #include <morula/mechanics/solver_parameters.h>
+#include <morula/method.h>
 #include <morula/output/output_parameters.h>
 #include <morula/particles/seeding.h>
 
@@ -47,6 +48,7 @@ namespace Morula
       : catalogue(catalogue)
     {}
 
+    std::string  method           = Method::by_default;
     unsigned int dimension        = 3;
     std::string  output_directory = "output";
     unsigned int random_seed      = 1;
@@ -97,7 +99,8 @@ namespace Morula
 
     /**
      * Reads a .prm file and applies "Section/Key=value" overrides, without
-     * checking more than each value by itself.
+     * checking more than each value by itself. Keys that neither of them sets
+     * have the values that `Method` gives them (method.h).
      * @throws InputError with the key's full path, the file and the line
      */
     static Scene

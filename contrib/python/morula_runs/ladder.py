@@ -91,15 +91,26 @@ def read_seeds(text):
     return seeds
 
 
-def check_seeds(plan, seeds, text):
+def check_seeds(plan, seeds, text, n_samples=None):
     """Refuses too many runs, and seeds that change nothing; `text` is the
-    option as written."""
-    n_runs = len(plan.points) * len(seeds or [1])
+    option as written, `n_samples` the runs of a point if not one a seed."""
+    n_runs = len(plan.points) * (n_samples or len(seeds or [1]))
     if n_runs > MAX_RUNS:
         raise Refused("--vary", f"{n_runs} runs", f"at most {MAX_RUNS} runs")
     if seeds and len(seeds) > 1 and not plan.random:
         raise Refused("--seeds", text, "one seed for a scene in which nothing "
                       "is random", "Its Proliferation/Law is none.")
+
+
+def check_method(plan):
+    """Refuses Method beside a key that it stands for: a value that is not
+    varied would be the scene's own for one and the method's for the other."""
+    both = [key.path for key in plan.scene.program.keys
+            if key.consistent is not None and key.path in plan.keys]
+    if "Method" in plan.keys and both:
+        raise Refused("--vary", f"Method and {both[0]}", "one of them",
+                      "Method stands for that key: vary Method alone, or the "
+                      "keys that it stands for.")
 
 
 class Plan:

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from .prm import parse
+from .keys import defaults_with, parse_keys
 from .refusal import Refused
 
 
@@ -29,9 +29,19 @@ class Program:
         return hashlib.sha256(self.executable.read_bytes()).hexdigest()
 
     @functools.cached_property
+    def keys(self):
+        """Every key, in order."""
+        return parse_keys(self._run("--parameters").stdout)
+
+    @functools.cached_property
     def defaults(self):
         """Every key by its full path, with its default as text."""
-        return parse(self._run("--parameters").stdout)
+        return {key.path: key.default for key in self.keys}
+
+    def complete(self, written):
+        """All keys of a scene that sets these: path -> value as text."""
+        method = written.get("Method", self.defaults.get("Method"))
+        return {**defaults_with(self.keys, method), **written}
 
     @functools.cached_property
     def version(self):

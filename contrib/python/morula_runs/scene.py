@@ -19,9 +19,9 @@ class Scene:
                           "Correct its name.")
         self.overrides = tuple(read_override(text) for text in overrides)
         program.explain(self.path, self.overrides)
-        self.keys = {**program.defaults,
-                     **parse(self.path.read_text(), self.path.parent),
-                     **dict(self.overrides)}
+        self.keys = program.complete({
+            **parse(self.path.read_text(), self.path.parent),
+            **dict(self.overrides)})
 
     @property
     def name(self):

@@ -5,7 +5,8 @@ import difflib
 
 from morula_runs import columns
 from morula_runs.command_line import ROOT, output_directory, ranks_and_jobs
-from morula_runs.ladder import Plan, check_seeds, read_ladder, read_seeds
+from morula_runs.ladder import (Plan, check_method, check_seeds, read_ladder,
+                                read_seeds)
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.runner import Run, run_name
@@ -35,6 +36,7 @@ class Request:
         self.seeds = read_seeds(options.seeds)
         self.columns = read_columns(options.columns)
         self.plan = Plan(self.scene, self._ladders(), full_grid=True)
+        check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
         self.output = output_directory(
             options, ROOT / "output/sweep" / self.scene.name)

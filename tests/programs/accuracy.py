@@ -7,6 +7,7 @@ its estimates are right where the truth is known.
 import csv
 import math
 import shutil
+import statistics
 import sys
 from pathlib import Path
 
@@ -206,6 +207,101 @@ class UnseenScenes(AccuracyTest):
         self.assertEqual(len(self.rows()), 1)
 
 
+# A disc, half of whose rim is held, that grows.
+HELD_DISC = """
+set Dimension = 2
+subsection Time
+  set End time = 2
+  set Step = 1
+end
+subsection Tissue
+  set Radius = 120
+  set Cell spacing = 8
+end
+subsection Grid
+  set Spacing = 40
+  set Offset = 3, 5
+end
+subsection Growth
+  set Law = isotropic
+  subsection Isotropic
+    set Stretch = 1 + 0.1*t
+  end
+end
+subsection Boundary conditions
+  set Fixed where = Y <= 0
+end
+"""
+
+
+class Offsets(AccuracyTest):
+    def csv(self, name):
+        with (self.work / "found" / name).open(encoding="utf-8") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_scatter_is_that_of_the_runs(self):
+        """Every run stands where it says, and the table is made of them."""
+        scene = self.write("disc.prm", HELD_DISC)
+        measure = ["--measure", "ymax,mean_energy_density"]
+        result = self.accuracy(scene, *measure, "--offsets", "4")
+        self.assertIn("standard deviation", result.stdout)
+        runs = self.csv("offsets.csv")
+        self.assertEqual(len(runs), 4 * 2)
+        moved = {(row["moved_x"], row["moved_y"]) for row in runs}
+        self.assertEqual(moved, {("0", "0"), ("0.5", "0.5"), ("0.75", "0.25"),
+                                 ("0.25", "0.75")})
+        for row in runs:
+            offset = [3 + 40 * float(row["moved_x"]),
+                      5 + 40 * float(row["moved_y"])]
+            words = ("" if offset == [3, 5]
+                     else f"-s Grid/Offset={offset[0]:g},{offset[1]:g}")
+            output = self.work / f"by-hand/{offset[0]:g}"
+            self.execute(scene, *words.split(), output=output)
+            there = read_csv(output / "statistics.csv")[row["measure"]][-1]
+            self.assertAlmostEqual(float(row["value"]) / there, 1, places=8)
+        for row in self.csv("scatter.csv"):
+            values = [float(run["value"]) for run in runs
+                      if run["measure"] == row["measure"]]
+            self.assertAlmostEqual(float(row["mean"]), statistics.mean(values))
+            self.assertAlmostEqual(float(row["standard_deviation"]),
+                                   statistics.stdev(values))
+            self.assertAlmostEqual(float(row["smallest"]), min(values))
+            self.assertAlmostEqual(float(row["largest"]), max(values))
+            # and there is something to see
+            self.assertGreater(max(values) / min(values), 1.0001)
+            self.assertEqual(row["runs"], "4")
+        self.assertIn("## Scatter at day 2", self.table())
+        self.assertTrue((self.work / "found/offsets.png").is_file())
+
+        # a larger number has the runs of the smaller one
+        again = self.accuracy(scene, *measure, "--offsets", "6")
+        self.assertEqual(again.stdout.count("from before"), 4)
+
+    def test_method_with_offsets_and_a_reference(self):
+        """Beside a ladder and a file of right values: the consistent method
+        scatters less, at either spacing the grid is moved by parts of it."""
+        scene = self.write("disc.prm", HELD_DISC)
+        reference = self.write("right.csv", "mean_energy_density\n0.05\n")
+        self.accuracy(scene, "--vary", "Method=paper,consistent", "--vary",
+                      "Grid/Spacing=40,60", "--measure", "mean_energy_density",
+                      "--offsets", "4", "--reference", str(reference))
+        rows = {(row["Method"], row["Grid/Spacing"]): row
+                for row in self.csv("scatter.csv")}
+        self.assertEqual(len(rows), 3)
+        self.assertLess(float(rows["consistent", "40"]["standard_deviation"]),
+                        0.5 * float(rows["paper", "40"]["standard_deviation"]))
+        offsets = {tuple(map(float, line.partition("=")[2].split(",")))
+                   for file in (self.work / "found/runs").glob(
+                       "*/output/parameters.prm")
+                   for line in file.read_text().splitlines()
+                   if line.strip().startswith("set Offset")}
+        self.assertEqual(offsets, {(3, 5), (23, 25), (33, 15), (13, 35),
+                                   (33, 35), (48, 20), (18, 50)})
+        self.assertIn("errors, from", self.table())
+        self.assertIn("scatter between offsets", self.table())
+        self.assertEqual(len(self.rows()), 3)
+
+
 class Truth(AccuracyTest):
     def test_estimate_of_the_right_value(self):
         """Where the exact solution is known, the limit of the ladders must
@@ -272,6 +368,14 @@ class Documentation(AccuracyTest):
         # the clamp edge: too stiff a grid stores too much energy
         energy = ("half-fixed-sphere", "mean_energy_density")
         self.assertGreater(value(*energy, "100"), value(*energy, "75"))
+        # and less with the consistent method, wherever the grid lies
+        with (self.work / "found/grid-offsets.short/scatter.csv").open(
+                encoding="utf-8") as stream:
+            scatter = {(row["measure"], row["Method"]): row
+                       for row in csv.DictReader(stream)}
+        paper, consistent = (scatter["mean_energy_density", method]
+                             for method in ("paper", "consistent"))
+        self.assertLess(float(consistent["largest"]), float(paper["smallest"]))
         # smooth growth: right even here, and its seeds do not matter
         self.assertLess(abs(value("graded-sphere", "surface:mean(radius)",
                                   "75", column="error")), 1.0)

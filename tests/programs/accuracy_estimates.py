@@ -15,7 +15,8 @@ from program import main
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "contrib/python"))
 
-from morula_accuracy import arithmetic, documentation  # noqa: E402
+from morula_accuracy import (arithmetic, documentation,  # noqa: E402
+                             offsets)
 from morula_accuracy.estimate import center_of, estimate  # noqa: E402
 from morula_accuracy.front import (Wanted, cheapest, pareto,  # noqa: E402
                                    read_wanted)
@@ -61,6 +62,39 @@ def estimate_of(plan, function, seeds=(0.0,), reference=None):
 
 def one(value):
     return numpy.array([value])
+
+
+class Offsets(unittest.TestCase):
+    def test_they_fill_the_grid_cell(self):
+        """Of 2^k offsets each direction has the multiples of 1/2^k once, the
+        first being the scene's own; more of them add to fewer."""
+        for dimension in (2, 3):
+            found = offsets.fractions(16, dimension)
+            self.assertEqual(found[0], (0.0,) * dimension)
+            for axis in range(dimension):
+                self.assertEqual(sorted(point[axis] for point in found),
+                                 [i / 16 for i in range(16)])
+            for number in (2, 3, 7, 16):
+                self.assertEqual(offsets.fractions(number, dimension),
+                                 found[:number])
+
+    def test_they_are_parts_of_the_spacing(self):
+        keys = {"Grid/Offset": "1, 2.5", "Grid/Spacing": "40"}
+        self.assertEqual(offsets.moved_offset(keys, (0.5, 0.25)), "21, 12.5")
+        self.assertEqual(offsets.moved_offset(keys, (0.5, 0.25, 0.75)),
+                         "21, 12.5, 30")
+
+    def test_samples(self):
+        found = offsets.samples([1, 2], 2, 3)
+        self.assertEqual([(s.seed, s.moved) for s in found],
+                         [(1, (0.0,) * 3), (2, (0.0,) * 3),
+                          (1, (0.5,) * 3), (2, (0.5,) * 3)])
+        keys = {"Grid/Offset": "0, 0, 0", "Grid/Spacing": "50"}
+        self.assertEqual(found[0].overrides(keys), [("Random seed", "1")])
+        self.assertEqual(found[3].overrides(keys),
+                         [("Grid/Offset", "25, 25, 25"), ("Random seed", "2")])
+        self.assertEqual(offsets.samples(None, None, 3),
+                         [offsets.Sample(None, None)])
 
 
 class Limits(unittest.TestCase):

@@ -113,9 +113,21 @@ PROLIFERATION = DocumentedScene(
      "zmax,total_volume,mean_energy_density",
      "-s", "Tissue/Cell spacing=20"))
 
+# The error bar of the first two, by where the grid lies.
+METHODS = "Method=paper,consistent"
+OFFSETS = DocumentedScene(
+    HALF_FIXED.file, (METHODS,),
+    ("--at", "2,4", "--offsets", "16", "--measure",
+     "zmax,total_volume,mean_energy_density"),
+    ("offsets-day-4",),
+    (METHODS,),
+    ("--at", "2", "--offsets", "2", "--measure",
+     "zmax,mean_energy_density", "-s", "Tissue/Cell spacing=20", "-s",
+     "Grid/Spacing=100"))
+
 SCENES = {"half-fixed-sphere": HALF_FIXED,
           "half-fixed-sphere-options": OPTIONS, "error-budget": BUDGET,
-          "graded-sphere": GRADED,
+          "grid-offsets": OFFSETS, "graded-sphere": GRADED,
           "random-proliferation": PROLIFERATION}
 
 
@@ -183,8 +195,10 @@ def document(name, words, output):
     for figure in SCENES[name].figures:
         shutil.copy(output / f"{figure}.png", IMAGES / f"{name}-{figure}.png")
     found = (output / "table.md").read_text(encoding="utf-8")
-    tables = re.sub("^## ", "#### ", found[found.index("## Runs"):],
-                    flags=re.MULTILINE)
+    sections = re.split("^## ", found, flags=re.MULTILINE)[1:]
+    if SCENES[name] is OFFSETS:
+        sections = [s for s in sections if s.startswith("Scatter")]
+    tables = "".join(f"#### {section}" for section in sections)
     text = f"```\n{wrapped(words)}\n```\n\n{tables}"
     DOCUMENT.write_text(with_part(
         DOCUMENT.read_text(encoding="utf-8"), name, text), encoding="utf-8")

@@ -8,6 +8,7 @@ from morula_runs.style import RC, plt
 
 from .figure_alone import alone_figure
 from .figure_cost import cost_figure
+from .figure_offsets import offsets_figure
 
 
 def draw(findings, directory):
@@ -17,6 +18,9 @@ def draw(findings, directory):
             save(cost_figure(findings, estimate), directory,
                  name.strip("-") + suffix(findings, estimate.time))
         for time in findings.request.times:
+            if any(s.time == time for s in findings.scatters):
+                save(offsets_figure(findings, time), directory,
+                     "offsets" + suffix(findings, time))
             estimates = [e for e in findings.estimates
                          if e.time == time and e.parts]
             if estimates:

@@ -9,11 +9,12 @@ from morula_runs.program import cores
 from morula_runs.results import row_at
 
 from .front import cheapest, pareto
+from .scatter import scatters
 
 
 @dataclass(frozen=True)
 class Cost:
-    """What a point takes until a time; means over the seeds."""
+    """What a point takes until a time; means over the samples."""
 
     wall: float      # s, from the start to the end of that step
     unknowns: float  # the most of any step until then
@@ -28,9 +29,11 @@ KINDS = {"wall": "wall time [s]", "unknowns": "unknowns",
 class Findings:
     """What there is to tell of a request."""
 
-    def __init__(self, request, records, estimates):
+    def __init__(self, request, records, estimates, tissue_center):
         self.request, self.plan = request, request.plan
         self.records, self.estimates = records, estimates
+        self.tissue_center = tissue_center
+        self.scatters = scatters(self) if request.n_offsets else []
         self.finished = [point for point in self.plan.points
                          if all(r.finished for r in self.of(point))]
         self.costs = {time: {point: self._cost(point, time)
@@ -38,7 +41,7 @@ class Findings:
                       for time in request.times}
 
     def of(self, point):
-        """The records of a point, one a seed."""
+        """The records of a point, one a sample."""
         return [record for (p, _), record in self.records.items()
                 if p == point]
 
@@ -100,10 +103,9 @@ class Findings:
     def warnings(self):
         """What a reader must know before believing the tables."""
         request = self.request
-        result = [f"{self.plan.label(point)}"
-                  + (f", seed {seed}" if seed is not None else "")
-                  + f": left out, it {record.summary()}"
-                  for (point, seed), record in self.records.items()
+        result = [f"{self.plan.label(point)}{sample.words()}"
+                  f": left out, it {record.summary()}"
+                  for (point, sample), record in self.records.items()
                   if not record.finished]
         halved = [self.plan.label(point) for point in self.finished
                   if any(r.statistics()["rejected_steps"].any()
@@ -125,5 +127,6 @@ class Findings:
     def summary(self):
         """The verdicts and the warnings, line by line."""
         verdicts = [self.verdict(estimate) for estimate in self.estimates]
-        return ([line for line in verdicts if line]
+        return ([scatter.words(self.plan) for scatter in self.scatters]
+                + [line for line in verdicts if line]
                 + ["warning: " + text for text in self.warnings()])

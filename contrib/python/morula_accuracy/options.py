@@ -17,6 +17,7 @@ def parser():
       --vary "Time/Step=2,1,0.5" --measure zmax,total_volume --wanted 1%
   contrib/accuracy my.prm --measure "cells:p99(energy_density)" \\
       --vary "Grid/Spacing,Tissue/Cell spacing=100:20,50:10,25:5" --seeds 1..8
+  contrib/accuracy my.prm --measure zmax --offsets 16
 
 doc/accuracy-and-cost.md explains the results.""")
     add = result.add_argument
@@ -31,6 +32,9 @@ doc/accuracy-and-cost.md explains the results.""")
     add("--at", metavar="DAYS", help="times of the comparison; default: the "
         "scene's end. Runs end at the last of them")
     add("--seeds", metavar="1..8", help="means over these random seeds")
+    add("--offsets", metavar="N", help="every run at N positions of the grid, "
+        "spread through one grid cell: how far do results depend on where it "
+        "lies? Needs no --vary")
     add("--grid", action="store_true", help="every combination of the "
         "ladders, instead of each alone round the scene's own values")
     add("--reference", metavar="FILE.csv", help="right values, in columns "

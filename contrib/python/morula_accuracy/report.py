@@ -6,10 +6,16 @@ import math
 import shlex
 
 from .limits import NOTES, ROUNDING
+from .scatter import write_csv
 
 
 def write_tables(findings, directory):
     (directory / "table.md").write_text(markdown(findings), encoding="utf-8")
+    if findings.request.n_offsets:
+        write_csv(findings, directory)
+    if not findings.plan.ladders:
+        (directory / "table.csv").unlink(missing_ok=True)  # of before
+        return
     with (directory / "table.csv").open("w", encoding="utf-8",
                                         newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
@@ -19,6 +25,10 @@ def write_tables(findings, directory):
 def markdown(findings):
     sections = [f"# Accuracy of {findings.request.scene.name}", how(findings)]
     for time in findings.request.times:
+        there = [s for s in findings.scatters if s.time == time]
+        if there:
+            sections += [f"## Scatter at day {time:g}",
+                         scatter_table(findings, there)]
         estimates = [e for e in findings.estimates if e.time == time]
         if estimates:
             title = f" at day {time:g}"
@@ -38,6 +48,9 @@ def how(findings):
     request = findings.request
     words = ["contrib/accuracy", *request.options.words]
     seeds = f", means over {len(request.seeds)} seeds" if request.seeds else ""
+    if request.n_offsets:
+        seeds += (f"{' and' if seeds else ', means over'} {request.n_offsets} "
+                  "positions of the grid")
     times = (f"; shortest of {request.repeats}" if request.repeats > 1 else "")
     return (f"    {shlex.join(words)}\n\n"
             f"{request.scene.program.version}; {request.ranks} rank"
@@ -78,8 +91,9 @@ def run_table(findings, estimates):
               "from zero, in brackets, count alike)")
     if any(findings.least_cost(e) for e in estimates):
         legend += "; ★ the fastest for the wanted error"
-    if findings.request.seeds and len(findings.request.seeds) > 1:
-        legend += "; ± two standard errors from the seeds"
+    if findings.request.sampled:
+        legend += ("; ± two standard errors from the "
+                   + findings.request.sampled)
     return table(head, [*rows, right]) + f"\n\n{legend}."
 
 
@@ -123,6 +137,44 @@ def pretty(unit):
     return unit.replace("um", "µm").replace("^2", "²").replace("^3", "³")
 
 
+def scatter_table(findings, there):
+    """Mean, extremes and standard deviation of every measure; with a reference
+    file also the errors, from the least to the largest."""
+    head = ["run", "measure", "runs", "mean", "smallest", "largest",
+            "standard deviation"]
+    if findings.request.reference:
+        head += ["error of the mean", "errors, from", "to"]
+    rows = []
+    for s in there:
+        unit = pretty(s.measure.unit)
+        row = [findings.plan.label(s.point), s.measure.text,
+               f"{len(s.values)}" + (f", {s.n_failed} failed"
+                                     if s.n_failed else "")]
+        row += [f"{number:.6g} {unit}".strip() for number in
+                (s.values.mean(), s.values.min(), s.values.max())]
+        row.append(relative(s, s.deviation, sign=False))
+        if s.right is not None:
+            row += [relative(s, number - s.right) for number in
+                    (s.values.mean(), s.values.min(), s.values.max())]
+        rows.append(row)
+    legend = (f"The grid is moved to {findings.request.n_offsets} positions "
+              "spread through one grid cell (doc/accuracy-and-cost.md); a "
+              "single run is one of them. Standard deviations "
+              + ("and errors " if findings.request.reference else "")
+              + "are lengths in µm, else in per cent of the "
+              + ("right value" if findings.request.reference else "mean")
+              + "; offsets.csv has every run.")
+    return table(head, rows) + f"\n\n{legend}"
+
+
+def relative(scatter, number, sign=True):
+    """A difference in um, or in per cent of what it is told against."""
+    unit, factor = pretty(scatter.measure.unit), 1.0
+    if scatter.measure.unit != "um" and abs(scatter.base) > ROUNDING:
+        unit, factor = "%", 100 / abs(scatter.base)
+    return f"{digits(factor * number, sign)} {unit}".strip()
+
+
 def ladder_table(findings, estimates):
     """By how much the centre's values would change if one ladder alone went
     to its limit; the sum; and what a reference file says instead."""
@@ -140,8 +192,9 @@ def ladder_table(findings, estimates):
     if estimates[0].from_file:
         rows.append(["the reference file"] + [
             shown(e, -e.errors[e.center], e.uncertainty) for e in estimates])
-    if findings.request.seeds and len(findings.request.seeds) > 1:
-        rows.append(["scatter between seeds (standard deviation)"] + [
+    if findings.request.sampled:
+        rows.append([f"scatter between {findings.request.sampled} "
+                     "(standard deviation)"] + [
             shown(e, e.scatter[e.center], sign=False) for e in estimates])
     return table(head, rows) + "\n\n" + ladder_legend(estimates)
 

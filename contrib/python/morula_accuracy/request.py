@@ -6,7 +6,8 @@ from fractions import Fraction
 
 from morula_runs.command_line import (ROOT, output_directory, ranks_and_jobs,
                                       whole_number)
-from morula_runs.ladder import Plan, check_seeds, read_ladder, read_seeds
+from morula_runs.ladder import (Plan, check_method, check_seeds, read_ladder,
+                                read_seeds)
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.scene import Scene, as_number
@@ -14,6 +15,7 @@ from morula_runs.scene import Scene, as_number
 from .front import read_wanted
 from .limits import read_kinds
 from .measures import read_measures
+from .offsets import read_offsets, samples
 from .reference import Reference
 
 # Keys that cannot be a rung of a ladder, and why.
@@ -41,11 +43,15 @@ class Request:
         self.measures = read_measures(options.measure, self.scene.dimension)
         self._check_surface()
         self.plan = self._plan()
+        check_method(self.plan)
+        self.n_offsets = read_offsets(options.offsets, self.plan)
+        self.samples = samples(self.seeds, self.n_offsets,
+                               self.scene.dimension)
         self.kinds = read_kinds(options.limit, self.scene)
         self.times = self._times()
         self.wanted = read_wanted(options.wanted, self.measures)
         self.reference = self._reference()
-        check_seeds(self.plan, self.seeds, options.seeds)
+        check_seeds(self.plan, self.seeds, options.seeds, len(self.samples))
         self.output = output_directory(
             options, ROOT / "output/accuracy" / self.scene.name)
 
@@ -56,7 +62,20 @@ class Request:
                               "cells", "A tissue of the shape 'points' has no "
                               "surface.")
 
+    @property
+    def sampled(self):
+        """What the runs of a point differ by, in words; empty if there is one
+        run a point."""
+        words = ["seeds"] if len(self.seeds or []) > 1 else []
+        return " and ".join(words + (["offsets"] if self.n_offsets else []))
+
     def _plan(self):
+        if not self.options.vary and self.options.offsets:
+            for option in ("grid", "wanted", "limit"):
+                if getattr(self.options, option):
+                    raise Refused(f"--{option}", "", "--vary as well",
+                                  "Without a ladder no error is estimated.")
+            return Plan(self.scene, [])
         if not self.options.vary:
             raise Refused("--vary", "", "at least one ladder", "For instance "
                           '--vary "Grid/Spacing=100,75,50".')

@@ -36,13 +36,13 @@ class Accuracy:
         self.runner = Runner(request.scene, request.output / "runs",
                              request.ranks, request.jobs, request.repeats,
                              request.options.again, say=self._say)
-        self.records = {}  # (point, seed): Record
+        self.records = {}  # (point, sample): Record
 
     def run(self):
-        runs = {(point, seed): self._run_of(point, seed)
+        runs = {(point, sample): self._run_of(point, sample)
                 for point in self.plan.points
-                for seed in self.request.seeds or [None]}
-        self.runner.check([runs[point, (self.request.seeds or [None])[0]]
+                for sample in self.request.samples}
+        self.runner.check([runs[point, self.request.samples[0]]
                            for point in self.plan.points])
         if self.request.options.plan:
             for run in runs.values():
@@ -53,10 +53,10 @@ class Accuracy:
         estimates = self._estimates(center)
         return self._report(estimates)
 
-    def _run_of(self, point, seed):
+    def _run_of(self, point, sample):
         special = list(self.plan.overrides(point))
-        if seed is not None:
-            special.append(("Random seed", str(seed)))
+        special += sample.overrides({**self.request.scene.keys,
+                                     **dict(special)})
         overrides = tuple([*self.fixed, *special])
         kinds = {m.kind for m in self.request.measures} - {"statistics"}
         return Run(run_name(special, overrides), overrides, tuple(kinds))
@@ -65,7 +65,7 @@ class Accuracy:
         """One estimate for each measure and time, as far as the centre, or a
         reference file, knows what is right."""
         estimates = []
-        for time in self.request.times:
+        for time in self.request.times if self.plan.ladders else []:
             for measure in self.request.measures:
                 values = self._values(measure, time)
                 if center in values or values and self.request.reference:
@@ -75,7 +75,7 @@ class Accuracy:
         return estimates
 
     def _values(self, measure, time):
-        """{point: values, one a seed} of the points all of whose runs have
+        """{point: values, one a sample} of the points all of whose runs have
         finished and can be measured."""
         center = self._tissue_center()
         values = {}
@@ -95,9 +95,10 @@ class Accuracy:
 
     def _report(self, estimates):
         self.request.output.mkdir(parents=True, exist_ok=True)
-        findings = Findings(self.request, self.records, estimates)
+        findings = Findings(self.request, self.records, estimates,
+                            self._tissue_center())
         write_tables(findings, self.request.output)
-        if not estimates:
+        if not estimates and not findings.scatters:
             print("accuracy: nothing to compare, as the run that all ladders "
                   "share has failed: table.md says why. Choose other values "
                   "for it by -s.", file=sys.stderr)

@@ -159,6 +159,7 @@ namespace Morula
                          const unsigned int min_components)
     : key_(key)
     , text_(text)
+    , uses_Z(ExpressionSyntax::uses(text, "Z"))
   {
     const std::vector<std::string> components =
       ExpressionSyntax::components(text);
@@ -203,6 +204,7 @@ namespace Morula
   {
     if (!constants.empty())
       return constants[component];
+    check_dimension(dim);
     const double value = parser->value_at(in_space(X), t, component);
     if (!std::isfinite(value))
       {
@@ -238,6 +240,20 @@ namespace Morula
   Expression::depends_on_time() const
   {
     return ExpressionSyntax::uses(text_, "t");
+  }
+
+
+  void
+  Expression::check_dimension(const unsigned int dim) const
+  {
+    if (dim == 2 && uses_Z)
+      throw InputError(
+        key_,
+        text_,
+        "an expression without Z in 2-D",
+        "The tissue lies in the plane of X and Y, and Z would be "
+        "0 everywhere: write it with X and Y, or set Dimension "
+        "= 3.");
   }
 
 

@@ -9,7 +9,9 @@
 #include <morula/unit_vector.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -34,6 +36,24 @@ namespace Morula
                        place.str());
     }
 
+    /** Asks a growth law and a division rule, which may be the user's own, for
+     *  what the first step will ask them. */
+    template <int dim>
+    void
+    try_effects(const GrowthLaw<dim>    *law,
+                const DivisionRule<dim> *rule,
+                const Point<dim>        &X,
+                const double             first_step)
+    {
+      const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+      Tensor<1, dim>       axis;
+      axis[0] = 1.;
+      if (law != nullptr)
+        law->growth({X, identity, identity}, 0., first_step);
+      if (rule != nullptr)
+        rule->axis({X, identity, axis});
+    }
+
     template <int dim>
     void
     check_founders(const Scene &scene, const std::vector<Point<dim>> &founders)
@@ -44,7 +64,9 @@ namespace Morula
                              scene.body_force.force_density,
                              3,
                              dim);
-      const auto       law = growth_law_of<dim>(scene);
+      const auto       law    = growth_law_of<dim>(scene);
+      const auto       rule   = division_rule_of<dim>(scene);
+      const double first_step = std::min(scene.time.step, scene.time.end_time);
       for (const Point<dim> &X : founders)
         {
           require_stiffness(stiffness, X);
@@ -54,12 +76,39 @@ namespace Morula
               if (law)
                 law->expected_volume_ratio(X, t);
             }
+          try_effects(law.get(), rule.get(), X, first_step);
         }
       if (scene.has_proliferation())
         CellCycle<dim>(scene.cell_cycle,
                        scene.random_seed,
                        1e-9 * scene.time.step)
           .check(founders, scene.time.step);
+    }
+
+    /** Number of founders, over all ranks, that proliferate. Refuses a cell
+     *  cycle of nobody. */
+    template <int dim>
+    types::particle_index
+    count_proliferating(const Scene                   &scene,
+                        const std::vector<Point<dim>> &founders,
+                        const MPI_Comm                 comm)
+    {
+      if (!scene.has_proliferation())
+        return 0;
+      const Expression      where("Proliferation/Cell cycle/Where",
+                             scene.cell_cycle.where);
+      types::particle_index n = 0;
+      for (const Point<dim> &X : founders)
+        n += where.value(X, 0.) > 0.;
+      n = Utilities::MPI::sum(n, comm);
+      if (n == 0)
+        throw InputError(where.key(),
+                         where.text(),
+                         "a condition that holds at some founder",
+                         "It is positive at none: correct it, or set "
+                         "Proliferation/Law = none. Founders sit at centers of "
+                         "cells, inside of the tissue.");
+      return n;
     }
 
     /**
@@ -108,13 +157,16 @@ namespace Morula
 
 
   template <int dim>
-  void
+  types::particle_index
   check_at_cells(const Scene                   &scene,
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm)
   {
     everywhere(comm, [&] { check_founders(scene, founders); });
+    const types::particle_index n_proliferating =
+      count_proliferating(scene, founders, comm);
     check_memory(scene, expected_size(scene, founders, comm), comm);
+    return n_proliferating;
   }
 
 
@@ -193,9 +245,9 @@ namespace Morula
   }
 
 
-  template void
+  template types::particle_index
   check_at_cells(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
-  template void
+  template types::particle_index
   check_at_cells(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
   template ConditionCounts
   check_at_surface(const Scene &, const SurfacePatches<2> &, const MPI_Comm);

@@ -84,19 +84,22 @@ namespace Morula
       refuse_constant_unless(Sign::positive,
                              "day",
                              in_space_only(section + "Duration",
-                                           cycle.duration),
+                                           cycle.duration,
+                                           dim),
                              "Choose the duration of a cycle in days.");
       refuse_constant_unless(Sign::not_negative,
                              "1/day",
                              in_space_only(section + "G0 exit rate",
-                                           cycle.exit_rate),
+                                           cycle.exit_rate,
+                                           dim),
                              "0 lets cells wait forever.");
       refuse_constant_unless(Sign::not_negative,
                              "(a ratio of volumes)",
                              in_space_only(section + "Size checkpoint",
-                                           cycle.size_checkpoint),
+                                           cycle.size_checkpoint,
+                                           dim),
                              "0 means no checkpoint.");
-      in_space_only(section + "Where", cycle.where);
+      in_space_only(section + "Where", cycle.where, dim);
       refuse_forgotten(scene,
                        section + "Division axis",
                        section + "Fixed axis",
@@ -117,11 +120,15 @@ namespace Morula
                          "Growth/Law",
                          scene.growth_law);
       if (scene.growth_law == "isotropic")
-        refuse_constant_unless(Sign::positive,
-                               "(a ratio of lengths)",
-                               Expression("Growth/Isotropic/Stretch",
-                                          scene.isotropic_growth.stretch),
-                               "1 is the initial size.");
+        {
+          const Expression stretch("Growth/Isotropic/Stretch",
+                                   scene.isotropic_growth.stretch);
+          stretch.check_dimension(dim);
+          refuse_constant_unless(Sign::positive,
+                                 "(a ratio of lengths)",
+                                 stretch,
+                                 "1 is the initial size.");
+        }
       else
         refuse_forgotten(scene,
                          "Growth/Law",
@@ -148,7 +155,7 @@ namespace Morula
       const bool        is_on     = !condition.where.empty();
       if (is_on)
         {
-          in_space_only(where_key, condition.where);
+          in_space_only(where_key, condition.where, scene.dimension);
           if (scene.tissue.shape == "points")
             throw InputError(where_key,
                              condition.where,
@@ -158,10 +165,12 @@ namespace Morula
         }
       if (condition.value_key.empty())
         return;
-      Expression(section + condition.value_key,
-                 condition.value,
-                 condition.is_vector ? 3 : 1,
-                 condition.is_vector ? scene.dimension : 1);
+      const Expression value(section + condition.value_key,
+                             condition.value,
+                             condition.is_vector ? 3 : 1,
+                             condition.is_vector ? scene.dimension : 1);
+      if (is_on)
+        value.check_dimension(scene.dimension);
       refuse_forgotten(scene,
                        where_key,
                        section + condition.value_key,
@@ -241,7 +250,8 @@ namespace Morula
     Expression("Body force/Force density",
                scene.body_force.force_density,
                3,
-               dim);
+               dim)
+      .check_dimension(dim);
   }
 
 

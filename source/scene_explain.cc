@@ -44,6 +44,18 @@ namespace Morula
              what;
     }
 
+    /** Which founders proliferate. */
+    std::string
+    of_founders(const types::particle_index n,
+                const types::particle_index n_founders,
+                const std::string          &where)
+    {
+      return n == n_founders ?
+               "all " + std::to_string(n) + " founders" :
+               std::to_string(n) + " of " + std::to_string(n_founders) +
+                 " founders, where " + where;
+    }
+
     /** ", Key = value" for all keys of the chosen effect, if it is one of the
      *  catalogue. */
     template <template <int> class Interface>
@@ -84,9 +96,11 @@ namespace Morula
     }
 
     void
-    print_effects(std::ostream          &out,
-                  const Scene           &scene,
-                  const ConditionCounts &counts)
+    print_effects(std::ostream               &out,
+                  const Scene                &scene,
+                  const ConditionCounts      &counts,
+                  const types::particle_index n_founders,
+                  const types::particle_index n_proliferating)
     {
       const CellCycleParameters         &cycle = scene.cell_cycle;
       const BoundaryConditionParameters &given = scene.boundary_conditions;
@@ -111,8 +125,8 @@ namespace Morula
                    "proliferation",
                    divides,
                    scene.proliferation_law + ", T = " + cycle.duration +
-                     " day, Lambda = " + cycle.exit_rate + " /day, where " +
-                     cycle.where + " > 0");
+                     " day, Lambda = " + cycle.exit_rate + " /day, " +
+                     of_founders(n_proliferating, n_founders, cycle.where));
       print_effect(out,
                    "size checkpoint",
                    has_checkpoint(scene),
@@ -242,7 +256,8 @@ namespace Morula
     {
       check_memory(scene, initial_size(scene), comm);
       const Founders<dim> founders = seed_founders<dim>(scene.tissue, comm);
-      check_at_cells(scene, founders.positions, comm);
+      const types::particle_index n_proliferating =
+        check_at_cells(scene, founders.positions, comm);
       const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);
       const ConditionCounts     counts = check_at_surface(scene, surface, comm);
       const std::vector<std::string> warnings =
@@ -262,7 +277,7 @@ namespace Morula
            << "  until " << scene.time.end_time << " day in steps of "
            << scene.time.step << " day\n";
       print_method(text, scene);
-      print_effects(text, scene, counts);
+      print_effects(text, scene, counts, founders.n_global, n_proliferating);
       print_slots(text,
                   CellSlots<dim>(scene.has_growth(),
                                  scene.has_proliferation()));

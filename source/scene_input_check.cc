@@ -93,12 +93,13 @@ namespace Morula
     }
 
     void
-    check_material(const MaterialParameters &material)
+    check_material(const MaterialParameters &material, const unsigned int dim)
     {
       refuse_constant_unless(Sign::positive,
                              "kPa",
                              in_space_only("Material/Young's modulus",
-                                           material.youngs_modulus),
+                                           material.youngs_modulus,
+                                           dim),
                              "Choose a positive stiffness.");
       refuse_unless(material.poissons_ratio > -1. &&
                       material.poissons_ratio < 0.5,
@@ -168,7 +169,7 @@ namespace Morula
       scene.tissue.check(dim);
       check_grid(scene.grid, dim);
       refuse_far_away("Tissue/Center", scene.tissue.center, scene.grid.spacing);
-      check_material(scene.material);
+      check_material(scene.material, dim);
       check_effects<dim>(scene);
       check_solver(scene.solver);
       check_output(scene);

@@ -52,9 +52,12 @@ namespace Morula::Refusals
 
 
   Expression
-  in_space_only(const std::string &key, const std::string &text)
+  in_space_only(const std::string &key,
+                const std::string &text,
+                const unsigned int dim)
   {
     const Expression expression(key, text);
+    expression.check_dimension(dim);
     if (expression.depends_on_time())
       throw InputError(key,
                        text,

@@ -85,7 +85,7 @@ TEST(Expression, HasComponents)
 TEST(Expression, MayHaveTwoOrThreeComponentsInThePlane)
 {
   const Point<2> X(1., 2.);
-  for (const char *text : {"Z + X; Y", "Z + X; Y; 7*X"})
+  for (const char *text : {"X; Y", "X; Y; 7*X"})
     {
       const auto v = Expression(key, text, 3, 2).vector(X, 0.);
       EXPECT_EQ(v[0], 1.);
@@ -93,6 +93,28 @@ TEST(Expression, MayHaveTwoOrThreeComponentsInThePlane)
     }
   EXPECT_THROW(Expression(key, "X", 3, 2), InputError);
   EXPECT_THROW(Expression(key, "X; Y; X; Y", 3, 2), InputError);
+}
+
+
+TEST(Expression, KnowsNoZInThePlane)
+{
+  const Point<2> X(1., 2.);
+  for (const char *text : {"Z", "X + (Y > 0)*Z", "X <= Z"})
+    try
+      {
+        Expression(key, text).value(X, 0.);
+        ADD_FAILURE() << "accepted " << text;
+      }
+    catch (const InputError &error)
+      {
+        expect_parts(error.what(),
+                     {"Section/Key", text, "without Z in 2-D", "X and Y"});
+      }
+  // also where only the third component has it, which nobody asks for
+  EXPECT_THROW(Expression(key, "0; 0; Z", 3, 2).vector(X, 0.), InputError);
+  EXPECT_THROW(Expression(key, "Z").check_dimension(2), InputError);
+  EXPECT_NO_THROW(Expression(key, "Z").check_dimension(3));
+  EXPECT_NO_THROW(Expression(key, "X; Y; 0", 3, 2).check_dimension(2));
 }
 
 

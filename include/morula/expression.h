@@ -19,9 +19,10 @@ namespace Morula
   /**
    * A user's muParser expression in X, Y, Z (a cell's or a boundary point's
    * initial position, µm) and t (day), with one or more components separated
-   * by ';'. In 2-D, Z = 0. Functions and operators are those of deal.II's
-   * FunctionParser; `pi` is defined. Plain numbers are recognised and cost
-   * little to evaluate. Copies share the parser; evaluation is thread-safe.
+   * by ';'. In 2-D there is no Z. Functions and operators are those of
+   * deal.II's FunctionParser; `pi` is defined. Plain numbers are recognised and
+   * cost little to evaluate. Copies share the parser; evaluation is
+   * thread-safe.
    *
    * What muParser would take silently for something else is refused: a comma
    * outside parentheses, an assignment, a chain such as 0 < X < 5. So is
@@ -47,7 +48,7 @@ namespace Morula
 
     /**
      * The value of one component at the initial position @p X and time @p t.
-     * @throws InputError if the value is not finite
+     * @throws InputError if the value is not finite, or if Z occurs in 2-D
      */
     template <int dim>
     double
@@ -71,6 +72,14 @@ namespace Morula
     bool
     depends_on_time() const;
 
+    /**
+     * Refuses Z in two dimensions: it would be 0 at all cells, and Z > 40 would
+     * hold nowhere without a word.
+     * @throws InputError
+     */
+    void
+    check_dimension(const unsigned int dim) const;
+
     /** Full path of the key. */
     const std::string &
     key() const;
@@ -85,6 +94,7 @@ namespace Morula
     std::string                   key_;
     std::string                   text_;
     std::vector<double>           constants; // empty: ask the parser
+    bool                          uses_Z;
     std::shared_ptr<const Parser> parser;
   };
 } // namespace Morula

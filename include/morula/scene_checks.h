@@ -16,13 +16,15 @@ namespace Morula
   /**
    * Evaluates the scene's expressions at all founders at t = 0 and End time:
    * growth stretch and stiffness are positive, the cycle fits the step, body
-   * forces are finite; and refuses a scene that does not fit into memory.
+   * forces are finite, some founder proliferates where there is a cell cycle;
+   * and refuses a scene that does not fit into memory.
    * Collective; every rank gives its own founders, and all throw together.
    * @param founders initial positions, µm
+   * @return number of founders, over all ranks, that proliferate
    * @throws InputError
    */
   template <int dim>
-  void
+  types::particle_index
   check_at_cells(const Scene                   &scene,
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm);

@@ -45,10 +45,12 @@ namespace Morula::Refusals
 
   /**
    * An expression of the initial position alone.
-   * @throws InputError if it depends on t
+   * @throws InputError if it depends on t, or on Z in two dimensions
    */
   Expression
-  in_space_only(const std::string &key, const std::string &text);
+  in_space_only(const std::string &key,
+                const std::string &text,
+                const unsigned int dim);
 
   /** Whether two values are equal, as text without blanks or as numbers. */
   bool

@@ -143,7 +143,39 @@ EXPRESSIONS = [
           "a finite value", "t = 0 day"),
 ]
 
+PLANE = {"Dimension": "2", CONDITIONS + "Slip where": "",
+         CONDITIONS + "Slip normal": ""}
+
+
+def without_z(key, value, **keys):
+    return wrong(f"Z in 2-D, {key}", key, value, "an expression without Z in 2-D",
+                 "write it with X and Y, or set Dimension = 3",
+                 keys={name: text for name, text in {**PLANE, **keys}.items()
+                       if name != key})
+
+
+IN_2D = [
+    without_z("Material/Young's modulus", "1 + (Z > 0)"),
+    without_z("Growth/Isotropic/Stretch", "1 + 0.1*t*Z",
+              **{"Growth/Law": "isotropic"}),
+    *(without_z(CYCLE + key, value) for key, value in (
+        ("Duration", "2 + Z/100"), ("G0 exit rate", "exp(Z)"),
+        ("Size checkpoint", "if(Z > 0, 0.5, 0)"), ("Where", "Z > 40"))),
+    *(without_z(CONDITIONS + key, "Z <= 0") for key in (
+        "Fixed where", "Slip where", "Traction where", "Pressure where")),
+    *(without_z(CONDITIONS + key, value,
+                **{CONDITIONS + f"{effect} where": "X < 0"})
+      for effect, key, value in (
+          ("Fixed", "Displacement", "0; 0.1*t*Z; 0"),
+          ("Traction", "Traction", "0; 0; Z"),
+          ("Pressure", "Pressure", "Z"))),
+    without_z("Body force/Force density", "0; -Z; 0"),
+]
+
 CONTRADICTIONS = [
+    wrong("a cell cycle of nobody", CYCLE + "Where", "Z > 400",
+          "a condition that holds at some founder",
+          "correct it, or set Proliferation/Law = none"),
     wrong("growth without its law", "Growth/Isotropic/Stretch", "1 + t",
           "its default, as Growth/Law is not set",
           "Set Growth/Law = isotropic, or remove this key"),
@@ -256,7 +288,7 @@ FILES = [
            "Drop one of the two cells"),
 ]
 
-KEYS = NUMBERS + CHOICES + EXPRESSIONS + CONTRADICTIONS + FILES
+KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + CONTRADICTIONS + FILES
 
 # Scenes of their own: (name, text or None, words that must be in the message).
 SCENES = [

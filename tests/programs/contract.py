@@ -231,6 +231,16 @@ class Contract(ProgramTest):
         found = re.findall(r"^  (\S.*?)  +(on|off)\b", text, re.MULTILINE)
         return dict(found)
 
+    def test_explain_counts_founders(self):
+        """Those that proliferate, and where."""
+        for where, said in (
+                ("1", "all 125 founders\n"),
+                ("Z > 40", "50 of 125 founders, where Z > 40\n"),
+                ("X*Y", "40 of 125 founders, where X*Y\n")):
+            text = self.execute(CUBE, "--explain", *overrides(
+                {"Proliferation/Cell cycle/Where": where})).stdout
+            self.assertIn(f" day, Lambda = 2 /day, {said}", text)
+
     def test_condition_estimate(self):
         """A row a step, with the time at its beginning; on request only."""
         self.execute(CUBE, *overrides({"Output/Condition estimate": "true"}))

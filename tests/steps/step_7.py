@@ -104,6 +104,9 @@ class Step7(StepTest):
                            ("Growth/Law", "crowding")):
             message = self.step("-s", f"{key}={value}", code=1)
             self.assertIn(key, message)
+        # Its expressions are asked before any work: Z is unknown in 2-D.
+        message = self.step("-s", f"{LAW}Rate=0.1 + Z", code=1)
+        self.assertIn("an expression without Z in 2-D", message)
         self.assertFalse((self.work / "output").exists())
 
     def test_forgotten(self):

@@ -271,6 +271,17 @@ namespace Morula
   }
 
   template <int dim>
+  bool
+  Simulation<dim>::is_held(const CellView<dim, const double> &cell) const
+  {
+    return growth.cycle() != nullptr &&
+           growth.cycle()->is_held(CycleState<dim>::load(cell),
+                                   cell.founder_position(),
+                                   time_steps.time(),
+                                   elastic_volume_ratio(cell));
+  }
+
+  template <int dim>
   CellQuantities
   Simulation<dim>::quantities(const CellView<dim, const double> &cell) const
   {
@@ -288,14 +299,9 @@ namespace Morula
     std::uint64_t   held = 0;
     for (const auto &particle : tissue.cells().order())
       {
-        const auto       cell = tissue.cell(particle);
-        const Point<dim> X    = cell.founder_position();
+        const auto cell = tissue.cell(particle);
         sums.add_cell(quantities(cell), particle->get_location());
-        if (growth.cycle() != nullptr)
-          held += growth.cycle()->is_held(CycleState<dim>::load(cell),
-                                          X,
-                                          time_steps.time(),
-                                          elastic_volume_ratio(cell));
+        held += is_held(cell);
       }
     for (const auto &point : tissue.boundary_points().order())
       sums.add_boundary_point(point->get_location());
@@ -341,7 +347,9 @@ namespace Morula
     if (files->writes_points() && files->output_due(t, last))
       {
         const TimerOutput::Scope section(timer, "output");
-        CellFields<dim>          cells(t, tissue.cells().order().size());
+        const bool               has_checkpoint =
+          growth.cycle() != nullptr && growth.cycle()->has_checkpoint();
+        CellFields<dim> cells(t, tissue.cells().order().size(), has_checkpoint);
         for (const auto &particle : tissue.cells().order())
           {
             const auto cell = tissue.cell(particle);
@@ -349,6 +357,7 @@ namespace Morula
                       cell,
                       particle->get_location(),
                       phase(cell),
+                      is_held(cell),
                       quantities(cell));
           }
         SurfaceFields<dim> surface(t);

@@ -149,6 +149,9 @@ namespace Morula
     /** As in cells-NNNN.csv. */
     unsigned int
     phase(const CellView<dim, const double> &cell) const;
+    /** At the size checkpoint, now. */
+    bool
+    is_held(const CellView<dim, const double> &cell) const;
 
     const Scene    scene;
     const MPI_Comm comm;

@@ -46,33 +46,39 @@ namespace Morula
   }
 
   template <int dim>
-  CellFields<dim>::CellFields(const double time, const std::size_t n_cells)
+  CellFields<dim>::CellFields(const double      time,
+                              const std::size_t n_cells,
+                              const bool        has_checkpoint)
     : time(time)
+    , has_checkpoint(has_checkpoint)
   {
-    table.names         = {"time",
-                           "id",
-                           "parent",
-                           "generation",
-                           "phase",
-                           "x",
-                           "y",
-                           "z",
-                           "X",
-                           "Y",
-                           "Z",
-                           "initial_volume",
-                           "volume",
-                           "growth_volume_ratio",
-                           "elastic_volume_ratio",
-                           "energy_density",
-                           "sigma_xx",
-                           "sigma_yy",
-                           "sigma_zz",
-                           "sigma_xy",
-                           "sigma_yz",
-                           "sigma_zx"};
+    table.names = {"time",
+                   "id",
+                   "parent",
+                   "generation",
+                   "phase",
+                   "x",
+                   "y",
+                   "z",
+                   "X",
+                   "Y",
+                   "Z",
+                   "initial_volume",
+                   "volume",
+                   "growth_volume_ratio",
+                   "elastic_volume_ratio",
+                   "energy_density",
+                   "sigma_xx",
+                   "sigma_yy",
+                   "sigma_zz",
+                   "sigma_xy",
+                   "sigma_yz",
+                   "sigma_zx"};
+    if (has_checkpoint)
+      table.names.push_back("held_at_checkpoint");
     table.n_csv_columns = table.names.size();
-    table.whole         = {"id", "parent", "generation", "phase"};
+    table.csv_only      = {"time", "x", "y", "z"};
+    table.whole = {"id", "parent", "generation", "phase", "held_at_checkpoint"};
 
     for (const char *name : {"pressure",
                              "principal_stress_1",
@@ -90,6 +96,7 @@ namespace Morula
                        const CellView<dim, const double> &cell,
                        const Point<dim>                  &position,
                        const unsigned int                 phase,
+                       const bool                         held,
                        const CellQuantities              &q)
   {
     const SymmetricTensor<2, 3> &sigma  = q.stress;
@@ -115,9 +122,11 @@ namespace Morula
                                sigma[2][2],
                                sigma[0][1],
                                sigma[1][2],
-                               sigma[2][0],
-                               -trace(sigma) / 3.})
+                               sigma[2][0]})
       values.push_back(value);
+    if (has_checkpoint)
+      values.push_back(held);
+    values.push_back(-trace(sigma) / 3.);
     for (const double principal : eigenvalues(sigma))
       values.push_back(principal);
     table.add_vector(position - cell.founder_position());

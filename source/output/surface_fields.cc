@@ -24,6 +24,7 @@ namespace Morula
                            "area",
                            "condition"};
     table.n_csv_columns = table.names.size();
+    table.csv_only      = {"time", "x", "y", "z"};
     table.whole         = {"id", "condition"};
     table.combine("normal", "nx", 3);
     table.add_nonscalar("displacement", 3);

@@ -29,10 +29,11 @@ namespace Morula
         UInt8
       };
 
-      std::string  name;
-      Type         type;
-      unsigned int n_components;
-      unsigned int first_column; // of the fields
+      std::string              name;
+      Type                     type;
+      unsigned int             n_components;
+      unsigned int             first_column; // of the fields
+      std::vector<std::string> components;   // their names, if they have any
 
       const char *
       type_name() const
@@ -59,26 +60,31 @@ namespace Morula
     groups_of(const PointFields<dim> &fields)
     {
       constexpr std::size_t largest_group = 8;
-      const Group           points        = {{"Points", Array::Float32, 3, 0},
-                                             {"connectivity", Array::Int32, 1, 0},
-                                             {"offsets", Array::Int32, 1, 0},
-                                             {"types", Array::UInt8, 1, 0}};
+      const Group           points = {{"Points", Array::Float32, 3, 0, {}},
+                                      {"connectivity", Array::Int32, 1, 0, {}},
+                                      {"offsets", Array::Int32, 1, 0, {}},
+                                      {"types", Array::UInt8, 1, 0, {}}};
 
       std::vector<Group> groups = {points, {}};
-      const auto         add    = [&](const std::string &name,
-                           const unsigned int first,
-                           const unsigned int n) {
+      const auto         add    = [&](const std::string              &name,
+                           const unsigned int              first,
+                           const unsigned int              n,
+                           const std::vector<std::string> &components) {
         const bool whole = fields.whole.count(name) > 0;
         if (groups.back().size() == largest_group)
           groups.emplace_back();
         groups.back().push_back(
-          {name, whole ? Array::Int32 : Array::Float32, n, first});
+          {name, whole ? Array::Int32 : Array::Float32, n, first, components});
       };
       for (unsigned int column = 0; column < fields.names.size(); ++column)
-        if (!fields.names[column].empty())
-          add(fields.names[column], column, 1);
+        if (!fields.names[column].empty() &&
+            fields.csv_only.count(fields.names[column]) == 0)
+          add(fields.names[column], column, 1, {});
       for (const auto &nonscalar : fields.nonscalars)
-        add(nonscalar.name, nonscalar.first_column, nonscalar.n_columns);
+        add(nonscalar.name,
+            nonscalar.first_column,
+            nonscalar.n_columns,
+            nonscalar.components);
       return groups;
     }
 
@@ -185,8 +191,11 @@ namespace Morula
           const auto describe = [&](const unsigned int g, const Array &array) {
             text << "<DataArray type=\"" << array.type_name() << "\" Name=\""
                  << array.name << "\" NumberOfComponents=\""
-                 << array.n_components << "\" format=\"appended\" offset=\""
-                 << offsets[g] << "\"/>\n";
+                 << array.n_components << '"';
+            for (std::size_t c = 0; c < array.components.size(); ++c)
+              text << " ComponentName" << c << "=\"" << array.components[c]
+                   << '"';
+            text << " format=\"appended\" offset=\"" << offsets[g] << "\"/>\n";
             offsets[g] += array.n_bytes(n);
           };
           text << "<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n

@@ -114,11 +114,12 @@ TEST(CellFields, GivesShearStress)
   F[1][2]        = 0.25;
   cell.writer().set_scalar(cell.slots.initial_volume, 1.);
   cell.writer().set_tensor(cell.slots.deformation, F);
-  CellFields<3> fields(0., 1);
+  CellFields<3> fields(0., 1, false);
   fields.add(0,
              cell.reader(),
              {},
              9,
+             false,
              cell_quantities<3>(cell.reader(), lame_constants, false));
   auto values = row(fields.fields(), 0);
   EXPECT_NEAR(values["sigma_xx"], mu * 0.25, 1e-15);
@@ -164,9 +165,9 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   write.set_scalar(cell.slots.parent, 7.);
   write.set_scalar(cell.slots.generation, 2.);
 
-  CellFields<2> fields(third, 1);
+  CellFields<2> fields(third, 1, false);
   const auto    q = cell_quantities<2>(cell.reader(), lame_constants, true);
-  fields.add(12, cell.reader(), Point<2>(5., 6.), 3, q);
+  fields.add(12, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
   auto        values = row(table, 0);
 
@@ -235,6 +236,27 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   EXPECT_EQ(vtu_value(table, "displacement"), 2.);
   EXPECT_NEAR(vtu_value(table, "sigma"), xx, 1e-15);
   EXPECT_EQ(table.values.size(), table.names.size());
+}
+
+TEST(CellFields, SayWhichCellsTheCheckpointHolds)
+{
+  Cell<3> cell(true, true);
+  cell.writer().set_scalar(cell.slots.initial_volume, 8.);
+  cell.writer().set_tensor(cell.slots.deformation, diagonal<3>({1., 1., 1.}));
+  cell.writer().set_tensor(cell.slots.growth, diagonal<3>({1.1, 1.1, 1.1}));
+  const auto q = cell_quantities<3>(cell.reader(), lame_constants, false);
+  for (const bool held : {false, true})
+    {
+      CellFields<3> fields(0., 1, true);
+      fields.add(0, cell.reader(), {}, 0, held, q);
+      const auto &table = fields.fields();
+      EXPECT_EQ(table.names[table.n_csv_columns - 1], "held_at_checkpoint");
+      EXPECT_EQ(row(table, 0)["held_at_checkpoint"], held);
+      // and nothing else has moved
+      EXPECT_EQ(row(table, 0)["sigma_zx"], q.stress[0][2]);
+      EXPECT_EQ(table.row(0)[table.n_csv_columns], -trace(q.stress) / 3.);
+      EXPECT_EQ(table.values.size(), table.names.size());
+    }
 }
 
 TEST(SurfaceFields, FollowNanson)

@@ -30,12 +30,13 @@ namespace
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     PointFields<dim> fields;
-    fields.names         = {"id", "energy"};
-    fields.n_csv_columns = 1;
+    fields.names         = {"time", "id", "energy", "both_a", "b"};
+    fields.n_csv_columns = 5;
     fields.whole         = {"id"};
+    fields.csv_only      = {"time"};
     fields.add_nonscalar("displacement", 3);
     fields.add_nonscalar("sigma", 9);
-    fields.combine("both", "id", 2);
+    fields.combine("both", "both_a", 2);
     for (unsigned int id = 0; id < n; ++id)
       if (n_ranks == 1 || 1 + id % (n_ranks - 1) == rank)
         {
@@ -44,8 +45,8 @@ namespace
             position[d] = 10. * id + d;
           fields.ids.push_back(id);
           fields.positions.push_back(position);
-          fields.values.push_back(id);
-          fields.values.push_back(0.5 * id);
+          for (const double value : {0.5, 1. * id, 0.5 * id, 7. * id, -1. * id})
+            fields.values.push_back(value);
           fields.add_vector(0.25 * position);
           for (unsigned int i = 0; i < 9; ++i)
             fields.values.push_back(100. * id + i);
@@ -119,11 +120,14 @@ for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
         assert grid.GetPoint(i) == tuple(x), grid.GetPoint(i)
         assert data.GetArray('id').GetDataTypeAsString() == 'int'
         assert data.GetArray('energy').GetValue(i) == 0.5 * n
-        assert data.GetArray('both').GetTuple(i) == (n, 0.5 * n)
+        assert data.GetArray('both').GetTuple(i) == (7 * n, -n)
         u = data.GetArray('displacement').GetTuple(i)
         assert u == tuple(0.25 * c for c in x), u
         sigma = data.GetArray('sigma').GetTuple(i)
         assert sigma == tuple(100 * n + k for k in range(9)), sigma
+    both = data.GetArray('both')
+    names = [both.GetComponentName(k) for k in range(2)]
+    assert names == ['a', 'b'], names
     ids = sorted(data.GetArray('id').GetValue(i) for i in range(7))
     assert ids == list(range(7)), ids
 )";

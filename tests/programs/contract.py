@@ -159,6 +159,40 @@ class Contract(ProgramTest):
         self.assertTrue((order["birth_time"][1:]
                          >= order["birth_time"][:-1]).all())
 
+    def test_held_at_checkpoint(self):
+        """With a size checkpoint one more column, the last, whose sum is that
+        of statistics.csv; a VTU file has every number once."""
+        self.execute(CUBE, *overrides({
+            "Proliferation/Cell cycle/Size checkpoint": "1",
+            "Output/Formats": "csv, vtu"}))
+        output = self.work / "output"
+        rows = read_csv(output / "statistics.csv")
+        for i, row in ((1, rows[4]), (2, rows[8])):
+            name = f"cells-000{i}"
+            header = (output / f"{name}.csv").read_text().splitlines()[0]
+            self.assertEqual(header, COLUMNS["cells-0000.csv"]
+                             + ",held_at_checkpoint")
+            cells = read_csv(output / f"{name}.csv")
+            held = cells["held_at_checkpoint"]
+            self.assertEqual(held.sum(), row["held_at_checkpoint"])
+            self.assertGreater(held.sum(), 0)
+            self.assertTrue((cells["phase"][held == 1] == 0).all())
+            self.assertTrue((cells["elastic_volume_ratio"][held == 1]
+                             <= 1).all())
+            arrays = re.findall(rb'Name="([^"]+)" NumberOfComponents',
+                                (output / f"{name}.vtu").read_bytes())
+            self.assertEqual(sorted(a.decode() for a in arrays), sorted(
+                "Points connectivity offsets types id parent generation phase "
+                "X Y Z initial_volume volume growth_volume_ratio "
+                "elastic_volume_ratio energy_density held_at_checkpoint "
+                "pressure principal_stress_1 principal_stress_2 "
+                "principal_stress_3 displacement sigma".split()))
+        arrays = re.findall(rb'Name="([^"]+)" NumberOfComponents',
+                            (output / "surface-0002.vtu").read_bytes())
+        self.assertEqual(sorted(a.decode() for a in arrays), sorted(
+            "Points connectivity offsets types id X Y Z area condition normal "
+            "displacement".split()))
+
     def test_two_dimensions(self):
         """All columns stay; z columns are 0, sigma_zz is true."""
         self.execute(SCENES / "rigid-box-2d.prm")

@@ -37,6 +37,12 @@ POINTS = {
     "surface": {**_POINTS, "nx": NUMBER, "ny": NUMBER, "nz": NUMBER,
                 "area": "um^(dim-1)"}}
 
+# What a VTU file has as one tensor or vector, and a CSV file as columns.
+COMPONENTS = {
+    "sigma": ("sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_yz",
+              "sigma_zx"),
+    "normal": ("nx", "ny", "nz")}
+
 # Columns of statistics.csv that are those of the boundary points.
 OF_SURFACE = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
 

@@ -101,7 +101,8 @@ class Run:
         """The columns of state i of `times` (-1: the last) by name, in order
         of the ids; lengths in um, stresses in kPa. From VTU files they are
         single precision (ids and other whole numbers are exact) and more:
-        pressure and principal stresses. Throws NoStates."""
+        pressure, principal stresses, displacement, and sigma in one piece
+        besides. Throws NoStates."""
         return self._read("cells", i)[1]
 
     def surface(self, i):
@@ -126,7 +127,8 @@ class Run:
 def in_order_of_ids(positions, columns):
     """Whatever was written as a whole number becomes one."""
     order = np.argsort(columns["id"], kind="stable")
-    whole = ("id", "parent", "generation", "phase", "condition")
+    whole = ("id", "parent", "generation", "phase", "condition",
+             "held_at_checkpoint")
     return positions[order], {
         name: values[order].astype(np.int64) if name in whole
         else values[order] for name, values in columns.items()}

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 
+from .columns import COMPONENTS
 from .results import read_csv, time_of
 
 
@@ -55,4 +56,20 @@ def read_points(file):
     columns = {
         point_data.GetArrayName(i): vtk_to_numpy(point_data.GetArray(i))
         for i in range(point_data.GetNumberOfArrays())}
-    return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), columns
+    positions = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    time = grid.GetFieldData().GetArray("TIME")
+    return positions, {**columns_of_csv(positions, columns,
+                                        time and time.GetValue(0)), **columns}
+
+
+def columns_of_csv(positions, columns, time):
+    """The columns that a VTU file has otherwise: as its points, as components,
+    and once for all."""
+    found = {name: positions[:, k] for k, name in enumerate("xyz")}
+    for whole, parts in COMPONENTS.items():
+        if whole in columns:
+            found |= {name: columns[whole][:, k]
+                      for k, name in enumerate(parts)}
+    if time is not None:
+        found["time"] = np.full(len(positions), time)
+    return found

@@ -42,27 +42,34 @@ namespace Morula
   /**
    * The table behind cells-NNNN.csv and cells-NNNN.vtu. The latter also gets
    * pressure (-tr σ / 3), the principal stresses (largest first), and the
-   * displacement x - X and σ in a form that ParaView knows as vector and
-   * tensor.
+   * displacement x - X; σ is a tensor there.
    */
   template <int dim>
   class CellFields
   {
   public:
-    /** @param time day */
-    /** @param n_cells as many as will be added */
-    CellFields(const double time, const std::size_t n_cells);
+    /**
+     * @param time           day
+     * @param n_cells        as many as will be added
+     * @param has_checkpoint whether there is a column of the cells that the
+     *                       size checkpoint holds
+     */
+    CellFields(const double      time,
+               const std::size_t n_cells,
+               const bool        has_checkpoint);
 
     /**
      * Adds one cell of this rank.
      * @param position current, µm
      * @param phase    number as in the file; 9: does not proliferate
+     * @param held     at the size checkpoint; nowhere without one
      */
     void
     add(const types::particle_index        id,
         const CellView<dim, const double> &cell,
         const Point<dim>                  &position,
         const unsigned int                 phase,
+        const bool                         held,
         const CellQuantities              &quantities);
 
     const PointFields<dim> &
@@ -73,6 +80,7 @@ namespace Morula
 
   private:
     double           time;
+    bool             has_checkpoint;
     PointFields<dim> table;
   };
 } // namespace Morula

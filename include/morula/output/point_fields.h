@@ -20,7 +20,8 @@ namespace Morula
   /**
    * This rank's rows of a table about points (cells or boundary points). One
    * description serves the CSV file, which holds the first columns, and the
-   * VTU file, which holds all.
+   * VTU file, which holds every number once: a component of a vector or tensor,
+   * a coordinate of the point and the time are no arrays of their own there.
    */
   template <int dim>
   struct PointFields
@@ -34,6 +35,8 @@ namespace Morula
       std::string  name;
       unsigned int first_column;
       unsigned int n_columns;
+      /** Names of the columns, if they are named. */
+      std::vector<std::string> components;
     };
 
     /** Of the columns; empty for those that are part of a nonscalar only. */
@@ -41,6 +44,8 @@ namespace Morula
     /** The columns behind these are for VTU files only. */
     unsigned int           n_csv_columns = 0;
     std::vector<Nonscalar> nonscalars;
+    /** Scalars that a VTU file has otherwise. */
+    std::set<std::string> csv_only;
     /** Names of scalars that are numbers without fraction. */
     std::set<std::string> whole;
 
@@ -55,19 +60,31 @@ namespace Morula
     add_nonscalar(const std::string &name, const unsigned int n_columns)
     {
       const unsigned int first_column = names.size();
-      nonscalars.push_back({name, first_column, n_columns});
+      nonscalars.push_back({name, first_column, n_columns, {}});
       names.insert(names.end(), n_columns, "");
     }
 
-    /** Makes a vector or tensor of columns that are there. */
+    /** Makes a vector or tensor of columns that are there. In VTU files these
+     *  are its components: "xx" of "sigma" is the column "sigma_xx", by which
+     *  name ParaView calls it, too. */
     void
     combine(const std::string &name,
             const std::string &first,
             const unsigned int n_columns)
     {
       const auto found = std::find(names.begin(), names.end(), first);
-      nonscalars.push_back(
-        {name, static_cast<unsigned int>(found - names.begin()), n_columns});
+      Nonscalar  combined{name,
+                         static_cast<unsigned int>(found - names.begin()),
+                         n_columns,
+                         {}};
+      for (auto column = found; column != found + n_columns; ++column)
+        {
+          csv_only.insert(*column);
+          const bool prefixed = column->rfind(name + "_", 0) == 0;
+          combined.components.push_back(
+            prefixed ? column->substr(name.size() + 1) : *column);
+        }
+      nonscalars.push_back(combined);
     }
 
     /** Appends the three values of a vector to the last row, 2-D: z = 0. */

@@ -154,6 +154,15 @@ namespace Morula
 
   template <int dim>
   bool
+  CellCycle<dim>::has_checkpoint() const
+  {
+    return !size_checkpoint.is_constant() ||
+           size_checkpoint.value(Point<dim>(), 0.) != 0.;
+  }
+
+
+  template <int dim>
+  bool
   CellCycle<dim>::is_held(const CycleState<dim> &state,
                           const Point<dim>      &X,
                           const double           t,

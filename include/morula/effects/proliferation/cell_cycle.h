@@ -156,6 +156,10 @@ namespace Morula
     placement_axis(const CycleState<dim> &state,
                    const Tensor<2, dim>  &F_e) const;
 
+    /** Whether there is a size checkpoint at all. */
+    bool
+    has_checkpoint() const;
+
     /** Whether the cell waits at @p t only because of the size checkpoint. */
     bool
     is_held(const CycleState<dim> &state,

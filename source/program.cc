@@ -141,7 +141,12 @@ namespace Morula
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
     map_large_arrays();
-    Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // Libraries get the name only: PETSc would complain, on the standard
+    // output, of every option that it does not know.
+    char                            *name[]    = {argv[0], nullptr};
+    char                           **only_name = name;
+    int                              n_words   = 1;
+    Utilities::MPI::MPI_InitFinalize mpi(n_words, only_name, 1);
     deal_II_exceptions::disable_abort_on_exception();
     deal_II_exceptions::suppress_stacktrace_in_exceptions();
 

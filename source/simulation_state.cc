@@ -368,10 +368,7 @@ namespace Morula
         files->write_points(cells.fields(), surface.fields(), t);
       }
     if (files->snapshot_due(t, last))
-      {
-        const TimerOutput::Scope section(timer, "snapshot");
-        files->write_snapshot(snapshot(), timer);
-      }
+      files->write_snapshot(snapshot(), timer);
   }
 
   template <int dim>

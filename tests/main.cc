@@ -36,8 +36,9 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // This takes its options out of argv: PETSc would complain of them.
   testing::InitGoogleTest(&argc, argv);
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   const unsigned int n_ranks =
     dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);

@@ -72,9 +72,10 @@ namespace Morula
                  const PointFields<dim> &surface,
                  const double            time);
 
-    /** Completes @p data with the files' own counters and writes it. */
+    /** Completes @p data with the files' own counters and writes it. No section
+     *  of @p timer may be open: this has its own. */
     void
-    write_snapshot(SnapshotData<dim> data, const TimerOutput &timer);
+    write_snapshot(SnapshotData<dim> data, TimerOutput &timer);
 
     /** Writes timings.csv anew. Collective. */
     void

@@ -117,8 +117,8 @@ namespace Morula
       return {std::numeric_limits<double>::infinity(), 0.};
 
     sum.reinit(space.owned_dofs(), space.relevant_dofs(), comm, true);
-    std::vector<types::global_dof_index> dofs;
-    space.relevant_dofs().fill_index_vector(dofs);
+    const std::vector<types::global_dof_index> dofs(
+      space.relevant_dofs().begin(), space.relevant_dofs().end());
     sum.add(dofs, sums);
     sum.compress(VectorOperation::add);
     return {totals[0], totals[1]};

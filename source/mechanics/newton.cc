@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 namespace Morula
@@ -210,9 +211,15 @@ namespace Morula
       {
         reason += error.what();
       }
-    catch (const char *message)
+    catch (const char *message) // NOX before Trilinos 14.2
       {
         reason += message;
+      }
+    catch (const std::runtime_error &error) // and since
+      {
+        if (std::string(error.what()).find("NOX") == std::string::npos)
+          throw;
+        reason += error.what();
       }
     u               = values_of(group->getX());
     report.residual = group->getNormF() / first;

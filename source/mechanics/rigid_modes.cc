@@ -243,8 +243,8 @@ namespace Morula
           }
       }
 
-    std::vector<types::global_dof_index> dofs;
-    space.relevant_dofs().fill_index_vector(dofs);
+    const std::vector<types::global_dof_index> dofs(
+      space.relevant_dofs().begin(), space.relevant_dofs().end());
     const std::vector<Equilibrium::Vector> motions = null_space();
     std::vector<Equilibrium::Vector>       basis;
     for (unsigned int p = 0; p < pieces.size(); ++p)
@@ -338,8 +338,8 @@ namespace Morula
         const unsigned int n = piece.free.size();
         for (unsigned int iteration = 0; iteration < 20; ++iteration)
           {
-            const Tensor<2, dim> after = (S + M) * transpose(Q); // Σ V⁰ z⊗y
-            const Tensor<1, dim>     mean = Q * U + piece.volume * shift;
+            const Tensor<2, dim>     after = (S + M) * transpose(Q); // Σ V⁰ z⊗y
+            const Tensor<1, dim>     mean  = Q * U + piece.volume * shift;
             LAPACKFullMatrix<double> jacobian(n);
             Vector<double>           defect(n), twist(n);
             for (unsigned int k = 0; k < n; ++k)

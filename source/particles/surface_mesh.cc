@@ -4,9 +4,6 @@
 #include <morula/input_error.h>
 #include <morula/particles/surface_mesh.h>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -34,11 +31,10 @@ namespace Morula
   {
     namespace Processing = CGAL::Polygon_mesh_processing;
 
-    using Kernel    = CGAL::Exact_predicates_inexact_constructions_kernel;
-    using Mesh      = CGAL::Surface_mesh<Kernel::Point_3>;
-    using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-    using Tree      = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-    using Inside    = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
+    using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
+    using Tree   = Inside::AABB_tree;
 
     template <typename Position>
     std::string

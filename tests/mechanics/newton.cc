@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "linear_problem.h"
@@ -285,6 +286,42 @@ TEST(Newton, EndsWithASearchThatFindsNothing)
   EXPECT_THROW(solve(problem, SolverParameters(), timer, u, report),
                StepFailed);
   EXPECT_EQ(report.newton_iterations, 1u);
+}
+
+
+// NOX threw strings before Trilinos 14.2, and throws runtime errors since: the
+// step has failed. Whatever else is thrown is none of Newton's business.
+TEST(Newton, FailsWhereNoxGivesUp)
+{
+  const auto throws = [](const auto &what) {
+    ChainProblem problem = hardening(0.);
+    problem.stiffness    = [&what](const unsigned int,
+                                const unsigned int,
+                                const std::vector<double> &) -> double {
+      throw what;
+    };
+    return problem;
+  };
+  const char *const        message = "NOX Error";
+  const std::runtime_error error("NOX Error"), other("the disk is full");
+  ChainProblem             before_14_2 = throws(message);
+  EXPECT_THROW(solved(before_14_2, 1e-6), StepFailed);
+  ChainProblem since = throws(error);
+  EXPECT_THROW(solved(since, 1e-6), StepFailed);
+  ChainProblem elsewhere = throws(other);
+  try
+    {
+      solved(elsewhere, 1e-6);
+      FAIL() << "it must fail";
+    }
+  catch (const StepFailed &failure)
+    {
+      FAIL() << failure.what();
+    }
+  catch (const std::runtime_error &failure)
+    {
+      EXPECT_STREQ(failure.what(), other.what());
+    }
 }
 
 

@@ -11,6 +11,7 @@ import subprocess
 import time
 from pathlib import Path
 
+import h5py
 from program import ProgramTest, main, overrides, read_csv
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
@@ -67,6 +68,31 @@ class Resume(ProgramTest):
         self.execute(SCENE, *estimate, "--resume", output=resumed)
         steps = list(read_csv(resumed / "condition.csv")["step"])
         self.assertEqual(steps, [5, 6, 7, 8])
+
+    def test_timings(self):
+        """They count on. A snapshot leaves its own writing out: deal.II sums
+        up no timer with an open section."""
+        self.execute(SCENE, *overrides({"Output/Snapshot interval": "0.25",
+                                        "Output/Formats": "none",
+                                        "Time/End time": "0.75"}))
+        output = self.work / "output"
+
+        def calls(section):
+            for row in (output / "timings.csv").read_text().splitlines():
+                if row.startswith(section + ","):
+                    return float(row.split(",")[1])
+            return 0
+
+        written = calls("snapshot")
+        self.assertGreaterEqual(written, 3)
+        with h5py.File(output / "snapshot.h5") as file:
+            saved = file["numbers"].attrs
+            self.assertEqual(saved["calls of snapshot"], written - 1)
+            self.assertEqual(saved["calls of tangent"], calls("tangent"))
+        before = calls("tangent")
+        self.execute(SCENE, "--resume")
+        self.assertEqual(calls("snapshot"), written)  # the last was not paid
+        self.assertGreater(calls("tangent"), before)
 
     def test_refined_surface(self):
         """Points are split before and after the interruption."""

@@ -160,8 +160,7 @@ namespace Morula
       }
     level = std::sqrt(level);
     if (level == 0.)
-      return *std::min_element(half_axes.begin_raw(), half_axes.end_raw()) >
-             clearance;
+      return *std::min_element(&half_axes[0], &half_axes[0] + dim) > clearance;
     return (1. - level) * level > clearance * gradient.norm();
   }
 

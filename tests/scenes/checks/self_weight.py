@@ -13,6 +13,7 @@ import sys
 import numpy
 from results import (Results, agree, initial_positions, positions, root,
                      stresses)
+from scipy.integrate import trapezoid
 
 results = Results(sys.argv[1])
 lame_lambda, mu = results.lame()
@@ -40,7 +41,7 @@ agree("stress in units of b l0", stress_error.mean() / (weight * length), 0.0,
 top = Y == Y.max()
 grid = numpy.linspace(0, Y.max(), 2001)
 Lambda = numpy.array([stretch(height) for height in grid])
-settled = numpy.trapz(1 - Lambda, grid)
+settled = trapezoid(1 - Lambda, grid)
 agree("settling of the top cells, relative",
       (X - positions(cells))[top, up] / settled, 1.0, float(sys.argv[3]))
 sideways = [d for d in range(3) if d != up]

@@ -58,14 +58,12 @@ namespace Morula
   {
     last_signal = 0;
     speaks      = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-    struct sigaction action
-    {};
+    struct sigaction action{};
     action.sa_handler = take_down;
     action.sa_flags   = SA_RESETHAND | SA_RESTART;
     for (const auto &[number, name] : names)
       {
-        struct sigaction before
-        {};
+        struct sigaction before{};
         sigaction(number, nullptr, &before);
         if (before.sa_handler == SIG_IGN)
           continue;

@@ -14,8 +14,7 @@ namespace
   struct sigaction
   action_of(const int number)
   {
-    struct sigaction action
-    {};
+    struct sigaction action{};
     sigaction(number, nullptr, &action);
     return action;
   }

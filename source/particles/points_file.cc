@@ -145,7 +145,7 @@ namespace Morula
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &bin &position &line &length;
+        archive & bin & position & line & length;
       }
     };
 

@@ -77,7 +77,7 @@ namespace Morula
 
     /** What a stray needs to know of its nearest cell: position, F, reach. */
     template <int dim>
-    constexpr unsigned int n_landmark = dim + dim *dim + 1;
+    constexpr unsigned int n_landmark = dim + dim * dim + 1;
 
     template <int dim>
     std::vector<double>

@@ -117,7 +117,7 @@ namespace Morula
   all_cells(const Tissue<dim> &tissue)
   {
     using Cells              = std::map<types::particle_index,
-                           std::pair<Point<dim>, std::vector<double>>>;
+                                        std::pair<Point<dim>, std::vector<double>>>;
     const PointList<dim> own = tissue.cells().copy();
     Cells                mine, all;
     for (std::size_t i = 0; i < own.size(); ++i)

@@ -113,16 +113,13 @@ TEST(TissueParameters, RefusesWrongLengths)
 TEST(TissueParameters, RefusesListsOfWrongLength)
 {
   using P = TissueParameters;
-  EXPECT_TRUE(starts_with(refusal_after([](P &p) {
-                            p.center = {1., 2.};
-                          }),
+  EXPECT_TRUE(starts_with(refusal_after([](P &p) { p.center = {1., 2.}; }),
                           "Tissue/Center"));
   EXPECT_EQ(refusal_after([](P &p) { p.center = {1., 2.}; }, 2), "");
   EXPECT_TRUE(starts_with(refusal_after([](P &p) { p.center = {1.}; }, 2),
                           "Tissue/Center"));
-  EXPECT_TRUE(starts_with(refusal_after([](P &p) {
-                            p.lattice_offset = {1., 2., 3., 4.};
-                          }),
+  EXPECT_TRUE(starts_with(refusal_after(
+                            [](P &p) { p.lattice_offset = {1., 2., 3., 4.}; }),
                           "Tissue/Lattice offset"));
   EXPECT_TRUE(starts_with(refusal_after([](P &p) {
                             p.shape = "ellipsoid";

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+
+# What Morula needs of deal.II and of the machine, checked before anything is
+# compiled: a missing header would show only after minutes, a missing linker at
+# the very end.
+
+include(CheckCXXSourceCompiles)
+
+# Whether the source compiles, or links. A failure is not kept: what is missing
+# may have been installed when CMake runs again.
+macro(morula_check source result)
+  set(CMAKE_REQUIRED_QUIET TRUE)
+  check_cxx_source_compiles("${source}" ${result})
+  if(NOT ${result})
+    unset(${result} CACHE)
+  endif()
+endmacro()
+
+set(cure "On Debian and Ubuntu, contrib/setup installs a good one; for other \
+systems see doc/install.md.")
+
+foreach(feature MPI P4EST TRILINOS HDF5 MUPARSER LAPACK UMFPACK)
+  if(NOT DEAL_II_WITH_${feature})
+    message(FATAL_ERROR
+      "Morula needs a deal.II built with ${feature}; the one in "
+      "${DEAL_II_PATH} is not. ${cure}")
+  endif()
+endforeach()
+
+# Ifpack, Amesos and EpetraExt are used through Epetra's interface for int.
+if(DEAL_II_WITH_64BIT_INDICES)
+  message(FATAL_ERROR
+    "Morula needs a deal.II with 32-bit indices "
+    "(DEAL_II_WITH_64BIT_INDICES=OFF); the one in ${DEAL_II_PATH} has 64-bit "
+    "indices, which Morula's linear solver does not know. 32 bits are enough "
+    "for 700 million splines in 3-D. ${cure}")
+endif()
+
+# The programs are linked with deal.II's own flags, which may ask for a linker
+# that deal.II's packages do not bring with them (mold, in Debian 13).
+set(flags "${DEAL_II_LINKER_FLAGS}")
+separate_arguments(CMAKE_REQUIRED_LINK_OPTIONS UNIX_COMMAND "${flags}")
+morula_check("int main() { return 0; }" MORULA_LINKS_WITH_FLAGS_OF_DEAL_II)
+unset(CMAKE_REQUIRED_LINK_OPTIONS)
+if(NOT MORULA_LINKS_WITH_FLAGS_OF_DEAL_II)
+  if(flags MATCHES "-fuse-ld=([^ ]+)")
+    message(FATAL_ERROR
+      "The linker '${CMAKE_MATCH_1}' is missing, or the compiler "
+      "${CMAKE_CXX_COMPILER} does not know it: deal.II's flags ask for it "
+      "(${flags}). Install it (Debian and Ubuntu: apt-get install "
+      "${CMAKE_MATCH_1}; contrib/setup does so).")
+  endif()
+  message(FATAL_ERROR
+    "The compiler ${CMAKE_CXX_COMPILER} cannot link an empty program with "
+    "deal.II's flags (${flags}). Take the compiler that deal.II was built "
+    "with, by -DCMAKE_CXX_COMPILER=..., in an empty build directory.")
+endif()
+
+# A Trilinos that satisfies deal.II may lack packages that Morula needs, even
+# Epetra with all that rests on it. The headers alone are looked for.
+include(${DEAL_II_TARGET_CONFIG})
+set(DEAL_II_TARGET_CONFIG_INCLUDED TRUE)
+set(CMAKE_REQUIRED_INCLUDES ${DEAL_II_INCLUDE_DIRS})
+foreach(target dealii::interface_trilinos dealii::interface_mpi)
+  if(TARGET ${target})
+    list(APPEND CMAKE_REQUIRED_LIBRARIES ${target})
+  endif()
+endforeach()
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+foreach(header Epetra_CrsMatrix.h EpetraExt_MatrixMatrix.h NOX_Solver_Generic.H
+               Ifpack_IC.h Amesos.h)
+  string(REGEX MATCH "^[A-Za-z]+" package ${header})
+  morula_check("#if !__has_include(<${header}>)\n#error missing\n#endif\n"
+    MORULA_HAS_${package})
+  if(NOT MORULA_HAS_${package})
+    message(FATAL_ERROR
+      "Morula needs Trilinos with its package ${package}; deal.II in "
+      "${DEAL_II_PATH} was built with one that lacks it (there is no "
+      "${header}). ${cure}")
+  endif()
+endforeach()
+unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
+unset(CMAKE_REQUIRED_INCLUDES)
+unset(CMAKE_REQUIRED_LIBRARIES)
+
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+find_package(Boost 1.74 QUIET COMPONENTS program_options)
+if(NOT Boost_FOUND)
+  message(FATAL_ERROR
+    "Boost.Program_options 1.74 or later is missing (Debian: "
+    "libboost-program-options-dev; contrib/setup installs it). If it stands "
+    "elsewhere, set Boost_ROOT.")
+endif()
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
+if(NOT RANDOM123_INCLUDE_DIR)
+  message(FATAL_ERROR
+    "Random123 is missing (Debian: librandom123-dev; contrib/setup installs "
+    "it). If it stands elsewhere, set RANDOM123_INCLUDE_DIR.")
+endif()
+find_package(CGAL 5.4 QUIET)
+if(NOT CGAL_FOUND)
+  message(FATAL_ERROR
+    "CGAL 5.4 or later is missing, or its GMP and MPFR are (Debian: "
+    "libcgal-dev libgmp-dev libmpfr-dev; contrib/setup installs them). If it "
+    "stands elsewhere, set CGAL_DIR.")
+endif()
+if(MORULA_TESTS)
+  find_package(GTest QUIET)
+  if(NOT TARGET GTest::gtest)
+    message(FATAL_ERROR
+      "The tests need GoogleTest (Debian: libgtest-dev; contrib/setup installs "
+      "it). If it stands elsewhere, set GTest_ROOT; without the tests, set "
+      "MORULA_TESTS=OFF.")
+  endif()
+endif()

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 
-# What `cmake --install` puts below its prefix: the program, the library with
-# its headers and the package that find_package(Morula) reads, scenes to start
-# from, and a project to start one's own effects from. Nothing of it names the
-# build or the source directory, and the whole may be moved.
+# What `cmake --install` puts below its prefix: the program, the tools that work
+# on scenes and runs, the library with its headers and the package that
+# find_package(Morula) reads, scenes to start from, a project to start one's own
+# effects from, and the pages. Nothing of it names the build or the source
+# directory, and the whole may be moved.
 
 if(MORULA_SANITIZE)
   install(CODE "message(FATAL_ERROR \"Not installed: this build finds memory \
@@ -12,6 +13,9 @@ errors (MORULA_SANITIZE), and programs that link with it would not. Install \
 one without.\")")
   return()
 endif()
+
+# Steps and tests are not installed, nor built for it.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY TRUE)
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -64,3 +68,37 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/example-project
   PATTERN output EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${share_directory})
+
+# contrib/report as morula-report, and so on: links to where the tools find
+# their modules. (morula_runs/places.py tells an installation from the tree.)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/tools)
+set(tools accuracy cell-shapes migrate render report sweep)
+foreach(tool ${tools})
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/contrib/${tool}
+    DESTINATION ${share_directory}/contrib)
+  file(RELATIVE_PATH link
+    ${CMAKE_INSTALL_FULL_BINDIR}
+    ${CMAKE_INSTALL_FULL_DATADIR}/morula/contrib/${tool})
+  file(CREATE_LINK ${link} ${PROJECT_BINARY_DIR}/tools/morula-${tool} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/tools/morula-${tool}
+    DESTINATION ${CMAKE_INSTALL_BINDIR})
+endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python
+  DESTINATION ${share_directory}/contrib
+  PATTERN __pycache__ EXCLUDE
+  PATTERN reference_manual EXCLUDE
+  PATTERN step_pictures EXCLUDE)
+
+set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${pages_directory})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
+  FILES_MATCHING PATTERN "*.md"
+  PATTERN changes EXCLUDE
+  PATTERN data EXCLUDE
+  PATTERN images EXCLUDE
+  PATTERN steps EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pages_directory}
+  RENAME copyright)
+
+include(${CMAKE_CURRENT_LIST_DIR}/package.cmake)
+

@@ -42,6 +42,8 @@ class Install(Installation, ProgramTest):
         for file in ("bin/morula", "lib/libmorula.a", "share/morula/LICENSE",
                      "share/morula/prm/demo.prm",
                      "share/morula/prm/paper/fig-4b.prm",
+                     "share/doc/morula/copyright",
+                     "share/doc/morula/doc/parameters.md",
                      "lib/cmake/Morula/MorulaConfig.cmake",
                      "lib/cmake/Morula/MorulaConfigVersion.cmake",
                      "lib/cmake/Morula/MorulaTargets.cmake"):
@@ -71,6 +73,35 @@ class Install(Installation, ProgramTest):
                          "-s", "Tissue/Radius=60", "-s", "Grid/Spacing=30",
                          "-s", "Time/Step=0.1", "-s", "Output/Formats=none")
         self.assertIn("Finished: End time reached", text)
+
+    def test_tools(self):
+        """They find their modules, and the program beside them; what they make
+        stands where they are called, as root alone may write to share/."""
+        self.install(self.work / "prefix")
+        moved = self.work / "moved"
+        (self.work / "prefix").rename(moved)
+        tools = moved / "bin"
+        before = sorted(file for file in moved.rglob("*")
+                        if "__pycache__" not in file.parts)
+        scene = TESTS / "programs/small-cube.prm"
+        self.call(tools / "morula-migrate", "--check", scene)
+        self.call(tools / "morula-sweep", scene, "--seeds", "1-2",
+                  "--vary", "Grid/Spacing=35,40", "-s", "Time/End time=0.125")
+        self.assertTrue((self.work / "output/sweep/small-cube").is_dir())
+        self.assertIn("--reference", self.call(tools / "morula-accuracy",
+                                               "--help"))
+        run = self.work / "run"
+        self.call(tools / "morula", scene, "-s", "Time/End time=0.125",
+                  "-s", f"Output directory={run}")
+        self.call(tools / "morula-cell-shapes", run)
+        self.call(tools / "morula-render", run, "--output",
+                  self.work / "cells.png")
+        self.assertTrue((self.work / "cells.png").is_file())
+        self.call(tools / "morula-report", run, "--states", "0")
+        self.assertIn("</html>", (run / "report.html").read_text())
+        self.assertEqual(before, sorted(
+            file for file in moved.rglob("*")
+            if "__pycache__" not in file.parts))
 
     def test_all_headers_in_debug_mode(self):
         """A program that includes all headers, with warnings as errors, in

@@ -4,10 +4,11 @@
 import math
 from fractions import Fraction
 
-from morula_runs.command_line import (ROOT, output_directory, ranks_and_jobs,
+from morula_runs.command_line import (output_directory, ranks_and_jobs,
                                       whole_number)
 from morula_runs.ladder import (Plan, check_method, check_seeds, read_ladder,
                                 read_seeds)
+from morula_runs.places import OUTPUT
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.scene import Scene, as_number
@@ -53,7 +54,7 @@ class Request:
         self.reference = self._reference()
         check_seeds(self.plan, self.seeds, options.seeds, len(self.samples))
         self.output = output_directory(
-            options, ROOT / "output/accuracy" / self.scene.name)
+            options, OUTPUT / "accuracy" / self.scene.name)
 
     def _check_surface(self):
         for measure in self.measures:

@@ -8,6 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from morula_runs.places import MORULA
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.run import Run
@@ -16,7 +17,6 @@ from morula_runs.states import NoStates
 from .cells import scalar_fields
 from .document import page
 
-ROOT = Path(__file__).resolve().parents[3]
 DESCRIPTION = """Makes one HTML page about a run.
 
     contrib/report output/bud                  writes output/bud/report.html
@@ -77,7 +77,7 @@ def find_program(wanted):
     if wanted is not None:
         return Program(wanted)
     found = shutil.which("morula")
-    for file in (ROOT / "build/morula", *([Path(found)] if found else [])):
+    for file in (MORULA, *([Path(found)] if found else [])):
         if os.access(file, os.X_OK) and file.is_file():
             try:
                 program = Program(file)

@@ -6,10 +6,9 @@ import signal
 import sys
 from pathlib import Path
 
+from .places import MORULA
 from .program import cores
 from .refusal import Refused
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 class Parser(argparse.ArgumentParser):
@@ -32,7 +31,7 @@ def add_run_options(add, directory):
     add("--plan", action="store_true", help="check, list the runs, and stop")
     add("--output", type=Path, metavar="DIRECTORY",
         help=f"default: {directory}")
-    add("--morula", default=ROOT / "build/morula", help="the executable")
+    add("--morula", default=MORULA, help="the executable")
     add("--mpiexec", default="mpiexec")
 
 

@@ -4,9 +4,10 @@
 import difflib
 
 from morula_runs import columns
-from morula_runs.command_line import ROOT, output_directory, ranks_and_jobs
+from morula_runs.command_line import output_directory, ranks_and_jobs
 from morula_runs.ladder import (Plan, check_method, check_seeds, read_ladder,
                                 read_seeds)
+from morula_runs.places import OUTPUT
 from morula_runs.program import Program
 from morula_runs.refusal import Refused
 from morula_runs.runner import Run, run_name
@@ -39,7 +40,7 @@ class Request:
         check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
         self.output = output_directory(
-            options, ROOT / "output/sweep" / self.scene.name)
+            options, OUTPUT / "sweep" / self.scene.name)
 
     def _ladders(self):
         if not self.options.vary and not self.seeds:

@@ -76,7 +76,7 @@ namespace Morula
       Nonscalar  combined{name,
                          static_cast<unsigned int>(found - names.begin()),
                          n_columns,
-                         {}};
+                          {}};
       for (auto column = found; column != found + n_columns; ++column)
         {
           csv_only.insert(*column);

@@ -5,6 +5,7 @@
 Both have `positions` (n, 3) of the cells, their `columns`, whether they are
 `flat`, `outermost` places that a picture must hold, and how far around them
 (`margin`), and `gaps`, the width below which ambient occlusion darkens; µm.
+Their pictures are of the cells of a mask, with a colour (bytes) each.
 """
 import numpy as np
 
@@ -12,9 +13,8 @@ from morula_runs.run import Run
 from morula_runs.states import read_points
 from morula_shapes.regions import places, regions_of_state
 
-from . import shading
+from . import spheres
 from .points import radii_of
-from .shapes import cut_through, shape_actors
 
 EDGE_WIDTH = 0.04      # in lengths of a cell ...
 EDGE_PIXELS = (0.6, 2)  # ... but within these
@@ -31,10 +31,9 @@ class Spheres:
         self.outermost, self.margin = self.positions, self.radii.max()
         self.gaps = 5 * np.median(self.radii)
 
-    def actors(self, colours, kept, _):
-        """Of the cells of the mask, with a colour (bytes) each."""
-        return [shading.sphere_actor(self.positions[kept], self.radii[kept],
-                                     colours[kept])]
+    def picture(self, colours, kept, view, pixels):
+        return spheres.render(self.positions[kept], self.radii[kept],
+                              colours[kept], view, pixels, self.gaps)
 
 
 class Shapes:
@@ -50,15 +49,21 @@ class Shapes:
         self.margin = 0.0
         self.gaps = np.median(cells["volume"]**(1 / run.dimension))
 
-    def actors(self, colours, kept, pixel):
-        """Of the cells of the mask; a pixel is so many µm."""
-        bodies = self.bodies.select(kept[self.bodies.owner])
-        return self._drawn(bodies, colours, pixel)
+    def picture(self, colours, kept, view, pixels):
+        return self._drawn(self.bodies.select(kept[self.bodies.owner]),
+                           colours, view, pixels)
 
-    def section(self, colours, plane, pixel):
+    def section(self, colours, plane, view, pixels):
         """Of all cells behind a plane, which goes through cells."""
-        return self._drawn(cut_through(self.bodies, *plane), colours, pixel)
+        from .shapes import cut_through
+        return self._drawn(cut_through(self.bodies, *plane), colours, view,
+                           pixels)
 
-    def _drawn(self, bodies, colours, pixel):
+    def _drawn(self, bodies, colours, view, pixels):
+        # VTK needs a screen, which spheres do without.
+        from . import shading
+        from .shapes import shape_actors
+        pixel = view.half_width / pixels[0]  # µm; twice as many are drawn
         width = np.clip(EDGE_WIDTH * self.gaps / pixel, *EDGE_PIXELS)
-        return shape_actors(bodies, colours, width)
+        return shading.render(shape_actors(bodies, colours, width), view,
+                              pixels, self.gaps)

@@ -7,7 +7,8 @@ radii and fields with 8 bits of their range. Cells stand in order of their ids,
 which the page finds from the lineage."""
 import matplotlib
 import numpy as np
-from drawing.colours import FIELDS, WHOLE_NUMBERS
+from drawing.colours import (FIELDS, NAMED, WHOLE_NUMBERS, limits_of,
+                             palette_of, style_of)
 from drawing.points import radii_of
 from morula_runs.columns import POINTS, STRESS, unit_in
 from morula_runs.states import NoStates
@@ -145,30 +146,36 @@ class Packed:
     def _field(self, name):
         low, high, smallest, largest = self.ranges[name]
         label, unit = label_of(name, self.run.dimension)
-        palette = FIELDS.get(name, (name, "viridis"))[1]
         return {"name": name, "label": label, "unit": unit, "low": low,
                 "high": high, "min": smallest, "max": largest,
-                "whole": name in WHOLE_NUMBERS, "palette": palette}
+                "whole": name in WHOLE_NUMBERS, "palette": style_of(name)[1],
+                "names": {number: word for number, (word, _)
+                          in NAMED.get(name, {}).items()}}
 
 
 def range_of(name, values):
     """Low and high end of the 255 steps, smallest and largest value."""
     smallest, largest = float(values.min()), float(values.max())
+    if name in NAMED:
+        return min(NAMED[name]), max(NAMED[name]), smallest, largest
+    low, high = limits_of(name, values, PERCENTILES)
     if name in WHOLE_NUMBERS:
-        return smallest, max(largest, smallest + 1), smallest, largest
-    low, high = map(float, np.percentile(values, PERCENTILES))
-    if high - low < 1e-6 * max(abs(low), abs(high)) or high == low:
-        middle = abs(low) or 1.0
-        low, high = low - 0.5 * middle, high + 0.5 * middle
+        high = max(high, low + 1)
     return low, high, smallest, largest
 
 
 def palettes(names):
-    """256 colours each, as hexadecimal digits, without the darkest end, in
-    which the shading could not be seen."""
+    """256 colours each, as hexadecimal digits. Of a palette that names
+    numbers, from the first to the last, each has its part of them."""
     found = {}
     for name in sorted({*names, "hsv"}):
-        colours = matplotlib.colormaps[name](np.linspace(0.06, 1, 256))
+        if name in NAMED:
+            low, high = min(NAMED[name]), max(NAMED[name])
+            numbers = low + np.arange(256) * (high - low + 1) // 256
+            colours = matplotlib.colors.to_rgba_array(
+                [NAMED[name].get(n, ("", "grey"))[1] for n in numbers])
+        else:
+            colours = palette_of(name)(np.arange(256))
         found[name] = (255 * colours[:, :3]).round().astype(np.uint8) \
             .tobytes().hex()
     return found

@@ -4,10 +4,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from drawing import shading
+from drawing import shading, spheres
 from drawing.colours import colours_of
 from drawing.points import radii_of
 from drawing.surface import triangles_of
+from drawing.view import View, behind_cut, view_of
 
 FREE_SURFACE = (214, 170, 148)  # red, green, blue
 HELD_SURFACE = (150, 152, 160)
@@ -18,7 +19,7 @@ def common_view(runs_and_times, at_least=(0.0, 0.0)):
     so much to the sides and up and down of its centre (µm): panels that are
     compared have the same scale."""
     positions = [run.read("surface", time)[0] for run, time in runs_and_times]
-    view = shading.view_of(np.vstack(positions), radius=8.0)
+    view = view_of(np.vstack(positions), radius=8.0)
     return replace(view, half_width=max(view.half_width, at_least[0]),
                    half_height=max(view.half_height, at_least[1]))
 
@@ -27,7 +28,7 @@ def common_view(runs_and_times, at_least=(0.0, 0.0)):
 class Camera:
     """A view and the width of its pictures in pixels."""
 
-    view: shading.View
+    view: View
     width: int
 
     @property
@@ -43,13 +44,12 @@ class Camera:
         half behind a plane through the middle. The picture and its colours."""
         positions, columns = run.read("cells", time)
         colours = colours_of(field, columns[field], limits)
-        kept = (shading.behind_cut(positions, turn=0) if cut else
+        kept = (behind_cut(positions, turn=0) if cut else
                 np.ones(len(positions), dtype=bool))
         radii = radii_of(columns["volume"])
-        actor = shading.sphere_actor(positions[kept], radii[kept],
-                                     colours.of(columns[field][kept]))
-        image = shading.render([actor], self.view, self.pixels,
-                               5 * float(np.median(radii)))
+        image = spheres.render(positions[kept], radii[kept],
+                               colours.of(columns[field][kept]), self.view,
+                               self.pixels, 5 * float(np.median(radii)))
         return image, colours
 
     def surface(self, run, time):

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Panels with their title, scale bar and colour bar as one picture."""
+import matplotlib
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
+
+DPI = 200
+TOP, BOTTOM, SIDE = 0.42, 0.5, 1.25  # inches around the panels
+
+
+def round_length(length):
+    """The largest of 1, 2, 5 times a power of ten below the length."""
+    power = 10.0**np.floor(np.log10(length))
+    return max(f * power for f in (1, 2, 5) if f * power <= length)
+
+
+def compose(panels, cut_open, view, colours, title):
+    """The picture (height, width, 3), bytes. Round the cut-open tissue goes
+    the outline of the whole one, which stands first."""
+    height, width = panels[0].shape[:2]
+    outline = gaussian_filter((panels[0].min(axis=2) < 1).astype(float), 6)
+    panels = panels[-len(cut_open):]
+    wide = width / DPI
+    total = (len(panels) * wide + SIDE, height / DPI + TOP + BOTTOM)
+    with plt.rc_context({"font.family": "sans-serif", "font.size": 10}):
+        figure = plt.figure(figsize=total, dpi=DPI, facecolor="white")
+        for i, panel in enumerate(panels):
+            axes = figure.add_axes([i * wide / total[0], BOTTOM / total[1],
+                                    wide / total[0],
+                                    height / DPI / total[1]])
+            axes.imshow(panel, interpolation="nearest")
+            if cut_open[i]:
+                axes.contour(outline, levels=[0.5], colors="0.45",
+                             linewidths=0.9)
+            axes.set_axis_off()
+        draw_scale(figure, view, width, height, total)
+        figure.text(0.04 * wide / total[0], 1 - 0.12 / total[1], title,
+                    ha="left", va="top", fontsize=11, parse_math=False)
+        bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2,
+                               0.14 / total[0], 0.6])
+        colours.draw_bar(figure, bar)
+        figure.canvas.draw()
+        picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
+        plt.close(figure)
+    return picture
+
+
+def draw_scale(figure, view, width, height, total):
+    unit = 2 * view.half_height / height  # µm per pixel
+    length = round_length(0.3 * 2 * view.half_width)
+    axes = figure.add_axes([0, 0, width / DPI / total[0], BOTTOM / total[1]])
+    axes.set_axis_off()
+    axes.set(xlim=(0, width), ylim=(0, 1))
+    axes.plot([0.04 * width, 0.04 * width + length / unit], [0.45, 0.45],
+              color="black", linewidth=2, solid_capstyle="butt")
+    axes.text(0.05 * width + length / unit, 0.43, f"{length:g} µm", ha="left",
+              va="center")

@@ -199,8 +199,8 @@ class Report(ProgramTest):
         self.assertEqual(len(content), 8 * state["shown"])
         for found in re.findall(r'(?:src|href)="([^"]{0,40})', page):
             self.assertRegex(found, "^(data:|#)")
-        self.assertRegex(page[:1000], "default-src 'none'; script-src( 'sha256-"
-                         "[^']{44}'){11}; style-src 'unsafe-inline'; img-src "
+        self.assertRegex(page[:2000], "default-src 'none'; script-src( 'sha256-"
+                         "[^']{44}'){14}; style-src 'unsafe-inline'; img-src "
                          "data:\"")
         self.assertFalse("@import" in page)
 

@@ -3,12 +3,15 @@
 # Copyright (C) 2026 by the Morula authors
 """The 3-D view of contrib/report in a browser: it shows the cells of the run's
 files, every control does what it says, and nothing is loaded."""
-import matplotlib
+import base64
+
 import numpy as np
+from matplotlib.colors import to_rgb
 from program import main
 
 from browser import image_of  # noqa: I100 (program.py finds it)
 from report_test import ReportTest
+from drawing.colours import NAMED, palette_of, style_of
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
@@ -134,10 +137,8 @@ class View(ReportTest):
                 high - low)
             if field["whole"]:
                 t = (t * (high - low) + 0.5) / (high - low + 1)
-            palette = matplotlib.colormaps[field["palette"]](
-                np.linspace(0.06, 1, 256))[:, :3]
-            near_t = np.clip(np.array([t - 0.006, t, t + 0.006]), 0, 0.999)
-            expected = 255 * palette[(256 * near_t).astype(int)]
+            expected = self.expected_colours(
+                field["name"], cells[field["name"]][front], t)
             pictures.append(self.picture())
             found = pictures[-1][place]
             # seen straight on, a colour gets 105 % of its light
@@ -152,17 +153,33 @@ class View(ReportTest):
             for other in pictures[:i]:
                 self.assertGreater((one != other).any(axis=2).sum(), 500)
 
+    def expected_colours(self, name, value, t):
+        """A named number's own, or those at t and a little beside it."""
+        if name in NAMED:
+            return 255 * np.array([to_rgb(NAMED[name][value][1])])
+        palette = palette_of(style_of(name)[1])
+        near_t = np.clip(np.array([t - 0.006, t, t + 0.006]), 0, 0.999)
+        return 255 * palette((256 * near_t).astype(int))[:, :3]
+
     def test_range(self):
         """Narrower colours change the picture and the bar, and come back."""
         self.choose("volume")
         before = self.picture()
         self.browser.set("highest", 1000, "change")
         self.assertTrue((self.picture() != before).any())
-        self.assertIn("1000", self.browser.text("bar"))
+        self.assertIn("≥ 1000", self.browser.text("bar"))
+        self.assertIn("clipped", self.browser.text("bar"))
+        self.browser.set("highest", 1e6, "change")
+        self.assertNotIn("≥", self.browser.text("bar"))
         self.click("full-range")
         np.testing.assert_array_equal(self.picture(), before)
+        self.choose("pressure")
+        low, high = (float(self.element(name).get_attribute("value"))
+                     for name in ("lowest", "highest"))
+        self.assertEqual(low, -high)
         self.choose("phase")
-        self.assertIn("G1", self.browser.text("bar"))
+        for word in ("G0", "S", "G2", "M", "G1", "no cycle"):
+            self.assertIn(word, self.browser.text("bar"))
         self.assertFalse(self.element("lowest").is_enabled())
 
     def test_turning(self):
@@ -205,7 +222,7 @@ class View(ReportTest):
             self.assertEqual(self.browser.run("return report.view.state.cells"),
                              len(self.run_read.cells(i)["id"]))
         self.assertEqual(len(set(areas)), len(areas))
-        self.assertGreater(areas[-1], 1.2 * areas[0])
+        self.assertGreater(areas[-1], 1.2 * areas[0], areas)
         self.element("canvas").send_keys("[")
         self.settle()
         self.assertEqual(self.element("time").get_attribute("value"), "3")
@@ -224,15 +241,22 @@ class View(ReportTest):
         seen is drawn."""
         cells = self.run_read.cells(-1)
         whole = self.picture()
-        for axis in "xyz":
+        # the viewer stands at x > 0, y < 0, z > 0
+        for axis, sign in (("x", ">"), ("y", "<"), ("z", ">")):
+            if self.element("flip").is_selected():
+                self.click("flip")
             self.browser.set("cut", axis)
             for place in (0.3, 0.6):
                 self.browser.set("place", place)
-                where = float(self.browser.text("place-shown").split()[0])
                 for other in (False, True):
                     if self.element("flip").is_selected() != other:
                         self.click("flip")
-                    on_side = (cells[axis] <= where) != other
+                    name, beyond, where = self.browser.text(
+                        "place-shown").split()[:3]
+                    where = float(where)
+                    self.assertEqual(name, axis)
+                    self.assertEqual(beyond == sign, not other)
+                    on_side = (cells[axis] <= where) == (beyond == ">")
                     # the words are rounded to a whole um
                     edge = np.abs(cells[axis] - where) < 0.7
                     drawn = np.zeros(len(on_side), dtype=bool)
@@ -245,6 +269,153 @@ class View(ReportTest):
         self.assertTrue(0 < len(self.drawn()) < len(cells["id"]))
         self.browser.set("cut", "off")
         np.testing.assert_array_equal(self.picture(), whole)
+
+    def test_cut_is_towards_the_viewer(self):
+        """Wherever the view is set to; turning by hand keeps the half."""
+        self.browser.set("cut", "x")
+        self.assertIn("x >", self.browser.text("place-shown"))
+        canvas = self.element("canvas")
+        for _ in range(14):  # the viewer is now at x < 0
+            canvas.send_keys(Keys.ARROW_RIGHT)
+        self.assertLess(self.browser.run(
+            "return report.view.camera.axes[2].x"), -0.5)
+        self.assertIn("x >", self.browser.text("place-shown"))
+        self.browser.set("cut", "off")
+        self.browser.set("cut", "x")
+        self.assertIn("x <", self.browser.text("place-shown"))
+        self.browser.driver.find_element(
+            By.CSS_SELECTOR, "[data-look=home]").click()
+        self.assertIn("x >", self.browser.text("place-shown"))
+        # what is left shows its cut: its cells there are the nearest ones
+        cells = self.run_read.cells(-1)
+        near = self.projected(cells)[2]
+        drawn = np.zeros(len(near), dtype=bool)
+        drawn[self.drawn()] = True
+        self.assertGreater(near[~drawn].mean(), near[drawn].mean())
+
+    def test_emptiness(self):
+        """Is explained where the tissue would be."""
+        self.assertFalse(self.element("empty").is_displayed())
+        self.browser.set("cut", "x")
+        self.browser.set("place", 0)
+        self.picture()
+        self.assertEqual(self.drawn(), [])
+        self.assertIn("Everything is cut away", self.browser.text("empty"))
+        self.assertTrue(self.element("empty").is_displayed())
+        self.browser.set("cut", "off")
+        self.click("cells-on")
+        self.picture()
+        self.assertIn("tick cells", self.browser.text("empty"))
+        self.click("surface-on")
+        self.picture()
+        self.assertFalse(self.element("empty").is_displayed())
+
+    def test_beside_each_other(self):
+        """On a small laptop, whose browser needs some of its 768 rows, the
+        picture and all controls are seen at once."""
+        self.browser.driver.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": 1366, "height": 660, "deviceScaleFactor": 1,
+             "mobile": False})
+        self.addCleanup(self.browser.driver.execute_cdp_cmd,
+                        "Emulation.clearDeviceMetricsOverride", {})
+        self.picture()
+        stage = self.element("stage").rect
+        self.assertGreater(stage["width"], 700)
+        self.assertGreater(stage["height"], 350)
+        for name in ("stage", "bar"):
+            rect = self.element(name).rect
+            self.assertLessEqual(rect["y"] + rect["height"], 660, name)
+        controls = self.element("controls").find_elements(
+            By.CSS_SELECTOR, "button, input, select, output")
+        self.assertGreater(len(controls), 20)
+        for control in controls:
+            rect, name = control.rect, control.get_attribute("outerHTML")
+            self.assertGreater(rect["x"], stage["x"] + stage["width"], name)
+            self.assertLessEqual(rect["x"] + rect["width"], 1366, name)
+            self.assertLessEqual(rect["y"] + rect["height"], 660, name)
+        buttons = [c.rect for c in controls if c.tag_name == "button"]
+        for i, one in enumerate(buttons):
+            for other in buttons[:i]:
+                self.assertFalse(
+                    abs(one["x"] - other["x"]) < other["width"] - 2
+                    and abs(one["y"] - other["y"]) < 10
+                    and one["x"] >= other["x"], (one, other))
+
+    def saved(self, promise, name):
+        """The file that a button hands over."""
+        content = self.browser.wait(
+            f"{promise}.then((blob) => new Promise((done) => {{"
+            "const reader = new FileReader(); reader.onload = () => "
+            "done(reader.result); reader.readAsDataURL(blob); }))")
+        file = self.page.with_name(name)
+        file.write_bytes(base64.b64decode(content.partition(",")[2]))
+        self.browser.requests()  # that of the page, and of the blob itself
+        self.browser.open(self.page)
+        return file
+
+    def test_saved_picture(self):
+        """Has the time, the colours' meaning and the scale round the view."""
+        self.choose("pressure")
+        view = self.picture()
+        bar = self.browser.run(
+            "return document.querySelector('#scale span').clientWidth")
+        whole = image_of(self.saved("report.panel.save()",
+                                    "saved.png").read_bytes())
+        height, width = view.shape[:2]
+        self.assertEqual(whole.shape[1], width // 2 * 2)
+        np.testing.assert_array_equal(whole[36:36 + height, :width // 2 * 2],
+                                      view[:, :width // 2 * 2])
+        self.assertGreater((whole[:36, :400] < 128).all(axis=2).sum(), 300)
+        foot = whole[36 + height:]
+        ramp = foot[-32, 14:width // 2 + 8]
+        ends = 255 * palette_of("coolwarm")([0.02, 0.98])[:, :3]
+        np.testing.assert_allclose(ramp[[8, -8]], ends, atol=20)
+        line = (foot[-33] < 64).all(axis=1)[width // 2 + 30:]
+        self.assertAlmostEqual(line.sum(), bar, delta=2)
+
+    def test_film(self):
+        """Its frames are the states: the tissue grows from the first to the
+        last. Another page of the browser plays it."""
+        self.assertTrue(self.element("film").is_enabled())
+        film = self.saved("report.panel.saveFilm()", "film.webm")
+        self.assertEqual(film.read_bytes()[:4], b"\x1aE\xdf\xa3")
+        player = film.with_name("player.html")
+        content = base64.b64encode(film.read_bytes()).decode()
+        player.write_text("<link rel=icon href=data:,><video muted src="
+                          f"'data:video/webm;base64,{content}'></video>")
+        self.browser.driver.get(player.resolve().as_uri())
+        areas = self.browser.driver.execute_async_script("""
+            const done = arguments[0], video = document.querySelector("video");
+            const areas = [], canvas = document.createElement("canvas");
+            const look = () => {
+              canvas.width = video.videoWidth;
+              canvas.height = video.videoHeight;
+              const context = canvas.getContext("2d",
+                {willReadFrequently: true});
+              context.drawImage(video, 0, 0);
+              const h = video.videoHeight - 62 - 36;
+              let bytes;
+              try {
+                bytes = context.getImageData(0, 36, canvas.width, h).data;
+              } catch (error) { done(String(error)); return; }
+              let seen = 0;
+              for (let i = 0; i < bytes.length; i += 4)
+                if (Math.min(bytes[i], bytes[i + 1], bytes[i + 2]) < 225)
+                  ++seen;
+              areas.push(seen);
+              if (!video.ended) setTimeout(look, 200);
+              else done(areas);
+            };
+            video.requestVideoFrameCallback(look);
+            video.onerror = () => done("error");
+            video.play();""")
+        self.browser.requests()  # that of the player
+        self.browser.open(self.page)
+        self.assertIsInstance(areas, list, areas)
+        self.assertGreater(areas[-1], 1.2 * areas[0], areas)
+        steps = np.diff(areas)
+        self.assertGreater((np.abs(steps) > 0.01 * areas[0]).sum(), 2)
 
     def test_surface(self):
         """The points of the slip plane are blue, the free ones grey."""

@@ -19,7 +19,8 @@ from .selection import DEFAULT_FIELDS
 
 PAGE = Path(__file__).with_name("page")
 SCRIPTS = ("data.js", "tabs.js", "spheres.js", "axes.js", "camera.js",
-           "view.js", "panel.js", "tree.js", "start.js")
+           "cut.js", "view.js", "legend.js", "saving.js", "panel.js",
+           "tree.js", "start.js")
 
 
 def page(run, program, options, say):

@@ -15,11 +15,16 @@ function drawTriad(svg, axes) {
     + `>${name}</text>`).join("");
 }
 
-/** A bar of 1, 2 or 5 times a power of ten, near a fifth of the width. */
-function drawScale(element, pixel, width) {
+/** The length of a bar, 1, 2 or 5 times a power of ten of µm, near a fifth of
+ * the width; a pixel is so many µm. */
+function scaleLength(pixel, width) {
   const wanted = 0.2 * width * pixel;
   const power = 10 ** Math.floor(Math.log10(wanted));
-  const length = [5, 2, 1].map((n) => n * power).find((n) => n <= wanted);
+  return [5, 2, 1].map((n) => n * power).find((n) => n <= wanted);
+}
+
+function drawScale(element, pixel, width) {
+  const length = scaleLength(pixel, width);
   element.children[0].style.width = `${length / pixel}px`;
   element.children[1].textContent = `${shown(length)} µm`;
 }

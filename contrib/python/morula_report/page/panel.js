@@ -4,8 +4,6 @@
 
 // The controls beside the 3-D view.
 
-const PHASES = {0: "G0", 1: "S", 2: "G2", 3: "M", 4: "G1",
-  9: "does not proliferate"};
 const CLONES = {name: "clone", label: "Clone: cells of one founder", unit: "",
   clone: true, palette: "hsv"};
 
@@ -25,6 +23,7 @@ class Panel {
     byId("time").max = this.about.states.length - 1;
     byId("time").value = this.about.states.length - 1;
     byId("play").disabled = this.about.states.length < 2;
+    byId("film").disabled = this.about.states.length < 2 || !canRecord();
     byId("surface-on").disabled = !this.about.states.some((s) => s.surface);
     this.listen();
     this.chooseField();
@@ -38,16 +37,20 @@ class Panel {
     for (const id of ["lowest", "highest"])
       on(id, "change", () => this.setRange());
     on("full-range", "click", () => this.fullRange());
-    for (const id of ["cut", "place", "flip"])
-      on(id, "input", () => this.cut());
+    on("cut", "input", () => { this.faceCut(); this.cut(); });
+    for (const id of ["place", "flip"]) on(id, "input", () => this.cut());
     on("cells-on", "change", () => this.visible());
     on("surface-on", "change", () => this.visible());
     on("clone-on", "change", () => this.show());
     on("clone", "change", () => this.show());
     on("save", "click", () => this.save());
+    on("film", "click", () => this.saveFilm());
     for (const button of document.querySelectorAll("[data-look]"))
-      button.addEventListener("click",
-        () => this.view.camera.look(button.dataset.look));
+      button.addEventListener("click", () => {
+        this.view.camera.look(button.dataset.look);
+        this.faceCut();
+        this.cut();
+      });
     on("canvas", "keydown", (event) => {
       if (event.key === "[") this.go(-1);
       if (event.key === "]") this.go(1);
@@ -116,13 +119,18 @@ class Panel {
     }
   }
 
+  /** From here on, the half towards the viewer is the one cut away. */
+  faceCut() {
+    this.view.cut.face(byId("cut").value);
+  }
+
   cut() {
     const axis = byId("cut").value;
-    const where = this.view.cutAt(axis, Number(byId("place").value),
+    const gone = this.view.cut.at(axis, Number(byId("place").value),
       byId("flip").checked);
-    byId("place-shown").textContent = where === null ? ""
-      : `${shown(Math.round(where))} µm`;
+    byId("place-shown").textContent = gone && `${gone} is cut away`;
     for (const id of ["place", "flip"]) byId(id).disabled = axis === "off";
+    this.view.choose();
   }
 
   visible() {
@@ -132,46 +140,54 @@ class Panel {
     this.view.request();
   }
 
-  save() {
-    const link = document.createElement("a");
-    link.href = this.view.picture();
-    link.download = `${this.field.name}-day-${
-      this.about.states[this.number].time}.png`;
-    link.click();
+  /** The picture with what is written round it, on a canvas. */
+  draw(canvas) {
+    const state = this.about.states[this.number];
+    const words = [`day ${shown(state.time)}`,
+      `${state.cells.toLocaleString("en")} cells`, report.about.name];
+    if (byId("clone-on").checked)
+      words.splice(2, 0, `clone of founder ${byId("clone").value}`);
+    drawWhole(canvas, this.view, words.join(", "), this.legend);
   }
 
-  /** The bar of colours, with the range of the values themselves. */
+  async save() {
+    const canvas = document.createElement("canvas");
+    this.draw(canvas);
+    const blob = await new Promise((done) => canvas.toBlob(done));
+    handOver(blob, `${this.field.name}-day-${
+      this.about.states[this.number].time}.png`);
+    return blob;
+  }
+
+  async saveFilm() {
+    const canvas = document.createElement("canvas"), before = this.number;
+    const words = byId("film").textContent;
+    this.playing = true;
+    this.play();
+    byId("film").disabled = true;
+    const blob = await recorded(canvas, this.about.states.length,
+      async (i) => {
+        byId("film").textContent = `Recording ${i + 1}`;
+        byId("time").value = i;
+        await this.show();
+        this.draw(canvas);
+      });
+    byId("film").textContent = words;
+    byId("film").disabled = false;
+    byId("time").value = before;
+    await this.show();
+    handOver(blob, `${this.field.name}.webm`);
+    return blob;
+  }
+
+  /** What the colours mean, now. */
+  get legend() {
+    return legendOf(this.field, this.view.palettes[this.field.palette],
+      Number(byId("lowest").value), Number(byId("highest").value));
+  }
+
   bar() {
-    const field = this.field;
-    const colours = this.view.palettes[field.palette];
-    const colour = (t) => {
-      const k = 3 * Math.min(255, Math.floor(256 * t));
-      return `rgb(${colours[k]},${colours[k + 1]},${colours[k + 2]})`;
-    };
-    const title = made("b", {}, field.label + (field.unit && ", ")
-      + field.unit);
-    if (field.clone) {
-      byId("bar").replaceChildren(title, " (colours repeat)");
-    } else if (field.whole && field.high - field.low < 16) {
-      const n = field.high - field.low + 1, parts = [title];
-      for (let i = 0; i < n; ++i) {
-        const value = field.low + i;
-        const word = field.name === "phase" ? PHASES[value] : value;
-        if (word !== undefined)
-          parts.push(made("span", {class: "swatch",
-            style: `background:${colour((i + 0.5) / n)}`}), String(word));
-      }
-      byId("bar").replaceChildren(...parts);
-    } else {
-      const stops = Array.from({length: 17}, (_, i) => colour(i / 16));
-      const ends = [byId("lowest").value, "all values: "
-        + `${shown(field.min)} to ${shown(field.max)}`, byId("highest").value];
-      byId("bar").replaceChildren(title,
-        made("div", {class: "ramp",
-          style: `background:linear-gradient(to right,${stops})`}),
-        made("div", {class: "ends"}, ...ends.map((end) =>
-          made("span", {}, end))));
-    }
+    drawLegend(byId("bar"), this.legend);
   }
 
   click(event) {
@@ -194,14 +210,10 @@ class Panel {
     if (!field.clone) {
       const step = (field.high - field.low) / 255;
       const value = field.low + step * values[i];
-      words.push(`${field.label.toLowerCase()} ${field.whole
-        ? Math.round(value) : shown(value)} ${field.unit}`);
+      const said = field.whole ? wordOf(field, Math.round(value))
+        : `${shown(value)} ${field.unit}`;
+      words.push(`${field.label.toLowerCase()} ${said}`.trim());
     }
     byId("picked").textContent = `${words.join(", ")}.`;
   }
-}
-
-/** As few digits as tell a number of a colour bar. */
-function plainNumber(value) {
-  return String(Number(value.toPrecision(4)));
 }

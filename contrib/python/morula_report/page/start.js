@@ -39,6 +39,7 @@ async function startView(about) {
   byId("canvas").addEventListener("webglcontextlost", () => sayOfView(
     "The graphics card has given up; load the page again."));
   report.panel = new Panel(report.view, report.lineage);
+  report.panel.faceCut();
   report.panel.cut();
   report.tabs.onShow = () => report.view.resize();
 }

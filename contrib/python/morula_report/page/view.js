@@ -21,7 +21,7 @@ class View {
     this.scene = new THREE.Scene();
     this.scene.add(this.spheres.object, this.surface.object);
     this.camera = new Camera(this.canvas, about, () => this.turned());
-    this.cut = {axis: "off"};
+    this.cut = new Cut(about, this.camera);
     this.bytes = new Map();
     this.frames = 0;
     this.coarse = 1;  // one of so many cells while a slow picture moves
@@ -67,42 +67,11 @@ class View {
     this.request();
   }
 
-  /** What is cut away: all beyond a plane. Returns its place in µm. */
-  cutAt(axis, place, flip) {
-    if (axis === "off") {
-      this.cut = {axis};
-      this.choose();
-      return null;
-    }
-    const normal = axis === "view" ? this.camera.axes[2]
-      : new THREE.Vector3(+(axis === "x"), +(axis === "y"), +(axis === "z"));
-    const {size} = this.about;
-    const reach = axis === "view" ? 0.5 * Math.hypot(...size)
-      : 0.5 * size["xyz".indexOf(axis)];
-    const where = this.camera.middle.dot(normal) + (2 * place - 1) * reach;
-    const sign = flip ? -1 : 1;
-    this.cut = {axis, place, flip, normal: normal.multiplyScalar(sign),
-      limit: sign * where};
-    this.choose();
-    return where;
-  }
-
-  /** How far a cell lies before the cut (µm); infinite without one. */
-  beforeCut(i) {
-    if (this.cut.axis === "off") return Infinity;
-    const {low, size} = this.about, {normal, limit} = this.cut;
-    const places = this.cells.places;
-    return limit
-      - normal.x * (low[0] + size[0] * places[4 * i] / 65535)
-      - normal.y * (low[1] + size[1] * places[4 * i + 1] / 65535)
-      - normal.z * (low[2] + size[2] * places[4 * i + 2] / 65535);
-  }
-
   /** Whether a cell is drawn: it belongs to what is asked for, is not cut
    * away, and is not buried below others. */
   visible(i) {
     if (this.members && !this.members[i]) return false;
-    const before = this.beforeCut(i);
+    const before = this.cut.before(this.cells.places, i);
     return before >= 0 && (this.members !== null || before < this.state.shell
       || this.cells.shell[i] === 1);
   }
@@ -121,9 +90,20 @@ class View {
   }
 
   turned() {
-    if (this.cut && this.cut.axis === "view")
-      this.cutAt("view", this.cut.place, this.cut.flip);
+    if (this.cut && this.cut.follows()) this.choose();
     this.request(true);
+  }
+
+  /** Why nothing can be seen, or nothing if something can. */
+  get emptiness() {
+    if (!this.state) return "";
+    if (this.surface.object.visible && this.state.surface) return "";
+    if (!this.spheres.object.visible)
+      return "Nothing is shown: tick cells or surface points.";
+    if (this.numbers.length) return "";
+    if (this.members && !this.members.includes(1))
+      return "No cell of this clone lives at this time.";
+    return "Everything is cut away: move the place of the cut.";
   }
 
   resize() {
@@ -178,13 +158,17 @@ class View {
     this.spheres.thin(this.coarse);
     this.renderer.setClearColor(style.getPropertyValue("--canvas").trim());
     this.renderer.render(this.scene, this.camera.camera);
+    const empty = this.stage.querySelector("#empty");
+    empty.textContent = this.emptiness;
+    empty.hidden = !empty.textContent;
     drawTriad(this.stage.querySelector("#triad"), this.camera.axes);
     drawScale(this.stage.querySelector("#scale"), this.camera.pixel,
       this.stage.clientWidth);
     ++this.frames;
   }
 
-  /** The picture of all cells as a PNG in a data: address. */
+  /** The picture of all cells as a PNG in a data: address, without bars and
+   * words. */
   picture() {
     this.coarse = 1;
     this.draw();

@@ -6,11 +6,16 @@ of "Your first tissue" in README.md, and those of the step programs' pages, in
 a directory with the names of the tree."""
 import re
 import subprocess
+import sys
 from pathlib import Path
 
+import numpy as np
 from program import TESTS, ProgramTest, main
 
 ROOT = TESTS.parent
+sys.path.insert(0, str(ROOT / "contrib/python"))
+from morula_runs.run import Run  # noqa: E402
+
 STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
 COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)
 
@@ -37,17 +42,29 @@ class Pages(ProgramTest):
         for picture in found:
             self.assertGreater(picture.stat().st_size, 10000, picture)
 
+    def assert_waist(self, surface):
+        """From the held half up, the tissue becomes clearly narrower, and then
+        wider again."""
+        radius = np.hypot(surface["x"], surface["y"])
+        height = np.floor(surface["z"] / 10).astype(int)
+        widths = [radius[height == k].max() for k in range(height.max() + 1)]
+        waist = int(np.argmin(widths[:12]))
+        self.assertGreater(max(widths[:waist]), 1.08 * widths[waist])
+        self.assertGreater(max(widths[waist:]), 1.25 * widths[waist])
+
     def test_first_tissue(self):
         text = (ROOT / "README.md").read_text()
         text = text[text.index("## Your first tissue"):]
         scene, commands = re.findall(r"^```\n(.*?)^```$", text,
                                      re.M | re.S)[:2]
+        self.assertEqual(scene, (ROOT / "prm/bud.prm").read_text())
         (self.work / "bud.prm").write_text(scene)
         lines = commands.splitlines()
         self.assertEqual(len(lines), 4)
         said = [self.follow(line) for line in lines]
         self.assertIn("size checkpoint         on", said[0])
         self.assertIn("Finished: End time reached", said[1])
+        self.assert_waist(Run(self.work / "output/bud").surface(-1))
         self.assert_pictures(1)
         self.assertIn("<html", (self.work / "output/bud/report.html")
                       .read_text()[:200])

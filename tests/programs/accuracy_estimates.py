@@ -80,9 +80,9 @@ class Offsets(unittest.TestCase):
 
     def test_they_are_parts_of_the_spacing(self):
         keys = {"Grid/Offset": "1, 2.5", "Grid/Spacing": "40"}
-        self.assertEqual(offsets.moved_offset(keys, (0.5, 0.25)), "21, 12.5")
+        self.assertEqual(offsets.moved_offset(keys, (0.5, 0.25)), "21,12.5")
         self.assertEqual(offsets.moved_offset(keys, (0.5, 0.25, 0.75)),
-                         "21, 12.5, 30")
+                         "21,12.5,30")
 
     def test_samples(self):
         found = offsets.samples([1, 2], 2, 3)
@@ -92,7 +92,7 @@ class Offsets(unittest.TestCase):
         keys = {"Grid/Offset": "0, 0, 0", "Grid/Spacing": "50"}
         self.assertEqual(found[0].overrides(keys), [("Random seed", "1")])
         self.assertEqual(found[3].overrides(keys),
-                         [("Grid/Offset", "25, 25, 25"), ("Random seed", "2")])
+                         [("Grid/Offset", "25,25,25"), ("Random seed", "2")])
         self.assertEqual(offsets.samples(None, None, 3),
                          [offsets.Sample(None, None)])
 

@@ -77,5 +77,5 @@ def moved_offset(keys, moved):
     own = [as_number(word) or 0.0 for word in keys[KEY].split(",")]
     own += [0.0] * (len(moved) - len(own))
     spacing = float(keys["Grid/Spacing"])
-    return ", ".join(format(there + part * spacing, ".15g")
-                     for there, part in zip(own, moved))
+    return ",".join(format(there + part * spacing, ".15g")
+                    for there, part in zip(own, moved))

@@ -63,7 +63,8 @@ PAGES = {
     "performance": Page(
         "performance.md",
         (("contrib/benchmark", "--document"),),
-        (("contrib/benchmark", "--built", "effects"),)),
+        (("contrib/benchmark", "--built", "--document", "--largest", "8000",
+          "sizes"),)),
     "steps": Page(
         "steps/README.md",
         (("contrib/step-pages",),),

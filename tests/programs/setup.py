@@ -112,6 +112,19 @@ class Setup(ProgramTest):
         self.assertNotIn("clang-format-19", calls[0])
         self.assertEqual(self.setup()[1], [])
 
+    def test_format_without_the_formatter(self):
+        """A word, and no failure of all the other checks."""
+        words = ["env", "-i", f"PATH={self.bin}", self.bin / "bash",
+                 ROOT / "contrib/indent"]
+        for version, found in ((None, "none"), (14, "14")):
+            if version:
+                self.pretend("clang-format", "#!/bin/bash\n"
+                             f"echo Debian clang-format version {version}.0\n")
+            code, text = call([*words, "--check"], cwd=self.work)
+            self.assertEqual(code, 0, text)
+            self.assertIn(f"clang-format 19 is missing (found: {found})", text)
+            self.assertEqual(call(words, cwd=self.work)[0], 1)
+
     def test_other_systems(self):
         text, _ = self.setup(code=1)
         self.assertIn("this is not a Debian system", text)

@@ -3,6 +3,7 @@
 
 #include <morula/grid/extension.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -91,31 +92,35 @@ namespace Morula
   }
 
   template <int dim>
-  std::optional<unsigned int>
-  ExtensionSearch<dim>::block(const SplineCopy &copy)
+  std::vector<unsigned int>
+  ExtensionSearch<dim>::blocks(const SplineCopy &copy)
   {
-    const GridIndex<dim>        center = box.index(copy.spline);
-    std::optional<unsigned int> best;
-    double                      best_sum = std::numeric_limits<double>::max();
-    std::size_t                 n_before = 0;
+    const GridIndex<dim>      center = box.index(copy.spline);
+    std::vector<unsigned int> best;
+    double                    best_sum = std::numeric_limits<double>::max();
+    std::size_t               n_before = 0;
     for (int radius = 2;; ++radius)
       {
         const auto list = connected(copy, radius);
+        best.clear(); // a larger window holds the smaller one's
         for (const unsigned int number : list)
           if (classes[number] == GridCellClass::inner)
             {
               const double sum = sum_of_weights(center, box.index(number));
-              if (sum < best_sum || (sum == best_sum && number < *best))
-                {
-                  best     = number;
-                  best_sum = sum;
-                }
+              if (sum < best_sum)
+                best.clear();
+              if (sum <= best_sum)
+                best.push_back(number);
+              best_sum = std::min(best_sum, sum);
             }
         // A farther block can beat a nearer one on the diagonal (Σ|e| = 17
         // against 7·7·7); those outside of this window have at least this sum.
         const double least = 2. * (radius + 1) * (radius + 1) - 1.;
         if (best_sum < least || (radius > 2 && list.size() == n_before))
-          return best;
+          {
+            std::sort(best.begin(), best.end());
+            return best;
+          }
         n_before = list.size();
       }
   }

@@ -193,14 +193,21 @@ namespace Morula
                                  xi[d] * xi[e] - (d == e ? 0.25 : 0.));
         return terms;
       }
-    const auto block = search.block(copy);
-    AssertThrow(block.has_value(), ExcInternalError());
-    const GridIndex<dim> inner   = box_.index(*block);
-    const auto           weights = extension_weights(index, inner);
-    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-      if (weights[a] != 0.)
-        terms.emplace_back(numbers[copies.at(neighbor(inner, a), inner)],
-                           weights[a]);
+    const std::vector<unsigned int> blocks = search.blocks(copy);
+    AssertThrow(!blocks.empty(), ExcInternalError());
+    // doc/theory.md (3.3b); sums of integers, exact in any order
+    std::map<unsigned int, double> sums;
+    for (const unsigned int block : blocks)
+      {
+        const GridIndex<dim> inner   = box_.index(block);
+        const auto           weights = extension_weights(index, inner);
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          if (weights[a] != 0.)
+            sums[numbers[copies.at(neighbor(inner, a), inner)]] += weights[a];
+      }
+    for (const auto &[unknown, sum] : sums)
+      if (sum != 0.)
+        terms.emplace_back(unknown, sum / blocks.size());
     return terms;
   }
 

@@ -311,6 +311,58 @@ namespace
       }
   }
 
+  /** The field with the coefficients wild(Qᵀ c) of the splines centred at c, at
+   *  all particles. */
+  template <int dim>
+  std::vector<double>
+  wild_field(const std::vector<Point<dim>> &points, const Tensor<2, dim> &Q)
+  {
+    std::vector<Point<dim>> turned;
+    for (const Point<dim> &x : points)
+      turned.emplace_back(Q * x);
+    const auto          there = body<dim>(turned);
+    std::vector<double> values(points.size(), 0.);
+    there.at_points(turned,
+                    there.interpolate([&](const Point<dim> &center) {
+                      const Tensor<1, dim> c = transpose(Q) * center;
+                      Tensor<1, dim>       value;
+                      value[0] = std::sin(0.7 * c[0] + 1.3 * c[1] + c[dim - 1]);
+                      return value;
+                    }),
+                    [&](const unsigned int       i,
+                        const LocalField<dim>   &field,
+                        const SplineValues<dim> &splines) {
+                      values[i] = field.value(splines)[0];
+                    });
+    Utilities::MPI::sum(values, MPI_COMM_WORLD, values);
+    return values;
+  }
+
+  /** A body that is turned or mirrored has the same splines, turned or
+   *  mirrored. */
+  template <int dim>
+  void
+  check_frames()
+  {
+    for (unsigned int seed = 1; seed <= 4; ++seed)
+      {
+        const auto points = random_body<dim>(seed);
+        const auto here   = wild_field<dim>(points, unit_tensor<dim>());
+        for (unsigned int first = 0; first < dim; ++first)
+          for (const double sign : {1., -1.})
+            {
+              SCOPED_TRACE("seed " + std::to_string(seed) + ", axis " +
+                           std::to_string(first) + ", " + std::to_string(sign));
+              Tensor<2, dim> Q; // sends the axes to each other
+              for (unsigned int d = 0; d < dim; ++d)
+                Q[(first + d) % dim][d] = d == 0 ? sign : -1.;
+              const auto there = wild_field<dim>(points, Q);
+              for (std::size_t i = 0; i < points.size(); ++i)
+                ASSERT_NEAR(here[i], there[i], 1e-10);
+            }
+      }
+  }
+
   template <int dim>
   void
   check_without_extension()
@@ -373,6 +425,9 @@ TEST(SplineSpace, PiecesMoveIndependently){MORULA_BOTH_DIMENSIONS(check_pieces)}
 
 TEST(SplineSpace,
      IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
+
+
+TEST(SplineSpace, IsTheSameInAnyFrame){MORULA_BOTH_DIMENSIONS(check_frames)}
 
 
 TEST(SplineSpace, WithoutExtensionEverySplineIsAnUnknown){

@@ -129,7 +129,8 @@ class LatticeScene(RandomScene):
         else:
             # five grid cells across at least, to compare discretisations
             self.grid_spacing = self.spacing * rng.uniform(2.2, 2.8)
-        least, most = (4, 6) if dim == 3 else (8, 14) if gentle else (15, 20)
+        least, most = ((4, 6) if gentle else (9, 11)) if dim == 3 else (
+            (8, 14) if gentle else (15, 20))
         numbers = [rng.randint(least, most) for _ in range(dim)]
         self.lengths = self.spacing * numpy.array(numbers)
         self.size = float(max(self.lengths)) / 2
@@ -139,6 +140,8 @@ class LatticeScene(RandomScene):
              * rng.uniform(-0.45, 0.45) for _ in range(dim)])
         # a round cap that may only slip along itself hardly lets tissue grow
         self.support = rng.choice(self.SUPPORTS[:None if gentle else -1])
+        if dim == 3 and not gentle:
+            self.support = "free"  # the patches of its surface do not turn
         self.level = rng.uniform(-0.6, -0.4)
         self.load = rng.uniform(0.005, 0.03) * (0.1 if gentle else 1.0)
         self.direction = random_direction(rng, dim)
@@ -158,9 +161,10 @@ class LatticeScene(RandomScene):
             "Tissue/Size": text(full),
             "Tissue/Radius": self.size,
             "Tissue/Lattice offset": text([*(Q @ self.lattice_offset), 0, 0][:3]),
-            # the same ones after a quarter turn
+            # the same ones after a quarter turn, in 2-D
             "Tissue/Boundary points":
-                0 if self.shape == "box" else 4 * round(self.size / 4),
+                0 if self.shape == "box" or self.dim == 3 else
+                4 * round(self.size / 4),
         })
         return {**keys, **self.conditions(Q), **self.proliferation(Q)}
 
@@ -191,6 +195,24 @@ class LatticeScene(RandomScene):
                 section + "Duration": self.frame(Q).linear(constant, slopes),
                 section + "Division axis": "fixed",
                 section + "Fixed axis": text(Q @ self.direction)}
+
+
+class AlignedScene(LatticeScene):
+    """Round tissue whose cells stand on grid lines, where every choice between
+    two sides of a line, or among equally near cells, is a tie."""
+
+    def __init__(self, seed, dim, projected):
+        super().__init__(seed, dim, False)
+        self.grid_spacing = (3 if dim == 2 else 2) * self.spacing
+        self.center, self.grid_offset = numpy.zeros(dim), numpy.zeros(dim)
+        self.lattice_offset = numpy.full(dim, self.spacing / 2)
+        self.projected = projected
+        if projected:
+            self.ratio = 0.49
+
+    def common_keys(self, Q):
+        form = "projected" if self.projected else "pointwise"
+        return {**super().common_keys(Q), "Material/Volumetric strain": form}
 
 
 class PointsScene(RandomScene):

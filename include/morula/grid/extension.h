@@ -8,7 +8,6 @@
 #include <morula/grid/spline_copies.h>
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace Morula
@@ -31,7 +30,7 @@ namespace Morula
   extension_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block);
 
   /**
-   * Finds the inner grid cell whose splines an outer spline is expressed by.
+   * Finds the inner grid cells whose splines an outer spline is expressed by.
    * Holds references: box and classes must outlive it.
    */
   template <int dim>
@@ -43,12 +42,13 @@ namespace Morula
 
     /**
      * Among the inner grid cells connected to the copy's support through grid
-     * cells with tissue (bodies across a gap must not be coupled) the one with
-     * the smallest Σ|e|; ties: the smallest number. None if no inner grid cell
-     * is connected.
+     * cells with tissue (bodies across a gap must not be coupled) all that have
+     * the smallest Σ|e|, by number. The sums are products of integers, so that
+     * equal ones are equal to the last bit. Empty if no inner grid cell is
+     * connected.
      */
-    std::optional<unsigned int>
-    block(const SplineCopy &copy);
+    std::vector<unsigned int>
+    blocks(const SplineCopy &copy);
 
   private:
     std::vector<unsigned int>

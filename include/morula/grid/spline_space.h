@@ -23,12 +23,13 @@ namespace Morula
    *
    * "Spline" here is one copy of a spline (see SplineCopies). An inner spline
    * is an unknown. An outer spline follows from the 3^dim unknowns of an inner
-   * grid cell. The splines of a small piece follow from one polynomial: a
-   * quadratic one if the piece is smaller than a grid cell, an affine one if it
-   * is smaller than two and has fewer than 3^dim particles, or has no inner
-   * grid cell. (A tensor product of quadratics has monomials up to degree
-   * 2 dim, which nearly vanish on a small piece.) Each unknown is a vector:
-   * unknown number s, component i is degree of freedom s dim + i, in µm.
+   * grid cell; where several serve equally well, it is the mean over them. The
+   * splines of a small piece follow from one polynomial: a quadratic one if the
+   * piece is smaller than a grid cell, an affine one if it is smaller than two
+   * and has fewer than 3^dim particles, or has no inner grid cell. (A tensor
+   * product of quadratics has monomials up to degree 2 dim, which nearly vanish
+   * on a small piece.) Each unknown is a vector: unknown number s, component i
+   * is degree of freedom s dim + i, in µm.
    */
   template <int dim>
   class SplineSpace

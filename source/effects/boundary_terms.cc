@@ -74,7 +74,7 @@ namespace Morula
       };
       return nearest_properties(queries,
                                 tissue.cells(),
-                                {2 * dim * dim, append},
+                                {2 * dim * dim, append, true},
                                 tissue.grid());
     }
 

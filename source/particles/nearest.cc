@@ -8,6 +8,8 @@
 #include <deal.II/boost_adaptors/point.h>
 #include <deal.II/numerics/rtree.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace Morula
@@ -76,32 +78,54 @@ namespace Morula
       return found;
     }
 
-    /** Position of the nearest point in the list, and its distance. Distances
-     *  that differ by rounding only count as equal. */
+    /** Positions of the nearest points in the list, by id, and their distance.
+     *  Distances that differ by rounding only count as equal. */
     template <int dim, typename Tree>
-    std::pair<std::size_t, double>
+    std::pair<std::vector<unsigned int>, double>
     nearest(const Point<dim>     &query,
             const PointList<dim> &list,
             const Tree           &tree)
     {
       // A lattice can have 2^dim points at the same distance.
       constexpr unsigned int n_ties   = 2 << dim;
-      std::size_t            best     = 0;
       double                 shortest = std::numeric_limits<double>::infinity();
       std::vector<unsigned int> found;
       tree.query(boost::geometry::index::nearest(query, n_ties),
                  std::back_inserter(found));
       for (const unsigned int i : found)
         shortest = std::min(shortest, query.distance(list.positions[i]));
-      bool first = true;
-      for (const unsigned int i : found)
-        if (query.distance(list.positions[i]) <= shortest * (1. + 1e-9) &&
-            (first || list.ids[i] < list.ids[best]))
-          {
-            best  = i;
-            first = false;
-          }
-      return {best, shortest};
+      found.erase(std::remove_if(found.begin(),
+                                 found.end(),
+                                 [&](const unsigned int i) {
+                                   return query.distance(list.positions[i]) >
+                                          shortest * (1. + 1e-9);
+                                 }),
+                  found.end());
+      std::sort(found.begin(),
+                found.end(),
+                [&](const unsigned int i, const unsigned int j) {
+                  return list.ids[i] < list.ids[j];
+                });
+      return {found, shortest};
+    }
+
+    /** Appends what is wanted of the points at @p found, of which there is one
+     *  at least. */
+    template <int dim>
+    void
+    append_wanted(const std::vector<unsigned int> &found,
+                  const PointList<dim>            &list,
+                  const bool                       mean_of_ties,
+                  std::vector<double>             &properties)
+    {
+      const std::size_t n = mean_of_ties ? found.size() : 1;
+      for (unsigned int slot = 0; slot < list.n_slots; ++slot)
+        {
+          double sum = 0.;
+          for (std::size_t k = 0; k < n; ++k)
+            sum += list.properties[found[k] * list.n_slots + slot];
+          properties.push_back(sum / n);
+        }
     }
   } // namespace
 
@@ -125,11 +149,10 @@ namespace Morula
         double              farthest = 0.;
         for (const Point<dim> &query : queries)
           {
-            const auto [i, distance] = nearest(query, list, tree);
-            farthest                 = std::max(farthest, distance);
-            const auto first = list.properties.begin() + i * list.n_slots;
-            if (list.size() > 0)
-              properties.insert(properties.end(), first, first + list.n_slots);
+            const auto [found, distance] = nearest(query, list, tree);
+            farthest                     = std::max(farthest, distance);
+            if (!found.empty())
+              append_wanted(found, list, wanted.mean_of_ties, properties);
           }
         // Farther points than this may be missing from the list.
         const double sure = radius * box.spacing();

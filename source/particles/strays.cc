@@ -99,7 +99,7 @@ namespace Morula
       };
       return nearest_properties(queries,
                                 tissue.cells(),
-                                {n_landmark<dim>, append},
+                                {n_landmark<dim>, append, false},
                                 tissue.grid());
     }
 

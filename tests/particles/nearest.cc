@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <set>
+
 #include "random_points.h"
 
 using namespace Morula;
@@ -14,17 +18,17 @@ namespace
 {
   /** Ids of the nearest points, found by looking at all of them. */
   template <int dim>
-  types::particle_index
-  nearest_id(const Point<dim> &query, const PointList<dim> &all)
+  std::set<types::particle_index>
+  nearest_ids(const Point<dim> &query, const PointList<dim> &all)
   {
     double shortest = std::numeric_limits<double>::max();
     for (const Point<dim> &x : all.positions)
       shortest = std::min(shortest, query.distance(x));
-    types::particle_index lowest = numbers::invalid_unsigned_int;
+    std::set<types::particle_index> ids;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (query.distance(all.positions[i]) <= shortest * (1. + 1e-9))
-        lowest = std::min(lowest, all.ids[i]);
-    return lowest;
+        ids.insert(all.ids[i]);
+    return ids;
   }
 
   /** Compares with the oracle for those of the queries that are this rank's. */
@@ -50,14 +54,26 @@ namespace
       const auto properties = store.properties(p);
       list.insert(list.end(), properties.begin(), properties.end());
     };
-    const auto found =
-      nearest_properties(queries, store, {all.n_slots, append}, grid);
-    ASSERT_EQ(found.size(), queries.size() * all.n_slots);
-    for (std::size_t q = 0; q < queries.size(); ++q)
-      for (unsigned int slot = 0; slot < all.n_slots; ++slot)
-        EXPECT_EQ(found[q * all.n_slots + slot],
-                  mark(nearest_id(queries[q], all), slot))
-          << queries[q];
+    for (const bool mean_of_ties : {false, true})
+      {
+        const auto found = nearest_properties(
+          queries, store, {all.n_slots, append, mean_of_ties}, grid);
+        ASSERT_EQ(found.size(), queries.size() * all.n_slots);
+        for (std::size_t q = 0; q < queries.size(); ++q)
+          for (unsigned int slot = 0; slot < all.n_slots; ++slot)
+            {
+              const auto ids  = nearest_ids(queries[q], all);
+              double     mean = 0.;
+              for (const auto id : ids)
+                mean += mark(id, slot) / ids.size();
+              const double expected =
+                mean_of_ties ? mean : mark(*ids.begin(), slot);
+              EXPECT_NEAR(found[q * all.n_slots + slot],
+                          expected,
+                          mean_of_ties ? 1e-12 * std::abs(expected) : 0.)
+                << queries[q];
+            }
+      }
   }
 
   template <int dim>
@@ -122,7 +138,7 @@ TEST(Nearest,
      AgreesWithLookingAtAllPoints){MORULA_BOTH_DIMENSIONS(check_random)}
 
 
-TEST(Nearest, TiesGoToTheLowestId){MORULA_BOTH_DIMENSIONS(check_ties)}
+TEST(Nearest, TiesGoToTheLowestIdOrTheMean){MORULA_BOTH_DIMENSIONS(check_ties)}
 
 
 TEST(Nearest, MayBeFarAway)

@@ -13,17 +13,20 @@
 namespace Morula
 {
   /** What is wanted of a point, given by its position in PointStore::order():
-   *  append(p, list) adds @p n numbers to the list. */
+   *  append(p, list) adds @p n numbers to the list. Of several points that are
+   *  equally near the mean, which is the same in any frame, or else what is
+   *  wanted of the one with the lowest id. */
   struct WantedProperties
   {
     unsigned int                                             n;
     std::function<void(unsigned int, std::vector<double> &)> append;
+    bool                                                     mean_of_ties;
   };
 
   /**
-   * What is wanted of the point nearest to each query position, over all ranks
-   * (ties: the lowest id), one after the other. Queries lie in grid cells of
-   * this rank. Asks only for points near any query. Collective.
+   * What is wanted of the point nearest to each query position, over all ranks,
+   * one after the other. Queries lie in grid cells of this rank. Asks only for
+   * points near any query. Collective.
    */
   template <int dim>
   std::vector<double>

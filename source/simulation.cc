@@ -146,8 +146,9 @@ namespace Morula
     ++n_steps;
 
     const SplineSpace<dim> space = splines();
-    const RigidModes<dim>  modes = rigid_modes(space);
-    Equilibrium::Vector    u;
+    tell_of_joined_pieces(space);
+    const RigidModes<dim> modes = rigid_modes(space);
+    Equilibrium::Vector   u;
     solve_step(space, modes, u);
     remove_rigid_motion(space, modes, u);
     commit(space, u);
@@ -177,6 +178,24 @@ namespace Morula
     const TimerOutput::Scope section(timer, "grid");
     tissue.defragment(); // here, where a step holds least memory
     return tissue.splines();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::tell_of_joined_pieces(const SplineSpace<dim> &space)
+  {
+    const std::optional<Point<dim>> place = piece_watch.joined(space);
+    if (!place || pieces_have_joined)
+      return;
+    pieces_have_joined = true;
+    std::ostringstream text;
+    text << "Warning: at t = " << time_steps.time()
+         << " day two parts of the tissue have come within a grid spacing of "
+         << "each other near (" << *place << ") um. From now on they stick "
+         << "together there, though their cells may not touch yet "
+         << "(doc/faq.md, bodies that stick). A smaller Grid/Spacing lets them "
+         << "come closer. Later ones are not told of.";
+    files->message(text.str());
   }
 
   template <int dim>

@@ -6,6 +6,7 @@
 
 #include <morula/effects/boundary_terms.h>
 #include <morula/effects/growth/cell_growth.h>
+#include <morula/grid/piece_watch.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/newton.h>
@@ -88,6 +89,8 @@ namespace Morula
     step();
     SplineSpace<dim>
     splines();
+    void
+    tell_of_joined_pieces(const SplineSpace<dim> &space);
     void
     solve_step(const SplineSpace<dim> &space,
                const RigidModes<dim>  &rigid_modes,
@@ -177,6 +180,9 @@ namespace Morula
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
+
+    PieceWatch<dim> piece_watch;
+    bool            pieces_have_joined = false; // and the user knows
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/piece_watch.h>
+
+#include <deal.II/base/types.h>
+
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+    /** Whether a piece of @p space holds grid cells of two former ones. */
+    template <int dim>
+    bool
+    any_joined(const SplineSpace<dim>          &space,
+               const std::vector<unsigned int> &former)
+    {
+      std::vector<unsigned int> former_of(space.n_pieces(), none);
+      for (unsigned int number = 0; number < former.size(); ++number)
+        if (former[number] != none)
+          {
+            unsigned int &first = former_of[space.piece(number)];
+            if (first == none)
+              first = former[number];
+            if (first != former[number])
+              return true;
+          }
+      return false;
+    }
+
+    /** The middle between the nearest two grid cells of one piece that were of
+     *  two; there are such. */
+    template <int dim>
+    Point<dim>
+    middle(const SplineSpace<dim>          &space,
+           const std::vector<unsigned int> &former)
+    {
+      const GridBox<dim> &box      = space.box();
+      double              shortest = std::numeric_limits<double>::max();
+      Point<dim>          place;
+      // What is within a radius along each axis is nearer than all beyond it
+      // times the root of dim: one radius more than the first that finds any.
+      int last = std::numeric_limits<int>::max();
+      for (int radius = 1; radius <= last; ++radius)
+        for (unsigned int number = 0; number < former.size(); ++number)
+          if (former[number] != none)
+            {
+              const Point<dim> here = box.center(box.index(number));
+              box.for_neighbors(box.index(number),
+                                radius,
+                                [&](const unsigned int    other,
+                                    const GridIndex<dim> &index) {
+                                  if (former[other] == none ||
+                                      former[other] == former[number] ||
+                                      space.piece(other) != space.piece(number))
+                                    return;
+                                  const Point<dim> there = box.center(index);
+                                  if (here.distance(there) < shortest)
+                                    {
+                                      shortest = here.distance(there);
+                                      place    = here + 0.5 * (there - here);
+                                      last     = std::min(last, radius + 1);
+                                    }
+                                });
+            }
+      return place;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<unsigned int>
+  PieceWatch<dim>::former_pieces(const SplineSpace<dim> &space) const
+  {
+    std::vector<unsigned int> former(space.box().size(), none);
+    for (unsigned int number = 0; number < former.size(); ++number)
+      {
+        const GridIndex<dim> index = space.box().index(number);
+        if (space.piece(number) != none && box.contains(index))
+          former[number] = pieces[box.number(index)];
+      }
+    return former;
+  }
+
+  template <int dim>
+  std::optional<Point<dim>>
+  PieceWatch<dim>::joined(const SplineSpace<dim> &space)
+  {
+    std::optional<Point<dim>> place;
+    if (!pieces.empty())
+      if (const auto former = former_pieces(space); any_joined(space, former))
+        place = middle(space, former);
+    box = space.box();
+    pieces.resize(box.size());
+    for (unsigned int number = 0; number < pieces.size(); ++number)
+      pieces[number] = space.piece(number);
+    return place;
+  }
+
+  template class PieceWatch<2>;
+  template class PieceWatch<3>;
+} // namespace Morula

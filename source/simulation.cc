@@ -177,7 +177,8 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "grid");
     tissue.defragment(); // here, where a step holds least memory
-    return tissue.splines();
+    return tissue.splines(material.volumetric_form() ==
+                          VolumetricStrain::projected);
   }
 
   template <int dim>
@@ -407,15 +408,22 @@ namespace Morula
     const MaterialPoints<dim> points =
       material_points(tissue, space, growth_of_step, material);
     const InternalForce<dim> force(points, material.volumetric_form());
-    unsigned int             c = 0;
-    for (const auto &cell : tissue.cells().cells())
+    // On all ranks: a cell on a grid line has part in several grid cells.
+    const GridBox<dim> &box = space.box();
+    std::vector<double> theta(box.size(), 0.);
+    for (unsigned int c = 0; c < space.cells().size(); ++c)
+      theta[space.cells()[c].number] =
+        force.mean_log_volume_ratio(c, displacement.on_cell(c));
+    Utilities::MPI::sum(theta, comm, theta);
+    for (const auto &particle : tissue.cells().order())
       {
-        while (space.cells()[c].number != cell.number)
-          ++c;
-        ratios.insert(
-          ratios.end(),
-          cell.end - cell.begin,
-          std::exp(force.mean_log_volume_ratio(c, displacement.on_cell(c))));
+        double mean = 0.;
+        space.occupancy().for_each_share(
+          particle->get_location(),
+          [&](const Point<dim> &share, const unsigned int n) {
+            mean += theta[box.number(box.locate(share))] / n;
+          });
+        ratios.push_back(std::exp(mean));
       }
     return ratios;
   }

@@ -106,8 +106,8 @@ namespace Morula
       return data;
     }
 
-    /** Cells with several points, which may lie in grid cells of other ranks.
-     */
+    /** Cells with several points, which may lie in grid cells of other ranks,
+     *  or with points that several grid cells share. */
     template <int dim>
     MaterialPoints<dim>
     subdivided_points(const Tissue<dim>       &tissue,
@@ -128,9 +128,13 @@ namespace Morula
           const double       part = std::pow(1. / n, dim);
           ParticleDomain<dim>(x, V).for_quadrature_points(
             n, [&](const Point<dim> &point) {
-              list.ids.push_back(particle->get_id());
-              list.positions.push_back(point);
-              append_row(data, part, list.properties);
+              space.occupancy().for_each_share(
+                point,
+                [&](const Point<dim> &share, const unsigned int n_shares) {
+                  list.ids.push_back(particle->get_id());
+                  list.positions.push_back(share);
+                  append_row(data, part / n_shares, list.properties);
+                });
             });
         }
       list = send_to_owners(list, tissue.grid());
@@ -200,13 +204,19 @@ namespace Morula
                   const GrowthOfStep<dim> &growth,
                   const TissueMaterial    &material)
   {
-    unsigned int n_per_direction = 1;
+    bool several = false;
     for (const auto &particle : tissue.cells().order())
-      n_per_direction =
-        std::max(n_per_direction,
-                 space.occupancy().n_points_per_direction(
-                   particle->get_location(), volume(tissue.cell(particle))));
-    if (Utilities::MPI::max(n_per_direction, tissue.communicator()) > 1)
+      {
+        const Point<dim> x = particle->get_location();
+        several = several || space.occupancy().n_points_per_direction(
+                               x, volume(tissue.cell(particle))) > 1;
+        space.occupancy().for_each_share(x,
+                                         [&](const Point<dim> &,
+                                             const unsigned int n) {
+                                           several = several || n > 1;
+                                         });
+      }
+    if (Utilities::MPI::logical_or(several, tissue.communicator()))
       return subdivided_points(tissue, space, growth, material);
 
     MaterialPoints<dim> points;

@@ -27,9 +27,11 @@ namespace Morula
 
   template <int dim>
   Occupancy<dim>::Occupancy(const GridBox<dim> &box,
-                            const unsigned int  points_per_cell)
+                            const unsigned int  points_per_cell,
+                            const bool          share_points)
     : box_(box)
     , points_per_cell(points_per_cell)
+    , share_points(share_points)
     , volumes(box.size(), 0)
     , quadrature_points(box.size(), 0)
     , particles(box.size(), 0)
@@ -182,7 +184,9 @@ namespace Morula
   {
     ParticleDomain<dim>(x, V).for_quadrature_points(
       n_points_per_direction(x, V), [&](const Point<dim> &point) {
-        ++quadrature_points[box_.number(box_.locate(point))];
+        for_each_share(point, [&](const Point<dim> &share, unsigned int) {
+          ++quadrature_points[box_.number(box_.locate(share))];
+        });
       });
   }
 

@@ -213,9 +213,11 @@ namespace Morula
 
   template <int dim>
   SplineSpace<dim>
-  Tissue<dim>::splines() const
+  Tissue<dim>::splines(const bool share_points) const
   {
-    Occupancy<dim> occupancy(grid_.box(), parameters.points_per_cell);
+    Occupancy<dim> occupancy(grid_.box(),
+                             parameters.points_per_cell,
+                             share_points);
     for (const auto &particle : cells_.order())
       occupancy.add_particle(particle->get_location(), volume(cell(particle)));
     for (const auto &point : boundary_points_.order())

@@ -5,6 +5,7 @@
 #define morula_grid_occupancy_h
 
 #include <morula/grid/grid_box.h>
+#include <morula/grid/shared_points.h>
 
 #include <mpi.h>
 
@@ -31,10 +32,15 @@ namespace Morula
   class Occupancy
   {
   public:
-    /** @param points_per_cell least number of quadrature points of a particle
-     *  per direction */
+    /**
+     * @param points_per_cell least number of quadrature points of a particle
+     *        per direction
+     * @param share_points whether a quadrature point on a grid line belongs to
+     *        all grid cells around: see SharedPoint
+     */
     explicit Occupancy(const GridBox<dim> &box,
-                       const unsigned int  points_per_cell = 1);
+                       const unsigned int  points_per_cell = 1,
+                       const bool          share_points    = false);
 
     /** Adds a particle at @p x with current volume @p V (µm^dim). */
     void
@@ -68,6 +74,22 @@ namespace Morula
      */
     unsigned int
     n_points_per_direction(const Point<dim> &x, const double V) const;
+
+    /** Calls @p visit(position, n) for each of the n grid cells that a
+     *  quadrature point at @p x belongs to; position is in that grid cell. */
+    template <typename Visitor>
+    void
+    for_each_share(const Point<dim> &x, const Visitor &visit) const
+    {
+      if (!share_points)
+        {
+          visit(x, 1u);
+          return;
+        }
+      const SharedPoint<dim> point(box_, x);
+      point.for_each(
+        [&](const Point<dim> &position) { visit(position, point.n_shares()); });
+    }
 
     /** Volume of particles in the grid cell divided by h^dim: doc/theory.md
      *  (3.1). */
@@ -147,6 +169,7 @@ namespace Morula
 
     GridBox<dim>              box_;
     unsigned int              points_per_cell;
+    bool                      share_points;
     std::vector<std::int64_t> volumes;
     std::vector<std::int64_t> quadrature_points;
     std::vector<std::int64_t> particles;

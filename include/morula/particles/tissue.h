@@ -77,9 +77,12 @@ namespace Morula
     void
     defragment();
 
-    /** The extended B-splines around the tissue as it is now. Collective. */
+    /**
+     * The extended B-splines around the tissue as it is now. Collective.
+     * @param share_points see Occupancy
+     */
     SplineSpace<dim>
-    splines() const;
+    splines(const bool share_points = false) const;
 
     const BackgroundGrid<dim> &
     grid() const;

@@ -84,9 +84,11 @@ ALIGNED = Family("aligned", lambda seed: AlignedScene(seed, 2, False),
                  2, N_FULL)
 ALIGNED_3D = Family("aligned-3d", lambda seed: AlignedScene(seed, 3, False),
                     1, 4)
+PROJECTED = Family("projected", lambda seed: AlignedScene(seed, 2, True),
+                   2, N_FULL)
 POINTS = Family("points", lambda seed, refinement=1:
                 PointsScene(seed, 2, refinement), N_QUICK, N_FULL)
-LATTICES = (BOXES, BOXES_3D, ROUND, ROUND_3D, ALIGNED, ALIGNED_3D)
+LATTICES = (BOXES, BOXES_3D, ROUND, ROUND_3D, ALIGNED, ALIGNED_3D, PROJECTED)
 FAMILIES = (*LATTICES, POINTS)
 
 
@@ -199,6 +201,7 @@ CASE = Case(
     title="Random scenes, turned, mirrored and renumbered",
     breaks="nothing is where it is convenient for the grid",
     cure="nothing depends on the order of cells, and of equally good choices "
-         "the mean is taken",
+         "the mean is taken: of extension blocks, and of the grid cells on the "
+         "sides of a grid line",
     judge=judge,
     trials=[trial for family in FAMILIES for trial in family.trials()])

@@ -217,6 +217,21 @@ class Report(ProgramTest):
         words = f"every {selection.ordinal(view['stride'])} one is shown"
         self.assertTrue(words in self.page())
 
+    def test_held(self):
+        """With a size checkpoint, whom it holds is a colour, with a name."""
+        self.grow(**{"Proliferation/Cell cycle/Size checkpoint": "1"})
+        self.report("--no-pictures", "--states", "1")
+        field = {f["name"]: f for f in self.about()["view"]["fields"]}[
+            "held_at_checkpoint"]
+        self.assertEqual((field["low"], field["high"]), (0, 1))
+        self.assertEqual(field["names"], {"0": "not held", "1": "held"})
+        content = zlib.decompress(base64.b64decode(re.search(
+            r'id="field-held_at_checkpoint-0">(.*?)</script>',
+            self.page())[1]))
+        held = Run(self.output).cells(-1)["held_at_checkpoint"]
+        self.assertGreater(held.sum(), 0)
+        np.testing.assert_array_equal(list(content), 255 * held)
+
     def test_pictures(self):
         """Without the view: the run's own PNG or, without any, one that is
         drawn."""

@@ -23,26 +23,12 @@ namespace Morula
     /** Characters of a line, also with its continuations. */
     constexpr std::size_t max_line = 10000;
 
-    /** How much of a line messages show, characters. */
-    constexpr std::size_t max_shown = 200;
-
     const std::string byte_order_mark = "\xEF\xBB\xBF";
 
     std::string
     too_long()
     {
       return "at most " + std::to_string(max_line) + " characters";
-    }
-
-    /** The beginning of a long text, without the second half of a character
-     *  of several bytes. */
-    std::string
-    shortened(const std::string &text)
-    {
-      std::size_t end = std::min(text.size(), max_shown);
-      while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80)
-        --end;
-      return end < text.size() ? text.substr(0, end) + "..." : text;
     }
 
     bool
@@ -131,7 +117,7 @@ namespace Morula
       [[noreturn]] void
       refuse_long_line(const std::string &line) const
       {
-        fail(shortened(line), too_long(), "Shorten the line. Is this a scene?");
+        fail(line, too_long(), "Shorten the line. Is this a scene?");
       }
 
       void
@@ -139,7 +125,7 @@ namespace Morula
       {
         const auto bad = std::find_if(line.begin(), line.end(), is_control);
         if (bad != line.end())
-          fail(shortened(std::string(line.begin(), bad)),
+          fail(std::string(line.begin(), bad),
                "text",
                "Character " + std::to_string(bad - line.begin() + 1) +
                  " cannot be printed: remove it. Is this a scene?");
@@ -166,7 +152,7 @@ namespace Morula
           {
             sections.push_back(rest);
             if (sections.size() > max_sections)
-              fail(shortened(line),
+              fail(line,
                    "at most " + std::to_string(max_sections) +
                      " subsections in each other",
                    "Is an 'end' missing?");
@@ -183,7 +169,7 @@ namespace Morula
             sections.pop_back();
           }
         else
-          fail(shortened(line),
+          fail(line,
                "'set Key = value', 'subsection Name', 'end' or 'include file'",
                "Correct the line, or begin it with '#' if it is a comment.");
       }
@@ -193,7 +179,7 @@ namespace Morula
       {
         const auto equals = assignment.find('=');
         if (equals == std::string::npos)
-          fail("set " + shortened(assignment),
+          fail("set " + assignment,
                "'set Key = value'",
                "Put '=' between the key and its value.");
         std::vector<std::string> path = sections;
@@ -207,7 +193,7 @@ namespace Morula
       read_include(const std::string &file)
       {
         if (depth >= max_includes)
-          fail("include " + shortened(file),
+          fail("include " + file,
                "files that do not include themselves",
                "Break the circle.");
         const auto sibling = std::filesystem::path(name).parent_path() / file;
@@ -216,7 +202,7 @@ namespace Morula
         const auto      found = here ? file : sibling.string();
         std::ifstream   stream(found);
         if (!stream || std::filesystem::is_directory(found, error))
-          fail("include " + shortened(file),
+          fail("include " + file,
                "a file that can be read",
                "Correct the name; it counts from the working directory or from "
                "this file.");
@@ -282,7 +268,7 @@ namespace Morula
   read_override(const std::string &text)
   {
     if (text.size() > max_line)
-      throw InputError("-s", shortened(text), too_long(), "Shorten it.");
+      throw InputError("-s", text, too_long(), "Shorten it.");
     const auto control = std::find_if(text.begin(), text.end(), is_control);
     if (control != text.end())
       throw InputError("-s",
@@ -292,7 +278,7 @@ namespace Morula
     const auto equals = text.find('=');
     if (equals == std::string::npos)
       throw InputError("-s",
-                       shortened(text),
+                       text,
                        "\"Section/Key=value\"",
                        "Put '=' between the key and its value, and quote the "
                        "whole for the shell.");

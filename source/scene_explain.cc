@@ -9,6 +9,7 @@
 #include <morula/scene_checks.h>
 #include <morula/scene_estimates.h>
 #include <morula/scene_explain.h>
+#include <morula/scene_limits.h>
 #include <morula/scene_refusals.h>
 #include <morula/scene_size.h>
 #include <morula/scene_warnings.h>
@@ -255,7 +256,8 @@ namespace Morula
                   const std::function<unsigned int()> &n_unknowns)
     {
       check_memory(scene, initial_size(scene), comm);
-      const Founders<dim> founders = seed_founders<dim>(scene.tissue, comm);
+      const Founders<dim> founders =
+        seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
       const types::particle_index n_proliferating =
         check_at_cells(scene, founders.positions, comm);
       const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);

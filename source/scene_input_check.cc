@@ -5,6 +5,7 @@
 #include <morula/mechanics/vector_kernels.h>
 #include <morula/scene.h>
 #include <morula/scene_effects_check.h>
+#include <morula/scene_limits.h>
 #include <morula/scene_refusals.h>
 
 #include <deal.II/base/patterns.h>
@@ -24,22 +25,18 @@ namespace Morula
     /** Steps are counted by integers. */
     constexpr double max_steps = 1e9;
 
-    /** Farther from the origin, in units of h, there are no grid cells: they
-     *  are counted by integers, too, and positions lose their digits. */
-    constexpr double farthest = 1e8;
-
     void
     refuse_far_away(const std::string         &key,
                     const std::vector<double> &place,
                     const double               h)
     {
       for (const double x : place)
-        if (!(std::abs(x) <= farthest * h))
+        if (!(std::abs(x) <= farthest_place * h))
           throw InputError(key,
                            Patterns::Tools::to_string(place),
-                           "at most " + as_text(farthest) +
+                           "at most " + as_text(farthest_place) +
                              " grid spacings from the origin, " +
-                             as_text(farthest * h) + " um",
+                             as_text(farthest_place * h) + " um",
                            "Move the scene nearer to the origin.");
     }
 
@@ -166,8 +163,9 @@ namespace Morula
     check_scene(const Scene &scene)
     {
       check_time(scene.time);
-      scene.tissue.check(dim);
       check_grid(scene.grid, dim);
+      check_lengths(scene); // first: the next looks through all places of cells
+      scene.tissue.check(dim);
       refuse_far_away("Tissue/Center", scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
       check_effects<dim>(scene);

@@ -5,6 +5,7 @@
 #include <morula/scene_estimates.h>
 #include <morula/scene_grid_warnings.h>
 #include <morula/scene_refusals.h>
+#include <morula/scene_unit_warnings.h>
 #include <morula/scene_warnings.h>
 
 #include <deal.II/base/mpi.h>
@@ -230,8 +231,9 @@ namespace Morula
     Warnings warnings;
     for (const std::string &text : scene.renamed)
       warnings.push_back("Warning: " + text + '.');
-    const Warnings of_grid = grid_warnings(scene, founders, surface, comm);
-    warnings.insert(warnings.end(), of_grid.begin(), of_grid.end());
+    for (const Warnings &more : {unit_warnings(scene, founders, comm),
+                                 grid_warnings(scene, founders, surface, comm)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     warn_of_steps(scene, founders.positions, comm, warnings);
     warn_of_material(scene, warnings);
     warn_of_method(scene, warnings);

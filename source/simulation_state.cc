@@ -7,6 +7,7 @@
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene_checks.h>
+#include <morula/scene_limits.h>
 #include <morula/scene_warnings.h>
 #include <morula/simulation.h>
 #include <morula/snapshot_check.h>
@@ -95,8 +96,9 @@ namespace Morula
   void
   Simulation<dim>::seed()
   {
-    const Founders<dim>       founders = seed_founders<dim>(scene.tissue, comm);
-    const SurfacePatches<dim> patches  = seed_surface<dim>(scene.tissue, comm);
+    const Founders<dim> founders =
+      seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
+    const SurfacePatches<dim> patches = seed_surface<dim>(scene.tissue, comm);
     check_at_cells(scene, founders.positions, comm);
     check_at_surface(scene, patches, comm);
     warnings = scene_warnings(scene, founders, patches, comm);

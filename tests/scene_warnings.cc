@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "particles/temporary_file.h"
+
 using namespace Morula;
 
 namespace
@@ -77,6 +79,56 @@ TEST(SceneWarnings, OfCellsPerGridSpacing)
                   "Choose 4 to 7"});
   scene.grid.spacing = 15.;
   expect_warning(scene, {"'15 um'", "1.5 cells", "below 2", "classification"});
+}
+
+
+TEST(SceneWarnings, OfFilesInAnotherUnit)
+{
+  // a square lattice of cells, 10 um apart where the unit is 1 um
+  const auto points = [](const double unit) {
+    std::string text = "x,y\n";
+    for (unsigned int i = 0; i < 400; ++i)
+      text += std::to_string(10. * unit * (i % 20)) + "," +
+              std::to_string(10. * unit * (i / 20)) + "\n";
+    return text;
+  };
+  Scene scene;
+  scene.dimension    = 2;
+  scene.tissue.shape = "points";
+  for (const auto &[unit, said] :
+       {std::pair(0.001, "0.001 of a cell's length away"),
+        std::pair(0.45, "0.45 of a cell's length away"),
+        std::pair(0.55, ""),
+        std::pair(1., ""),
+        std::pair(1.9, ""),
+        std::pair(2.2, "2.2 of a cell's length away")})
+    {
+      const TemporaryFile file(".csv", points(unit));
+      scene.tissue.points_file                = file.path;
+      const std::vector<std::string> warnings = warnings_of<2>(scene);
+      const std::string first = warnings.empty() ? "" : warnings[0];
+      const bool        warned =
+        first.find("Is the file in another") != std::string::npos;
+      EXPECT_EQ(warned, std::string(said) != "") << unit << ' ' << first;
+      EXPECT_NE(first.find(said), std::string::npos) << unit << ' ' << first;
+    }
+
+  Scene solid;
+  solid.tissue.shape = "mesh";
+  solid.tissue.surface_mesh =
+    std::string(MORULA_SOURCE_DIRECTORY) + "/tests/scenes/octahedron.off";
+  for (const auto &[spacing, said] :
+       {std::pair(40., "only 3 cells long"), std::pair(30., "")})
+    {
+      solid.tissue.cell_spacing   = spacing;
+      solid.tissue.lattice_offset = {0.5 * spacing, 0.5 * spacing, 0.};
+      std::string all;
+      for (const std::string &text : warnings_of<3>(solid))
+        all += text + "\n";
+      EXPECT_EQ(all.find("cells long") != std::string::npos,
+                std::string(said) != "")
+        << spacing << ' ' << all;
+    }
 }
 
 

@@ -10,6 +10,14 @@
 namespace Morula
 {
   /**
+   * A text of the user's as messages show it: the beginning of a long one
+   * (without the second half of a character of several bytes), and what cannot
+   * be printed as \x00, since a null byte would end the message.
+   */
+  std::string
+  shown(const std::string &text);
+
+  /**
    * Bad input: found before any work is done. The program ends with exit
    * code 1. The message names the key's full path, the value, what is
    * allowed, and what to do.
@@ -20,7 +28,7 @@ namespace Morula
     /**
      * @param key     full path of the key, e.g. "Grid/Spacing", or the file or
      *                command-line word in question
-     * @param value   the value found
+     * @param value   the value found, shortened by shown()
      * @param allowed what is allowed, a noun phrase
      * @param remedy  what to do, a full sentence
      */
@@ -28,8 +36,8 @@ namespace Morula
                const std::string &value,
                const std::string &allowed,
                const std::string &remedy)
-      : std::runtime_error(key + " = '" + value + "': allowed is " + allowed +
-                           ". " + remedy)
+      : std::runtime_error(shown(key) + " = '" + shown(value) +
+                           "': allowed is " + allowed + ". " + remedy)
     {}
   };
 } // namespace Morula

@@ -19,6 +19,8 @@ namespace Morula
   {
     double cells  = 0.;
     double volume = 0.; // µm^dim, without stress
+    // of the box around the tissue; 0: not known, it is little for compact ones
+    double grid_cells = 0.;
   };
 
   /**

@@ -14,6 +14,10 @@ namespace Morula
 {
   namespace
   {
+    /** Characters; four numbers and their names are far shorter, and the parts
+     *  of a file without line ends would fill the memory. */
+    constexpr std::size_t longest_line = 10000;
+
     std::string
     trimmed(const std::string &text)
     {
@@ -66,7 +70,9 @@ namespace Morula
     const std::array<std::string, 4> names = {{"x", "y", "z", "volume"}};
     std::array<unsigned int, 4>      found{};
     bool                             known = true;
-    for (std::string name : fields(text))
+    for (std::string name : text.size() > longest_line ?
+                              std::vector<std::string>{""} :
+                              fields(text))
       {
         std::transform(name.begin(),
                        name.end(),
@@ -82,7 +88,7 @@ namespace Morula
       }
     if (!known || found[0] == 0 || found[1] == 0 || (dim == 3 && found[2] == 0))
       {
-        problem.value = trimmed(text);
+        problem.value = trimmed(text.substr(0, longest_line));
         problem.allowed =
           dim == 3 ?
             "a header line that names the columns x, y, z and, if there, "
@@ -101,11 +107,13 @@ namespace Morula
            const double                     default_volume,
            PointRows<dim>                  &rows)
   {
-    const std::vector<std::string> entries = fields(text);
+    const bool                     too_long = text.size() > longest_line;
+    const std::vector<std::string> entries =
+      too_long ? std::vector<std::string>() : fields(text);
     if (entries.size() != columns.size())
       {
         rows.problem = {rows.n_lines,
-                        trimmed(text),
+                        trimmed(text.substr(0, longest_line)),
                         std::to_string(columns.size()) +
                           " numbers separated by commas, as in the header",
                         "Correct the line."};

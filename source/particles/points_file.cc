@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/input_error.h>
+#include <morula/particles/outliers.h>
 #include <morula/particles/point_rows.h>
 #include <morula/particles/points_file.h>
 
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -116,6 +118,12 @@ namespace Morula
             read_row(text, header.columns, default_volume, rows);
         }
       return rows;
+    }
+
+    double
+    sum_of(const std::vector<double> &values)
+    {
+      return std::accumulate(values.begin(), values.end(), 0.);
     }
 
     /** Sum of @p mine over the lower ranks. */
@@ -242,9 +250,10 @@ namespace Morula
 
   template <int dim>
   Founders<dim>
-  read_points(const std::string &file,
-              const double       default_volume,
-              const MPI_Comm     comm)
+  read_points(const std::string        &file,
+              const double              default_volume,
+              const MPI_Comm            comm,
+              const SeedingLimits<dim> &limits)
   {
     std::ifstream stream(file, std::ios::binary);
     if (Utilities::MPI::max(stream.good() ? 0 : 1, comm) != 0)
@@ -263,10 +272,15 @@ namespace Morula
     if (rows.problem.line != LineProblem::no_line)
       rows.problem.line += lines_before;
     throw_first(rows.problem, file, comm);
-    throw_first(find_repeated(rows, comm), file, comm);
-
     const std::uint64_t n_mine = rows.positions.size();
     const std::uint64_t n      = Utilities::MPI::sum(n_mine, comm);
+    throw_first(find_beyond(rows, limits), file, comm);
+    throw_first(find_outlier(rows, limits.extent, n, comm), file, comm);
+    if (limits.check_memory && n > 0)
+      limits.check_memory(bounding_box(rows, comm),
+                          n,
+                          Utilities::MPI::sum(sum_of(rows.volumes), comm));
+    throw_first(find_repeated(rows, comm), file, comm);
     if (n == 0 || n >= std::numeric_limits<types::particle_index>::max())
       throw InputError("Tissue/Points file",
                        file,
@@ -282,7 +296,13 @@ namespace Morula
   }
 
   template Founders<2>
-  read_points<2>(const std::string &, const double, const MPI_Comm);
+  read_points<2>(const std::string &,
+                 const double,
+                 const MPI_Comm,
+                 const SeedingLimits<2> &);
   template Founders<3>
-  read_points<3>(const std::string &, const double, const MPI_Comm);
+  read_points<3>(const std::string &,
+                 const double,
+                 const MPI_Comm,
+                 const SeedingLimits<3> &);
 } // namespace Morula

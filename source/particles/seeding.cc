@@ -66,6 +66,54 @@ namespace Morula
       return shape;
     }
 
+    std::string
+    length(const double value)
+    {
+      std::ostringstream text;
+      text << value << " um";
+      return text.str();
+    }
+
+    /** "It reaches from ... to ... um" */
+    template <int dim>
+    std::string
+    reach(const BoundingBox<dim> &box)
+    {
+      std::ostringstream text;
+      text << "It reaches from (" << box.get_boundary_points().first << ") to ("
+           << box.get_boundary_points().second << ") um";
+      return text.str();
+    }
+
+    /** Refuses a surface of which a vertex lies far away from the others. */
+    template <int dim>
+    [[noreturn]] void
+    throw_too_long(const TissueParameters &parameters,
+                   const BoundingBox<dim> &box,
+                   const double            limit)
+    {
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       "a surface in um that is at most " + length(limit) +
+                         " long (a number of times Grid/Spacing)",
+                       reach(box) +
+                         ": correct the vertex that lies astray. If the file "
+                         "is in another unit, scale it to um.");
+    }
+
+    template <int dim>
+    [[noreturn]] void
+    throw_far_away(const TissueParameters &parameters,
+                   const BoundingBox<dim> &box,
+                   const double            limit)
+    {
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       "a surface at most " + length(limit) +
+                         " from the origin (a number of times Grid/Spacing)",
+                       reach(box) + ": move the scene nearer to the origin.");
+    }
+
     /** Refuses a surface that holds no cell or too many, whose file then most
      *  likely has another unit of length. */
     template <int dim>
@@ -75,9 +123,7 @@ namespace Morula
                      const bool              too_large)
     {
       std::ostringstream remedy;
-      remedy << "It reaches from (" << box.get_boundary_points().first
-             << ") to (" << box.get_boundary_points().second
-             << ") um, and a cell takes " << parameters.cell_spacing
+      remedy << reach(box) << ", and a cell takes " << parameters.cell_spacing
              << " um (Tissue/Cell spacing). If the file is in another unit, "
              << "scale it to um"
              << (too_large ? "" : ", such as by 1000 from mm or 1e6 from m")
@@ -90,17 +136,33 @@ namespace Morula
                        remedy.str());
     }
 
-    /** Refuses a mesh whose bounding box has too many places for cells. */
+    /** Refuses a mesh that exceeds the limits, or whose bounding box has too
+     *  many places for cells. */
     template <int dim>
     void
-    check_extent(const TissueParameters &parameters,
-                 const BoundingBox<dim> &box)
+    check_extent(const TissueParameters   &parameters,
+                 const Shape<dim>         &shape,
+                 const SeedingLimits<dim> &limits)
     {
+      const BoundingBox<dim> box = shape.bounding_box();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          if (!(box.side_length(d) <= limits.extent))
+            throw_too_long(parameters, box, limits.extent);
+          if (!(std::max(std::abs(box.lower_bound(d)),
+                         std::abs(box.upper_bound(d))) <= limits.farthest))
+            throw_far_away(parameters, box, limits.farthest);
+        }
       double n = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         n *= box.side_length(d) / parameters.cell_spacing + 1.;
       if (!(n < most_ids))
         throw_wrong_size(parameters, box, true);
+      if (limits.check_memory)
+        limits.check_memory(box,
+                            shape.volume() /
+                              std::pow(parameters.cell_spacing, dim),
+                            shape.volume());
     }
 
     /** Numbers this rank's founders after those of the lower ranks. */
@@ -131,16 +193,18 @@ namespace Morula
 
   template <int dim>
   Founders<dim>
-  seed_founders(const TissueParameters &parameters, const MPI_Comm comm)
+  seed_founders(const TissueParameters   &parameters,
+                const MPI_Comm            comm,
+                const SeedingLimits<dim> &limits)
   {
     const double volume = std::pow(parameters.cell_spacing, dim);
     if (parameters.shape == "points")
-      return read_points<dim>(parameters.points_file, volume, comm);
+      return read_points<dim>(parameters.points_file, volume, comm, limits);
 
     const std::unique_ptr<Shape<dim>> shape =
       make_shape_everywhere<dim>(parameters, comm);
     if (parameters.shape == "mesh")
-      check_extent(parameters, shape->bounding_box());
+      check_extent(parameters, *shape, limits);
     const Lattice<dim> lattice(parameters, shape->bounding_box());
     const auto [begin, end] = share(lattice.n_sites(), comm);
 
@@ -205,9 +269,13 @@ namespace Morula
   }
 
   template Founders<2>
-  seed_founders<2>(const TissueParameters &, const MPI_Comm);
+  seed_founders<2>(const TissueParameters &,
+                   const MPI_Comm,
+                   const SeedingLimits<2> &);
   template Founders<3>
-  seed_founders<3>(const TissueParameters &, const MPI_Comm);
+  seed_founders<3>(const TissueParameters &,
+                   const MPI_Comm,
+                   const SeedingLimits<3> &);
   template SurfacePatches<2>
   seed_surface<2>(const TissueParameters &, const MPI_Comm);
   template SurfacePatches<3>

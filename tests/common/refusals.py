@@ -204,9 +204,20 @@ CONTRADICTIONS = [
     Refusal("more than memory", {"Tissue/Cell spacing": "0.04"}, "The scene",
             "3.375e+09 cells of 0.04 um on a grid of 35 um", "GB of memory here",
             "Raise Tissue/Cell spacing or Grid/Spacing"),
-    Refusal("a grid larger than memory", {"Grid/Spacing": "0.02"}, "The scene",
-            "on a grid of 0.02 um", "GB of memory here",
+    Refusal("a grid larger than memory",
+            {"Grid/Spacing": "0.08", "Tissue/Cell spacing": "0.7"}, "The scene",
+            "on a grid of 0.08 um", "GB of memory here",
             "Raise Tissue/Cell spacing or Grid/Spacing"),
+    wrong("cells far longer than grid cells", "Tissue/Cell spacing", "20",
+          "at most 10 times Grid/Spacing, 10 um",
+          "Choose a smaller spacing, or a larger Grid/Spacing",
+          keys={"Grid/Spacing": "1"}),
+    Refusal("a box far too long", {"Tissue/Size": "60, 1e9, 60"}, "Tissue/Size",
+            "'1e+09'", "at most 1000 times Grid/Spacing long, 35000 um",
+            "Choose a smaller tissue"),
+    wrong("a sphere far too large", "Tissue/Radius", "2e4",
+          "at most 1000 times Grid/Spacing long, 35000 um",
+          "Choose a smaller tissue", keys={"Tissue/Shape": "sphere"}),
 ]
 
 OFF = """OFF
@@ -288,7 +299,67 @@ FILES = [
            "Drop one of the two cells"),
 ]
 
-KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + CONTRADICTIONS + FILES
+BLOCK = "".join(f"{12 * i},{12 * j},{12 * k}\n"
+                for i in range(5) for j in range(5) for k in range(5))
+CSV = " ({files}/cells.csv, line 127)"
+LONG = 50 * 1000 * 1000
+
+
+def astray(place):
+    """125 cells side by side, and another one."""
+    where = ", ".join(format(float(x), ".0f") for x in place.split(","))
+    return points(f"a cell at {place}", "x,y,z\n" + BLOCK + place + "\n", CSV,
+                  where, "at most 35000 um",
+                  "farthest from the others: correct or drop it")
+
+
+def large(volume):
+    rows = BLOCK.replace("\n", ",1728\n")
+    return points(f"a cell of {volume} um^3",
+                  f"x,y,z,volume\n{rows}90,0,0,{volume}\n", CSV,
+                  f"'{float(volume):g}'", "no longer than 350 um", "raise Grid/Spacing")
+
+
+def spike(x):
+    return mesh(f"a vertex at {x}", "mesh.off",
+                OFF.replace("64 0 0", f"{x} 0 0"), "at most 35000 um",
+                "correct the vertex that lies astray")
+
+
+# Each would fill the memory, or go on for hours, if it were taken seriously.
+OUTLIERS = [
+    *map(astray, ("1e6,0,0", "0,-1e9,0")),
+    *(points(f"a cell at {x} um", "x,y,z\n" + BLOCK + f"0,0,{x}\n", CSV, value,
+             "at most 3.5e+09 um", "Correct the line")
+      for x, value in (("7e10", "0, 0, 7"), ("-1e308", "0, 0, -1e+308"))),
+    points("cells far from the origin", "x,y,z\n1e11,0,0\n1e11,12,0\n",
+           " ({files}/cells.csv, line 2)", "0, 0'",
+           "from the origin", "Correct the line"),
+    points("a cell across the diagonal", "x,y,z\n" + BLOCK + "1e4,1e4,1e4\n",
+           "", "cells.csv", "fills a part of the grid around it",
+           "correct the cell that lies astray"),
+    *map(large, ("1e12", "1e308")),
+    *map(spike, ("1e5", "1e6", "-1e7")),
+    mesh("a vertex across the diagonal", "mesh.off",
+         OFF.replace("64 0 0", "1e4 1e4 1e4"), "fills a part of the grid",
+         "correct the vertex that lies astray"),
+    mesh("a mesh far from the origin", "mesh.off",
+         OFF.replace("\n0 0 0", "\n1e12 0 0", 1).replace("64 0 0", "1e12 64 0")
+         .replace("0 64 0", "1e12 0 64").replace("\n0 0 64", "\n999999999936 0 0"),
+         "at most 3.5e+09 um from the origin", "move the scene nearer"),
+    points("a null byte", b"x,y,z\n1,2,3\n4,\0005,6\n",
+           " ({files}/cells.csv, line 3)", "'\\x005'",
+           "a finite number with a decimal point", "Correct the line"),
+    points("an endless line", "x,y,z\n" + "1," * (LONG // 2) + "\n",
+           " ({files}/cells.csv, line 2)", "'1,1,1", "3 numbers separated",
+           "Correct the line"),
+    points("an endless header", "x,y,z," * (LONG // 6) + "\n",
+           " ({files}/cells.csv, line 1)", "'x,y,z,x,y,z", "each once",
+           "Name the columns"),
+]
+
+KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + CONTRADICTIONS + FILES + \
+    OUTLIERS
 
 # Scenes of their own: (name, text or None, words that must be in the message).
 SCENES = [

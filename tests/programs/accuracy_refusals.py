@@ -146,6 +146,18 @@ BAD_REFERENCES = {
     "no arithmetic": ("r,total_volume\n1,2\n",
                       ["--reference-column", "xmax=open('r')"], "open",
                       "numbers"),
+    **{name: ("r,total_volume\n1,2\n",
+              ["--reference-column", f"xmax={text}"], said,
+              "numbers, + - * / **, brackets and the columns r, total_volume")
+       for name, text, said in (
+           ("division by zero", "1/0", "a division by zero"),
+           ("division by a column", "r/(total_volume-2)",
+            "a division by zero"),
+           ("a tower of powers", "9**9**9**9", "a number too large"),
+           ("a large product", "1e300*1e300", "it is inf"),
+           ("a complex root", "(-r)**0.5", "no finite real number"),
+           ("many signs", "-" * 5000 + "1", "more than 500 characters"),
+           ("a null byte", "r\0", "syntax"))},
 }
 
 

@@ -6,6 +6,7 @@ stderr, nothing on stdout, and no output directory. The kinds are listed in
 tests/common/refusals.py, those of a resumed run in resume_refusals.py.
 """
 import re
+import resource
 import sys
 from pathlib import Path
 
@@ -60,11 +61,31 @@ class BadInput(ProgramTest):
                     self.assertRegex(result.stderr,
                                      rf"\b{re.escape(unit)}s?(\W|$)")
 
+    def test_outliers(self):
+        """Refused at once, by --explain too: nothing is made as large as they
+        are. The time of a start on a busy machine, and 1 GB for libraries."""
+        for refusal in refusals.OUTLIERS:
+            with self.subTest(refusal.name):
+                keys, texts = self.prepared(refusal)
+                words = self.command(
+                    SCENE, "--explain", "-s",
+                    f"Output directory={self.work / 'output'}",
+                    *overrides(keys))
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                result = self.run_words(words, 1)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                self.assert_refused(result, texts)
+                self.assertLess(len(result.stderr), 1500)
+                self.assertLess(after.ru_utime - before.ru_utime, 5)
+                self.assertLess(after.ru_maxrss, 1e6)  # KB, the largest so far
+
     def test_on_several_ranks(self):
         """One message, and no rank left waiting."""
         for refusal in refusals.KEYS:
             if refusal.name not in ("grid spacing", "missing mesh",
-                                    "stiffness negative somewhere"):
+                                    "stiffness negative somewhere",
+                                    "a cell at 1e6,0,0", "a vertex at 1e6",
+                                    "a cell across the diagonal"):
                 continue
             with self.subTest(refusal.name):
                 keys, texts = self.prepared(refusal)

@@ -23,13 +23,14 @@ namespace Morula
    * Collective.
    * @throws InputError on all ranks, naming the file's first bad line: numbers
    * that are none, wrong columns, volumes that are not positive, two cells at
-   * one place, no cells
+   * one place, a cell beyond the limits or far away from all others, no cells
    */
   template <int dim>
   Founders<dim>
-  read_points(const std::string &file,
-              const double       default_volume,
-              const MPI_Comm     comm);
+  read_points(const std::string        &file,
+              const double              default_volume,
+              const MPI_Comm            comm,
+              const SeedingLimits<dim> &limits = {});
 } // namespace Morula
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef morula_particles_seeding_h
 #define morula_particles_seeding_h
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -11,6 +12,8 @@
 
 #include <mpi.h>
 
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -76,13 +79,38 @@ namespace Morula
   };
 
   /**
+   * How far a tissue from a file may reach, and how large its cells may be. One
+   * vertex or cell far away from all others would make the grid between them
+   * larger than any memory. Lengths in µm.
+   */
+  template <int dim>
+  struct SeedingLimits
+  {
+    /** Largest coordinate, of either sign. */
+    double farthest = std::numeric_limits<double>::infinity();
+    /** Largest extent along an axis. */
+    double extent = std::numeric_limits<double>::infinity();
+    /** Largest V^(1/dim) of a cell. */
+    double cell_length = std::numeric_limits<double>::infinity();
+    /**
+     * Refuses what keeps to these limits, but does not fit into memory: asked
+     * with the bounding box, the number of cells and their volume (µm^dim),
+     * before anything is done with them. Collective.
+     */
+    std::function<void(const BoundingBox<dim> &, const double, const double)>
+      check_memory;
+  };
+
+  /**
    * Fills the shape with the regular lattice of section 2.5 of the paper, or
    * reads the cells from a file.
-   * @throws InputError if no cell fits
+   * @throws InputError if no cell fits, or if a file exceeds the limits
    */
   template <int dim>
   Founders<dim>
-  seed_founders(const TissueParameters &parameters, const MPI_Comm comm);
+  seed_founders(const TissueParameters   &parameters,
+                const MPI_Comm            comm,
+                const SeedingLimits<dim> &limits = {});
 
   /** Tiles the shape's surface. Points from a file have no surface. */
   template <int dim>

@@ -56,6 +56,10 @@ namespace Morula
     virtual bool
     contains(const Point<dim> &x, const double clearance) const = 0;
 
+    /** µm^dim */
+    virtual double
+    volume() const = 0;
+
     /** Area of the surface, in 2-D its length. */
     virtual double
     surface_area() const = 0;

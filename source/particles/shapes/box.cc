@@ -101,6 +101,16 @@ namespace Morula
 
   template <int dim>
   double
+  Box<dim>::volume() const
+  {
+    double product = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      product *= size[d];
+    return product;
+  }
+
+  template <int dim>
+  double
   Box<dim>::surface_area() const
   {
     double area = 0.;

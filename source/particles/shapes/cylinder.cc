@@ -47,6 +47,12 @@ namespace Morula
   }
 
   double
+  Cylinder::volume() const
+  {
+    return cap_area() * height;
+  }
+
+  double
   Cylinder::surface_area() const
   {
     return side_area() + 2. * cap_area();

@@ -166,6 +166,16 @@ namespace Morula
 
   template <int dim>
   double
+  Ellipsoid<dim>::volume() const
+  {
+    double product = dim == 3 ? 4. / 3. * numbers::PI : numbers::PI;
+    for (unsigned int d = 0; d < dim; ++d)
+      product *= half_axes[d];
+    return product;
+  }
+
+  template <int dim>
+  double
   Ellipsoid<dim>::surface_area() const
   {
     const auto square = [](const double x) { return x * x; };

@@ -25,6 +25,18 @@ namespace Morula
   }
 
   double
+  MeshShape::volume() const
+  {
+    // From a point of the surface, so that no digits are lost far from the
+    // origin.
+    const Point<3> apex   = mesh.triangles().front().vertices[0];
+    double         volume = 0.;
+    for (const SurfaceTriangle &triangle : mesh.triangles())
+      volume += (triangle.vertices[0] - apex) * area_vector(triangle.vertices);
+    return volume / 3.;
+  }
+
+  double
   MeshShape::surface_area() const
   {
     double area = 0.;

@@ -34,6 +34,13 @@ namespace Morula
 
   template <int dim>
   double
+  Sphere<dim>::volume() const
+  {
+    return surface_area() * radius / dim;
+  }
+
+  template <int dim>
+  double
   Sphere<dim>::surface_area() const
   {
     return dim == 3 ? 4. * numbers::PI * radius * radius :

@@ -23,6 +23,9 @@ namespace Morula
     contains(const Point<3> &x, const double clearance) const override;
 
     double
+    volume() const override;
+
+    double
     surface_area() const override;
 
     /**

@@ -30,6 +30,9 @@ namespace Morula
      * integral (DLMF 19.33.1); in 2-D 4 a E(k), k² = 1 - b²/a².
      */
     double
+    volume() const override;
+
+    double
     surface_area() const override;
 
     /**

@@ -82,7 +82,10 @@ namespace Morula
       const std::string place    = behind("Position:");
       if (boost::conversion::try_lexical_convert(place, position))
         text = "character " +
-               std::to_string(1 + std::min(position, component.size())) + ": ";
+               std::to_string(
+                 1 + ExpressionSyntax::position_without_blanks(component,
+                                                               position)) +
+               ": ";
       std::string message = behind("Message:");
       message             = message.substr(0, message.find(" at position"));
       if (boost::ends_with(message, " found"))
@@ -173,7 +176,10 @@ namespace Morula
     if (!constants.empty())
       return;
 
-    parser = std::make_shared<const Parser>(components);
+    std::vector<std::string> readable;
+    for (const std::string &component : components)
+      readable.push_back(ExpressionSyntax::with_blanks(component));
+    parser = std::make_shared<const Parser>(readable);
     for (unsigned int c = 0; c < components.size(); ++c)
       {
         // deal.II writes muParser's report to the standard error before it
@@ -182,7 +188,7 @@ namespace Morula
         try
           {
             const boost::io::ios_rdbuf_saver saver(std::cerr, report.rdbuf());
-            Parser({components[c]}).value_at(Point<3>(), 0., 0);
+            Parser({readable[c]}).value_at(Point<3>(), 0., 0);
           }
         catch (const std::exception &)
           {

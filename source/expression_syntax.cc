@@ -26,6 +26,13 @@ namespace Morula::ExpressionSyntax
       return i + 1 < s.size() && s[i + 1] == '=' ? 2 : 1;
     }
 
+    /** Whether && or || ends at @p i. */
+    bool
+    ends_logical(const std::string &s, const std::size_t i)
+    {
+      return i > 0 && s[i] == s[i - 1] && (s[i] == '&' || s[i] == '|');
+    }
+
     /** Whether an operator that begins a new comparison stands at @p i. */
     bool
     separates_comparisons(const std::string &s, const std::size_t i)
@@ -98,6 +105,35 @@ namespace Morula::ExpressionSyntax
     return std::regex_search(text,
                              std::regex("(^|[^A-Za-z_0-9])" + name +
                                         "($|[^A-Za-z_0-9])"));
+  }
+
+
+  std::string
+  with_blanks(const std::string &component)
+  {
+    std::string result;
+    for (std::size_t i = 0; i < component.size(); ++i)
+      {
+        result += component[i];
+        if (ends_logical(component, i))
+          result += ' ';
+      }
+    return result;
+  }
+
+
+  std::size_t
+  position_without_blanks(const std::string &component,
+                          const std::size_t  position)
+  {
+    std::size_t with = 0; // of character i, in the longer text
+    for (std::size_t i = 0; i < component.size(); ++i)
+      {
+        if (with >= position)
+          return i;
+        with += ends_logical(component, i) ? 2 : 1;
+      }
+    return component.size();
   }
 
 

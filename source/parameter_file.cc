@@ -3,6 +3,7 @@
 
 #include <morula/input_error.h>
 #include <morula/parameter_file.h>
+#include <morula/suggestion.h>
 
 #include <boost/algorithm/string.hpp>
 
@@ -46,11 +47,13 @@ namespace Morula
              const std::string       &name,
              std::vector<Statement>  &statements,
              std::vector<std::string> sections = {},
+             std::vector<std::string> openings = {},
              const unsigned int       depth    = 0)
         : input(input)
         , name(name)
         , statements(statements)
         , sections(std::move(sections))
+        , openings(std::move(openings))
         , depth(depth)
       {}
 
@@ -83,9 +86,13 @@ namespace Morula
                "Check its permissions and the disk.");
         read_line(line, n_outer);
         if (sections.size() > n_outer)
-          fail(boost::join(sections, "/"),
-               "a subsection that is closed by 'end'",
-               "Add the missing 'end'.");
+          throw InputError(
+            openings[n_outer] + ": subsection",
+            sections[n_outer],
+            "a subsection that is closed by 'end'",
+            "Add the missing 'end', of this subsection or of one "
+            "within it; the file ends with line " +
+              std::to_string(line_number) + ".");
       }
 
     private:
@@ -151,6 +158,7 @@ namespace Morula
                  !rest.empty())
           {
             sections.push_back(rest);
+            openings.push_back(place());
             if (sections.size() > max_sections)
               fail(line,
                    "at most " + std::to_string(max_sections) +
@@ -167,11 +175,28 @@ namespace Morula
                    "an 'end' for every 'subsection'",
                    "No subsection is open here: remove the 'end'.");
             sections.pop_back();
+            openings.pop_back();
           }
         else
           fail(line,
                "'set Key = value', 'subsection Name', 'end' or 'include file'",
-               "Correct the line, or begin it with '#' if it is a comment.");
+               guess(line, word) +
+                 "Correct the line, or begin it with '#' if it is a comment.");
+      }
+
+      /** What a line that is no statement may have been meant to be. */
+      static std::string
+      guess(const std::string &line, const std::string &word)
+      {
+        const std::string meant =
+          most_similar(word, {"set", "subsection", "end", "include"});
+        if (!meant.empty() && meant != word)
+          return "Did you mean '" + meant + "'? ";
+        if (line.find('=') != std::string::npos)
+          return "A line that gives a key its value begins with 'set'. ";
+        if (meant.empty())
+          return "A section begins with 'subsection' and its name. ";
+        return "";
       }
 
       void
@@ -206,7 +231,7 @@ namespace Morula
                "a file that can be read",
                "Correct the name; it counts from the working directory or from "
                "this file.");
-        Reader(stream, found, statements, sections, depth + 1).read();
+        Reader(stream, found, statements, sections, openings, depth + 1).read();
       }
 
       void
@@ -214,7 +239,7 @@ namespace Morula
           const std::string    &path,
           const std::string    &value)
       {
-        statements.push_back({kind, path, value, place() + ": "});
+        statements.push_back({kind, path, value, place() + ": ", openings});
       }
 
       std::string
@@ -234,7 +259,8 @@ namespace Morula
       std::istream            &input;
       const std::string        name;
       std::vector<Statement>  &statements;
-      std::vector<std::string> sections;
+      std::vector<std::string> sections; // open ones, the outermost first
+      std::vector<std::string> openings; // where they begin
       const unsigned int       depth;
       unsigned int             line_number = 0;
     };

@@ -183,6 +183,33 @@ namespace Morula
   }
 
 
+  std::string
+  ParameterKeys::missing_end(const Statement &statement) const
+  {
+    const std::vector<std::string> names = split_path(statement.path);
+    // Names may have a slash in them, by mistake; and -s has no subsections.
+    if (names.size() !=
+        statement.around.size() + (statement.kind == Statement::set ? 1 : 0))
+      return "";
+    for (std::size_t n = names.size() - 1; n-- > 0;)
+      {
+        const std::vector<std::string> outer(names.begin(), names.begin() + n);
+        const std::string              path =
+          boost::join(outer, "/") + (n > 0 ? "/" : "") + names.back();
+        const bool known =
+          statement.kind == Statement::section ?
+            has_section(path) :
+            std::any_of(keys.begin(), keys.end(), [&](const ParameterKey &key) {
+              return key.path == current_name(path);
+            });
+        if (known)
+          return "'subsection " + names[n] + "' of " + statement.around[n] +
+                 " is still open here: is an 'end' missing? ";
+      }
+    return "";
+  }
+
+
   void
   ParameterKeys::refuse_unknown(const Statement &statement) const
   {
@@ -198,8 +225,11 @@ namespace Morula
     std::string suggestion = suggest_path(statement.path, paths);
     if (!suggestion.empty())
       suggestion += ' ';
-    throw InputError(statement.place + statement.path,
-                     is_section ? "subsection" : statement.value,
+    if (const std::string open = missing_end(statement); !open.empty())
+      suggestion = open;
+    throw InputError(statement.place +
+                       (is_section ? "subsection" : statement.path),
+                     is_section ? statement.path : statement.value,
                      is_section ? "a section that exists" :
                      has_section(section) || section == statement.path ?
                                   "a key that exists" :

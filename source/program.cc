@@ -72,26 +72,14 @@ namespace Morula
       return true;
     }
 
-    /**
-     * Does what the command line asks for. Sets @p resume_hint once the scene
-     * is accepted.
-     */
+    /** Does with a scene what the command line asks for. Sets @p resume_hint
+     *  once the scene is accepted. */
     void
     obey(const CommandLine &command,
          const Program     &program,
+         const Scene       &scene,
          std::string       &resume_hint)
     {
-      if (print_information(command, program.catalogue))
-        return;
-      if (command.resume && !program.resumes)
-        throw InputError("The command line",
-                         "--resume",
-                         "a new run",
-                         "This program makes several runs; leave the option "
-                         "out.");
-
-      const Scene scene =
-        Scene::read(command.scene_file, command.overrides, program.catalogue);
       scene.check();
       if (program.dimension != 0 && scene.dimension != program.dimension)
         throw InputError("Dimension",
@@ -112,6 +100,33 @@ namespace Morula
                       scene.output_directory + "', 'morula " +
                       command.scene_file + " ... --resume' goes on from there.";
       program.work(scene, command.resume);
+    }
+
+    /** Does what the command line asks for. */
+    void
+    obey(const CommandLine &command,
+         const Program     &program,
+         std::string       &resume_hint)
+    {
+      if (print_information(command, program.catalogue))
+        return;
+      if (command.resume && !program.resumes)
+        throw InputError("The command line",
+                         "--resume",
+                         "a new run",
+                         "This program makes several runs; leave the option "
+                         "out.");
+
+      const Scene scene =
+        Scene::read(command.scene_file, command.overrides, program.catalogue);
+      try
+        {
+          obey(command, program, scene, resume_hint);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(scene.located(error.what()));
+        }
     }
   } // namespace
 

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Morula
@@ -150,6 +151,7 @@ namespace Morula
           {
             const std::string path = keys.current_name(statement.path);
             scene.as_written[path] = statement.value;
+            scene.places[path]     = statement.place;
             if (path != statement.path)
               scene.renamed.push_back(statement.place + "the key '" +
                                       statement.path + "' is called '" + path +
@@ -161,6 +163,16 @@ namespace Morula
       if (scene.as_written.count(path) == 0)
         keys.apply({Statement::set, path, value, ""}, prm);
     return scene;
+  }
+
+
+  std::string
+  Scene::located(const std::string &message) const
+  {
+    // "Tissue/Points file (cells.csv, line 3) = '...'": the key comes first
+    const auto place = places.find(
+      message.substr(0, std::min(message.find(" = '"), message.find(" ("))));
+    return place == places.end() ? message : place->second + message;
   }
 
 

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -187,6 +189,39 @@ namespace Morula
             "Remove these keys, or this one.");
     }
 
+    /** Keys of Tissue that the chosen shape does not use. Those that name files
+     *  are refused; these are not, so that one scene serves several shapes. */
+    void
+    warn_of_unused(const Scene &scene, Warnings &warnings)
+    {
+      const TissueParameters &given = scene.tissue;
+      const TissueParameters  defaults;
+      const auto              warn = [&](const std::string              &key,
+                            const auto                     &value,
+                            const auto                     &default_value,
+                            const std::vector<std::string> &shapes) {
+        const std::string path = "Tissue/" + key;
+        if (value != default_value && scene.as_written.count(path) > 0 &&
+            std::count(shapes.begin(), shapes.end(), given.shape) == 0)
+          add(warnings,
+              path,
+              scene.as_written.at(path),
+              "it has no effect on Tissue/Shape = " + given.shape + ".",
+              "Remove it, or choose one of the shapes " +
+                boost::join(shapes, ", ") + ".");
+      };
+      warn("Radius", given.radius, defaults.radius, {"sphere", "cylinder"});
+      warn("Size", given.size, defaults.size, {"box", "ellipsoid", "cylinder"});
+      const std::vector<std::string> solid = {
+        "sphere", "box", "ellipsoid", "cylinder", "mesh"};
+      warn("Center", given.center, defaults.center, solid);
+      warn("Lattice offset",
+           given.lattice_offset,
+           defaults.lattice_offset,
+           solid);
+      warn("Surface cells", given.surface_cells, defaults.surface_cells, solid);
+    }
+
     template <int dim>
     void
     warn_of_output(const Scene         &scene,
@@ -235,6 +270,7 @@ namespace Morula
                                  grid_warnings(scene, founders, surface, comm)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warn_of_steps(scene, founders.positions, comm, warnings);
+    warn_of_unused(scene, warnings);
     warn_of_material(scene, warnings);
     warn_of_method(scene, warnings);
     warn_of_output(scene, founders, comm, warnings);

@@ -220,7 +220,8 @@ namespace Morula
         }
       catch (const InputError &error)
         {
-          give_up(error.what()); // an expression without a value at this time
+          // an expression without a value at this time
+          give_up(scene.located(error.what()));
         }
   }
 

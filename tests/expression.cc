@@ -66,6 +66,14 @@ TEST(Expression, KnowsConditionsAndConstants)
   EXPECT_EQ(value("X > 0 || Y > 2", X), 1.);
   EXPECT_EQ(value("(X < 2) * (Y == 2)", X), 1.);
   EXPECT_EQ(value("Z != 3 ? 1 : 2", X), 2.);
+  // without blanks, too
+  for (const auto &[text, expected] : {std::pair("X<2||Y<1", 1.),
+                                       std::pair("X<1||Y<1", 0.),
+                                       std::pair("X<2&&Y<3", 1.),
+                                       std::pair("X<2&&-Y<-3", 0.),
+                                       std::pair("(X<2)||(Y<1)&&Z", 1.),
+                                       std::pair("X<1||Y<1|| Z==3", 1.)})
+    EXPECT_EQ(value(text, X), expected) << text;
   EXPECT_DOUBLE_EQ(value("cos(pi)"), -1.);
   EXPECT_DOUBLE_EQ(value("_e"), std::exp(1.));
 }
@@ -137,6 +145,8 @@ TEST(Expression, SaysWhereAnErrorIs)
   expect_parts(complaint("x + 1"), {"character 1", "\"x\"", "X, Y, Z"});
   expect_parts(complaint("X; Y; Z +", 3), {"Component 3", "Unexpected end"});
   expect_parts(complaint("(X + 1"), {"Missing parenthesis"});
+  expect_parts(complaint("X<1||Y<1||sinn(X)"), {"character 11", "sinn"});
+  expect_parts(complaint("X<1||Y<1||"), {"character 11", "Unexpected end"});
 }
 
 

@@ -276,11 +276,21 @@ TEST(Scene, RefusesBadFiles)
           {"Time/step", "Did you mean 'Time/Step'"}},
          {"set Completely different = 1",
           {"Completely different", "a key that exists", "--parameters"}},
-         {"Spacing = 50", {"scene.prm:1", "Spacing = 50", "'set Key = value'"}},
+         {"Spacing = 50",
+          {"scene.prm:1",
+           "Spacing = 50",
+           "'set Key = value'",
+           "begins with 'set'"}},
+         {"sett Spacing = 50", {"scene.prm:1", "Did you mean 'set'?"}},
+         {"subsecton Grid", {"scene.prm:1", "Did you mean 'subsection'?"}},
+         {"Grid\nend", {"scene.prm:1", "begins with 'subsection'"}},
          {"subsection Grid\n  set Spacing 50\nend",
           {"scene.prm:2", "set Spacing 50", "Put '='"}},
          {"subsection Grid\n  set Spacing = 50\n",
-          {"scene.prm:2", "Grid", "closed", "Add the missing 'end'"}},
+          {"scene.prm:1: subsection = 'Grid'",
+           "closed",
+           "Add the missing 'end'",
+           "ends with line 2"}},
          {"subsection Grid\nend\nend", {"scene.prm:3", "remove the 'end'"}},
          {"end of file", {"scene.prm:1", "end of file", "Correct the line"}},
          {"subsection Grid\n  set Spacing = 50 um\nend",
@@ -446,7 +456,7 @@ TEST(Scene, SaysWhereAKeyStands)
   expect_parts(complaint("", {"Growth/Stretch=2"}),
                {"-s: Growth/Stretch", "stands in subsection Growth/Isotropic"});
   expect_parts(complaint("subsection Cell cycle\nend"),
-               {"scene.prm:1: Cell cycle",
+               {"scene.prm:1: subsection = 'Cell cycle'",
                 "stands in subsection Proliferation"});
 }
 

@@ -96,7 +96,7 @@ TEST(SceneWarnings, OfFilesInAnotherUnit)
   scene.dimension    = 2;
   scene.tissue.shape = "points";
   for (const auto &[unit, said] :
-       {std::pair(0.001, "0.001 of a cell's length away"),
+       {std::pair(0.01, "0.01 of a cell's length away"),
         std::pair(0.45, "0.45 of a cell's length away"),
         std::pair(0.55, ""),
         std::pair(1., ""),
@@ -129,6 +129,25 @@ TEST(SceneWarnings, OfFilesInAnotherUnit)
                 std::string(said) != "")
         << spacing << ' ' << all;
     }
+}
+
+
+TEST(SceneWarnings, OfKeysThatTheShapeDoesNotUse)
+{
+  Scene scene                     = good_scene();
+  scene.as_written["Tissue/Size"] = "100, 100, 100";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.tissue.radius = 70.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty()); // no key of the file
+  scene.as_written["Tissue/Radius"] = "70";
+  expect_warning(scene,
+                 {"Tissue/Radius = '70'",
+                  "no effect on Tissue/Shape = box",
+                  "sphere, cylinder"});
+  scene.tissue.radius = 250.;
+  scene.as_written["Tissue/Radius"] =
+    "250"; // the default: as in parameters.prm
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
 

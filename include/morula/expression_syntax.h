@@ -18,6 +18,20 @@ namespace Morula::ExpressionSyntax
   uses(const std::string &text, const std::string &name);
 
   /**
+   * One component with a blank behind each && and ||. deal.II adds the
+   * operators & and | to muParser's own, which then reads the || of X<1||Y<1 as
+   * | and |Y.
+   */
+  std::string
+  with_blanks(const std::string &component);
+
+  /** Where a character of with_blanks() stands in the component itself, both
+   *  counted from 0. */
+  std::size_t
+  position_without_blanks(const std::string &component,
+                          const std::size_t  position);
+
+  /**
    * What muParser would accept in one component although it means something
    * else than it seems to: a full sentence with the position and the remedy;
    * empty if there is nothing of the kind.

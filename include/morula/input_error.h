@@ -39,6 +39,11 @@ namespace Morula
       : std::runtime_error(shown(key) + " = '" + shown(value) +
                            "': allowed is " + allowed + ". " + remedy)
     {}
+
+    /** With the message of another one. */
+    explicit InputError(const std::string &message)
+      : std::runtime_error(message)
+    {}
   };
 } // namespace Morula
 

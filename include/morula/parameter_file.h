@@ -23,6 +23,8 @@ namespace Morula
     std::string path;  // full path of the key or section, separated by '/'
     std::string value; // of the key
     std::string place; // where it stands, "file:line: "
+    // where the subsections around it begin, "file:line", the outermost first
+    std::vector<std::string> around = {};
   };
 
   /**
@@ -32,7 +34,8 @@ namespace Morula
    * that goes on. A file named by include is looked for in the working
    * directory, then next to the file that includes it.
    * @throws InputError for a file that cannot be read, a line that is no
-   *         statement, subsections that are not closed or not open
+   *         statement, subsections that are not closed (with the line where
+   *         the first of them begins) or not open
    */
   std::vector<Statement>
   read_statements(const std::string &file);

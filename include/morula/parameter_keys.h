@@ -66,6 +66,11 @@ namespace Morula
     bool
     has_section(const std::string &path) const;
 
+    /** Whether the statement would make sense without the innermost ones of
+     *  the subsections around it: which of these lacks its end; or nothing. */
+    std::string
+    missing_end(const Statement &statement) const;
+
     [[noreturn]] void
     refuse_unknown(const Statement &statement) const;
 

@@ -77,6 +77,9 @@ namespace Morula
      */
     std::map<std::string, std::string> as_written;
 
+    /** Where they were written, "file:line: " or "-s: ", by full path. */
+    std::map<std::string, std::string> places;
+
     /** What to say about keys that were written by a former name. */
     std::vector<std::string> renamed;
 
@@ -114,6 +117,11 @@ namespace Morula
     {
       return Scene(catalogue.with_defaults());
     }
+
+    /** The message of an InputError about a value that was found wrong after
+     *  the file had been read, with the place where the key stands. */
+    std::string
+    located(const std::string &message) const;
 
     /** All keys as used, as a .prm file that read() reads back exactly. */
     std::string

@@ -12,28 +12,6 @@ namespace Morula
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** An InputError with the message that another rank has composed. */
-    class AgreedInputError : public InputError
-    {
-    public:
-      explicit AgreedInputError(const std::string &message)
-        : InputError("", "", "", "")
-        , message(message)
-      {}
-
-      const char *
-      what() const noexcept override
-      {
-        return message.c_str();
-      }
-
-    private:
-      std::string message;
-    };
-  } // namespace
-
   void
   everywhere(const MPI_Comm comm, const std::function<void()> &action)
   {
@@ -67,7 +45,7 @@ namespace Morula
     message  = Utilities::MPI::broadcast(comm, message, first);
     by_input = Utilities::MPI::broadcast(comm, by_input, first);
     if (by_input)
-      throw AgreedInputError(message);
+      throw InputError(message);
     throw std::runtime_error(message);
   }
 

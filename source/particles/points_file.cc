@@ -240,7 +240,8 @@ namespace Morula
                              std::to_string(entries[k].line) +
                              " has one there already, nearer than 1e-3 of a "
                              "cell's length",
-                           "Drop one of the two cells."};
+                           "Drop one of the two cells. If all lie so near, "
+                           "scale the file to um."};
                 break;
               }
         }

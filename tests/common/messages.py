@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Where a message ends up at the user: exit code 1 or 2, or a warning.
 # The other helpers of Refusals end in one of these.
 THROWS = re.compile(
-    r"\b(?:InputError|AgreedInputError|StepFailed|SurfaceTorn|runtime_error|"
+    r"\b(?:InputError|StepFailed|SurfaceTorn|runtime_error|"
     r"refuse|refuse_unless|refuse_snapshot|give_up|fail|warning|"
     r"add\(warnings,)\s*\(?")
 

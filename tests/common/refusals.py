@@ -215,7 +215,7 @@ CONTRADICTIONS = [
     Refusal("a box far too long", {"Tissue/Size": "60, 1e9, 60"}, "Tissue/Size",
             "'1e+09'", "at most 1000 times Grid/Spacing long, 35000 um",
             "Choose a smaller tissue"),
-    wrong("a sphere far too large", "Tissue/Radius", "2e4",
+    wrong("a sphere far too large", "Tissue/Radius", "20000",
           "at most 1000 times Grid/Spacing long, 35000 um",
           "Choose a smaller tissue", keys={"Tissue/Shape": "sphere"}),
 ]
@@ -307,7 +307,7 @@ LONG = 50 * 1000 * 1000
 
 def astray(place):
     """125 cells side by side, and another one."""
-    where = ", ".join(format(float(x), ".0f") for x in place.split(","))
+    where = ", ".join(format(float(x), "g") for x in place.split(","))
     return points(f"a cell at {place}", "x,y,z\n" + BLOCK + place + "\n", CSV,
                   where, "at most 35000 um",
                   "farthest from the others: correct or drop it")
@@ -371,11 +371,30 @@ SCENES = [
                                    "Is this a scene?")),
     ("word", b"sett Dimension = 3\n", ("word.prm:1", "'sett Dimension = 3'",
                                        "'set Key = value'",
+                                       "Did you mean 'set'?",
                                        "Correct the line")),
     ("equals", b"set Dimension 3\n", ("equals.prm:1", "'set Dimension 3'",
                                       "'set Key = value'", "Put '='")),
     ("truncated", b"subsection Grid\n  set Spacing = 5\n",
-     ("truncated.prm:2", "Grid", "closed by 'end'", "Add the missing 'end'")),
+     ("truncated.prm:1: subsection = 'Grid'", "closed by 'end'",
+      "Add the missing 'end'", "ends with line 2")),
+    ("unclosed", b"subsection Tissue\n  set Shape = box\nsubsection Grid\nend\n",
+     ("unclosed.prm:1: subsection = 'Tissue'", "closed by 'end'",
+      "Add the missing 'end'", "ends with line 4")),
+    ("an end astray",
+     b"subsection Tissue\n  set Shape = box\nsubsection Grid\nend\nend\n",
+     ("astray.prm:3: subsection = 'Tissue/Grid'", "a section that exists",
+      "astray.prm:1 is still open here: is an 'end' missing?")),
+    ("late", b"\nsubsection Tissue\n  set Shape = box\nend\n"
+     b"subsection Material\n  set Young's modulus = X\nend\n",
+     ("late.prm:6: Material/Young's modulus = 'X'", "> 0 kPa",
+      "Make it positive")),
+    ("without set", b"Dimension = 3\n",
+     ("without set.prm:1", "'Dimension = 3'", "'set Key = value'",
+      "begins with 'set'")),
+    ("without subsection", b"Tissue\n  set Radius = 3\nend\n",
+     ("without subsection.prm:1", "'Tissue'", "'subsection Name'",
+      "A section begins with 'subsection'")),
     ("end", b"set Dimension = 3\nend\n", ("end.prm:2", "'end'",
                                           "an 'end' for every 'subsection'",
                                           "remove the 'end'")),
@@ -383,7 +402,7 @@ SCENES = [
      ("key.prm:2: Grid/Spacng", "'5'", "a key that exists",
       "Did you mean 'Grid/Spacing'?")),
     ("section", b"\nsubsection Grwoth\nend\n",
-     ("section.prm:2: Grwoth", "'subsection'", "a section that exists",
+     ("section.prm:2: subsection", "'Grwoth'", "a section that exists",
       "Did you mean 'Growth'?")),
     ("choice", b"subsection Tissue\n  set Shape = spere\nend\n",
      ("choice.prm:2: Tissue/Shape", "'spere'", "any one of sphere",

@@ -192,6 +192,37 @@ class Estimates(unittest.TestCase):
         self.assertEqual([part.used for part in found.parts], [True, False])
         self.assertAlmostEqual(found.right, 5.0, places=6)
 
+    def test_finest_run_is_no_right_value(self):
+        """Two rungs, or three without an order: the finest run's value, whose
+        own error nobody knows; one order, or a file, tells more."""
+        for ladder, law, finest in (
+                ("Grid/Spacing=100,50", lambda h, _: 5 + h, "50"),
+                ("Grid/Spacing=100,75,50", lambda h, _: {75: 9}.get(h, h),
+                 "50")):
+            found = estimate_of(plan_of(ladder), law)
+            self.assertEqual(found.compared_with, (finest,))
+            self.assertEqual(found.source, "finest run")
+        plan = plan_of("Grid/Spacing=100,75,50")
+        found = estimate_of(plan, lambda h, _: 5 + 1e-4 * h**2)
+        self.assertIsNone(found.compared_with)
+        self.assertEqual(found.source, "ladders")
+        self.assertIsNone(estimate_of(plan, lambda h, _: 5).compared_with)
+        found = estimate_of(plan_of("Grid/Occupation parameter=0.5,0.85,1"),
+                            lambda C, _: 5 + C)
+        self.assertEqual(found.compared_with, ("0.85",))
+        self.assertEqual(found.source, "scene's run")
+
+        class Reference:
+            @staticmethod
+            def value(_measure, _time):
+                return 55.0, 0.0
+
+        found = estimate_of(plan_of("Grid/Spacing=100,50"),
+                            lambda h, _: 5 + h, (0.0,), Reference)
+        self.assertEqual(found.errors[("50",)], 0)
+        self.assertIsNone(found.compared_with)
+        self.assertEqual(found.source, "reference file")
+
     def test_setting_without_a_limit(self):
         plan = plan_of("Grid/Occupation parameter=0.5,0.85,1")
         found = estimate_of(plan, lambda C, _: 5 + C)

@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "contrib/python"))
 # flake8: noqa: E402
 from morula_runs.keys import keys_of
 import refusals
+from refusals import CYCLE
 
 SCENE = ROOT / "tests/programs/small-cube.prm"
 
@@ -92,6 +93,28 @@ class BadInput(ProgramTest):
                 result = self.execute(SCENE, *overrides(keys), ranks=3, code=1)
                 self.assert_refused(result, texts)
                 self.assertEqual(result.stderr.count("morula: "), 1)
+
+    def test_places(self):
+        """Values that are refused after the file has been read: file and line,
+        or -s."""
+        text = SCENE.read_text()
+        for name, value, key in (
+                ("set End time = 1", "set End time = -1", "Time/End time"),
+                ("set Spacing = 35", "set Spacing = -35", "Grid/Spacing"),
+                ("set G0 exit rate = 2", "set G0 exit rate = 2 - X",
+                 CYCLE + "G0 exit rate"),
+                ("set Slip where  = Z <= 0", "set Slip where = Z < -9",
+                 "Boundary conditions/Slip where")):
+            with self.subTest(key):
+                scene = self.write("scene.prm", text.replace(name, value))
+                number = 1 + text[:text.index(name)].count("\n")
+                for arguments in ((), ("--explain",)):
+                    result = self.execute(scene, *arguments, code=1)
+                    self.assertIn(f"morula: {scene}:{number}: {key} = ",
+                                  result.stderr)
+        result = self.execute(SCENE, *overrides({"Time/End time": "-1"}),
+                              code=1)
+        self.assertIn("morula: -s: Time/End time = ", result.stderr)
 
     def test_explain_refuses_alike(self):
         result = self.execute(

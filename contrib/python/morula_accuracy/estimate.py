@@ -8,7 +8,7 @@ import numpy
 
 from morula_runs.scene import normal
 
-from .limits import limit_of, mean_and_noise, size_of
+from .limits import ROUNDING, limit_of, mean_and_noise, size_of
 
 
 @dataclass
@@ -28,7 +28,11 @@ class Part:
 @dataclass
 class Estimate:
     """One measure at one time: the right value as far as it is known, and
-    each point's value, error, noise."""
+    each point's value, error, noise.
+
+    Where no ladder tells a limit, the right value is the value of one of the
+    runs, the finest: errors are then differences from that run, and its own
+    error is not known."""
 
     measure: object
     time: float
@@ -47,6 +51,28 @@ class Estimate:
         """What the error is at most, as far as can be known."""
         return (abs(self.errors[point]) + self.uncertainty
                 + self.noise[point])
+
+    @property
+    def compared_with(self):
+        """The point whose own value stands for the right one, or None: so too
+        where all values agree to rounding."""
+        rounding = ROUNDING * max(abs(self.right), 1e-300)
+        extrapolated = any(len(part.limit.weights) > 1 for part in self.parts
+                           if part.used)
+        if self.from_file or extrapolated or self.uncertainty <= rounding:
+            return None
+        return next((point for point, error in self.errors.items()
+                     if abs(error) <= rounding), None)
+
+    @property
+    def source(self):
+        """Where the right value comes from, in a word or two."""
+        if self.from_file:
+            return "reference file"
+        if not self.compared_with:
+            return "ladders"
+        return ("finest run" if any(part.used for part in self.parts)
+                else "scene's run")
 
     @property
     def floor(self):

@@ -20,8 +20,9 @@ def cost_figure(findings, estimate):
         per_cent_axis(panels[-1], estimate.right, limits)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncols=4)
+    right = estimate.source if estimate.compared_with else "right value"
     figure.suptitle(f"{findings.request.scene.name}: {estimate.measure.text} "
-                    f"at day {estimate.time:g}, right value "
+                    f"at day {estimate.time:g}, {right} "
                     f"{estimate.right:.6g} {unit}".rstrip(), fontsize=11)
     return figure
 

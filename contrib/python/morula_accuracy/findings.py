@@ -93,7 +93,9 @@ class Findings:
             cost = self.costs[estimate.time][best]
             return f"{name}: {self.plan.label(best)}, {cost.wall:.3g} s"
         if estimate.uncertainty > allowed:
-            return (f"{name}: cannot be judged, the right value itself is only "
+            what = (f"the {estimate.source} stands for the right value, which"
+                    if estimate.compared_with else "the right value itself")
+            return (f"{name}: cannot be judged, {what} is only "
                     f"known to {estimate.uncertainty:.2g} "
                     f"{estimate.measure.unit}".rstrip())
         nearest = min(estimate.values, key=estimate.bound)

@@ -85,8 +85,7 @@ def run_table(findings, estimates):
             row += ["failed"] + ["–"] * (len(head) - 2)
         rows.append(row)
     right = ["**right value**", "", "", ""]
-    right += [f"{e.right:.6g} ± {e.uncertainty:.1g} {pretty(e.measure.unit)}"
-              for e in estimates]
+    right += [right_cell(e) for e in estimates]
     legend = ("● no run is both faster and better (errors that cannot be told "
               "from zero, in brackets, count alike)")
     if any(findings.least_cost(e) for e in estimates):
@@ -94,13 +93,29 @@ def run_table(findings, estimates):
     if findings.request.sampled:
         legend += ("; ± two standard errors from the "
                    + findings.request.sampled)
-    return table(head, [*rows, right]) + f"\n\n{legend}."
+    legend += "."
+    if any(e.compared_with for e in estimates):
+        sources = sorted({e.source for e in estimates if e.compared_with})
+        legend += (" " + ", ".join(f"*{source}*" for source in sources)
+                   + ": the ladders tell no limit, so that errors are "
+                   "differences from the value of that run, whose own error is "
+                   "not known; ± is how far the values go apart.")
+    return table(head, [*rows, right]) + f"\n\n{legend}"
+
+
+def right_cell(estimate):
+    """The right value; or that it is only the value of one run."""
+    text = (f"{estimate.right:.6g} ± {estimate.uncertainty:.1g} "
+            f"{pretty(estimate.measure.unit)}")
+    return (f"{estimate.source}: " if estimate.compared_with else "") + text
 
 
 def error_cell(findings, estimate, point):
     error, noise = estimate.errors[point], estimate.noise[point]
     text = shown(estimate, error, noise)
-    if abs(error) <= estimate.floor:
+    if point == estimate.compared_with:
+        text = "not known"
+    elif abs(error) <= estimate.floor:
         text = f"({text})"
     if point in findings.front(estimate):
         text += " ●"
@@ -237,7 +252,7 @@ def rows_of_csv(findings):
     yield [*plan.keys, "time", "measure", "unit", "value", "seed_scatter",
            "right_value", "right_value_uncertainty", "error", "error_noise",
            "on_front", "least_time_for_wanted", "wall_seconds", "unknowns",
-           "memory_mb"]
+           "memory_mb", "right_value_from"]
     for e in findings.estimates:
         front, best = findings.front(e), findings.least_cost(e)
         for point in e.values:
@@ -247,4 +262,4 @@ def rows_of_csv(findings):
                        int(point in front), int(point == best), cost.wall,
                        cost.unknowns, cost.memory]
             yield [*point, f"{e.time:.10g}", e.measure.text, e.measure.unit,
-                   *(f"{number:.10g}" for number in numbers)]
+                   *(f"{number:.10g}" for number in numbers), e.source]

@@ -368,9 +368,11 @@ class View(ReportTest):
                                       view[:, :width // 2 * 2])
         self.assertGreater((whole[:36, :400] < 128).all(axis=2).sum(), 300)
         foot = whole[36 + height:]
-        ramp = foot[-32, 14:width // 2 + 8]
-        ends = 255 * palette_of("coolwarm")([0.02, 0.98])[:, :3]
-        np.testing.assert_allclose(ramp[[8, -8]], ends, atol=20)
+        wide = 0.5 * whole.shape[1]  # of the ramp, which begins at 12
+        for part in (0.02, 0.25, 0.5, 0.75, 0.98):
+            found = foot[-32, int(12 + part * wide)]
+            expected = 255 * np.array(palette_of("coolwarm")(part)[:3])
+            np.testing.assert_allclose(found, expected, atol=8)
         line = (foot[-33] < 64).all(axis=1)[width // 2 + 30:]
         self.assertAlmostEqual(line.sum(), bar, delta=2)
 
@@ -414,8 +416,9 @@ class View(ReportTest):
         self.browser.open(self.page)
         self.assertIsInstance(areas, list, areas)
         self.assertGreater(areas[-1], 1.2 * areas[0], areas)
+        # a busy machine may drop frames, but not all between
         steps = np.diff(areas)
-        self.assertGreater((np.abs(steps) > 0.01 * areas[0]).sum(), 2)
+        self.assertGreater((np.abs(steps) > 0.01 * areas[0]).sum(), 1)
 
     def test_surface(self):
         """The points of the slip plane are blue, the free ones grey."""

@@ -34,6 +34,25 @@ namespace Morula
                              0;
     }
 
+    /** What a snapshot says of a table that the run appends to. */
+    template <int dim>
+    TableExtent
+    extent_of(const std::string &table, const SnapshotData<dim> &data)
+    {
+      return {static_cast<std::uint64_t>(data.number(table + "_rows")),
+              digest_of_integers(data.integer_table(table + "_digest", 2))};
+    }
+
+    template <int dim>
+    void
+    store_extent(const std::string &table,
+                 const TableExtent &extent,
+                 SnapshotData<dim> &data)
+    {
+      data.numbers[table + "_rows"]          = extent.n_rows;
+      data.integer_tables[table + "_digest"] = as_integers(extent.digest);
+    }
+
     /** Prefix of a section's numbers in a snapshot. */
     const std::string section_prefix = "seconds in ";
     const std::string calls_prefix   = "calls of ";
@@ -67,17 +86,17 @@ namespace Morula
                                                                section),
                                            seconds};
             }
-        const std::uint64_t n_rows   = resumed_from->number("statistics_rows");
-        const std::uint64_t n_births = resumed_from->number("lineage_rows");
+        const TableExtent rows   = extent_of("statistics", *resumed_from);
+        const TableExtent births = extent_of("lineage", *resumed_from);
         // All are looked at before the first of them is cut.
-        StatisticsFile::check(path("statistics.csv"), n_rows, comm);
-        LineageFile<dim>::check(path("lineage.csv"), n_births, comm);
+        StatisticsFile::check(path("statistics.csv"), rows, comm);
+        LineageFile<dim>::check(path("lineage.csv"), births, comm);
         if (continues_conditions(resumed_from))
           ConditionFile::check(path("condition.csv"),
-                               resumed_from->number("condition_rows"),
+                               extent_of("condition", *resumed_from),
                                comm);
-        statistics.emplace(path("statistics.csv"), n_rows, comm);
-        lineage.emplace(path("lineage.csv"), n_births, comm);
+        statistics.emplace(path("statistics.csv"), rows, comm);
+        lineage.emplace(path("lineage.csv"), births, comm);
         prepare_resume(scene.output_directory,
                        scene.parameters(),
                        output_times.size(),
@@ -142,7 +161,7 @@ namespace Morula
     // A run may be resumed with estimates that was begun without.
     if (continues_conditions(resumed_from))
       conditions.emplace(path("condition.csv"),
-                         resumed_from->number("condition_rows"),
+                         extent_of("condition", *resumed_from),
                          comm);
     else
       conditions.emplace(path("condition.csv"), comm);
@@ -274,13 +293,13 @@ namespace Morula
     if (conditions)
       {
         conditions->sync();
-        data.numbers["condition_rows"] = conditions->n_rows();
+        store_extent("condition", conditions->extent(), data);
       }
-    data.parameters                 = scene.parameters();
-    data.numbers["wall_seconds"]    = wall_seconds();
-    data.numbers["statistics_rows"] = statistics->n_rows();
-    data.numbers["lineage_rows"]    = lineage->n_rows();
-    data.tables["output_times"]     = output_times;
+    store_extent("statistics", statistics->extent(), data);
+    store_extent("lineage", lineage->extent(), data);
+    data.parameters              = scene.parameters();
+    data.numbers["wall_seconds"] = wall_seconds();
+    data.tables["output_times"]  = output_times;
     for (const auto &[name, times] : sections)
       {
         data.numbers[section_prefix + name] = times.wall_seconds;

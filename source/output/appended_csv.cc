@@ -17,14 +17,21 @@ namespace Morula
 
   namespace
   {
+    struct Beginning
+    {
+      std::size_t size = 0; // bytes
+      Digest      digest;
+    };
+
     /**
-     * Size in bytes of the header and the first @p n_rows complete rows.
+     * The header and the first complete rows of a file, as many as there are in
+     * @p kept.
      * @throws InputError
      */
-    std::size_t
-    size_of_rows(const std::string  &path,
-                 const std::string  &header,
-                 const std::uint64_t n_rows)
+    Beginning
+    beginning_of(const std::string &path,
+                 const std::string &header,
+                 const TableExtent &kept)
     {
       std::ifstream in(path, std::ios::binary);
       if (!in)
@@ -42,8 +49,10 @@ namespace Morula
                            header.substr(0, header.size() - 1) + "'",
                          "Restore the file, or start the run anew.");
 
-      std::size_t size = header.size();
-      for (std::uint64_t row = 0; row < n_rows; ++row)
+      Beginning beginning;
+      beginning.size = header.size();
+      beginning.digest.add(header);
+      for (std::uint64_t row = 0; row < kept.n_rows; ++row)
         {
           std::getline(in, line);
           // a last line without its newline was torn
@@ -51,13 +60,22 @@ namespace Morula
             throw InputError("--resume",
                              path,
                              "a file with at least the " +
-                               std::to_string(n_rows) +
+                               std::to_string(kept.n_rows) +
                                " rows that the snapshot counts (there are " +
                                std::to_string(row) + ")",
                              "Restore the file, or start the run anew.");
-          size += line.size() + 1;
+          line += '\n';
+          beginning.size += line.size();
+          beginning.digest.add(line);
         }
-      return size;
+      if (beginning.digest.value() != kept.digest)
+        throw InputError("--resume",
+                         path,
+                         "a file whose first " + std::to_string(kept.n_rows) +
+                           " rows are those of the run (their digest is not "
+                           "the snapshot's)",
+                         "Restore the file, or start the run anew.");
+      return beginning;
     }
   } // namespace
 
@@ -65,43 +83,48 @@ namespace Morula
                            const std::vector<std::string> &names,
                            const MPI_Comm                  comm)
     : comm(comm)
-    , n_rows_(0)
   {
     on_root(comm, [&]() {
+      const std::string header = csv_header(names);
       file = std::make_unique<PosixFile>(path, PosixFile::Mode::create);
-      file->write(csv_header(names));
+      file->write(header);
+      digest.add(header);
     });
   }
 
   AppendedCsv::AppendedCsv(const std::string              &path,
                            const std::vector<std::string> &names,
-                           const std::uint64_t             n_rows,
+                           const TableExtent              &kept,
                            const MPI_Comm                  comm)
     : comm(comm)
-    , n_rows_(n_rows)
+    , n_rows(kept.n_rows)
   {
     on_root(comm, [&]() {
-      const std::size_t size = size_of_rows(path, csv_header(names), n_rows);
-      file = std::make_unique<PosixFile>(path, PosixFile::Mode::change);
-      file->truncate(size);
+      const Beginning beginning = beginning_of(path, csv_header(names), kept);
+      file   = std::make_unique<PosixFile>(path, PosixFile::Mode::change);
+      digest = beginning.digest;
+      file->truncate(beginning.size);
     });
   }
 
   void
   AppendedCsv::check(const std::string              &path,
                      const std::vector<std::string> &names,
-                     const std::uint64_t             n_rows,
+                     const TableExtent              &kept,
                      const MPI_Comm                  comm)
   {
-    on_root(comm, [&]() { size_of_rows(path, csv_header(names), n_rows); });
+    on_root(comm, [&]() { beginning_of(path, csv_header(names), kept); });
   }
 
   void
   AppendedCsv::append(const std::string &rows)
   {
-    on_root(comm, [&]() { file->write(rows); });
+    on_root(comm, [&]() {
+      file->write(rows);
+      digest.add(rows);
+    });
     const std::uint64_t n_new = std::count(rows.begin(), rows.end(), '\n');
-    n_rows_ += Utilities::MPI::broadcast(comm, n_new);
+    n_rows += Utilities::MPI::broadcast(comm, n_new);
   }
 
   void

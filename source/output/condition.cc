@@ -16,18 +16,18 @@ namespace Morula
     : file(path, names, comm)
   {}
 
-  ConditionFile::ConditionFile(const std::string  &path,
-                               const std::uint64_t n_rows,
-                               const MPI_Comm      comm)
-    : file(path, names, n_rows, comm)
+  ConditionFile::ConditionFile(const std::string &path,
+                               const TableExtent &kept,
+                               const MPI_Comm     comm)
+    : file(path, names, kept, comm)
   {}
 
   void
-  ConditionFile::check(const std::string  &path,
-                       const std::uint64_t n_rows,
-                       const MPI_Comm      comm)
+  ConditionFile::check(const std::string &path,
+                       const TableExtent &kept,
+                       const MPI_Comm     comm)
   {
-    AppendedCsv::check(path, names, n_rows, comm);
+    AppendedCsv::check(path, names, kept, comm);
   }
 
   void

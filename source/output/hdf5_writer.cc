@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/output/hdf5_writer.h>
+#include <morula/output/sealed_file.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -17,9 +18,10 @@ namespace Morula
     Hdf5Handle
     create_file(const std::string &path, const MPI_Comm comm)
     {
-      return {
-        H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_by(comm)),
-        H5Fclose};
+      const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      H5Pset_userblock(creation, size_of_seal);
+      return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access_by(comm)),
+              H5Fclose};
     }
 
     /** A string of fixed length; HDF5 has none of length zero. */

@@ -24,20 +24,20 @@ namespace Morula
   {}
 
   template <int dim>
-  LineageFile<dim>::LineageFile(const std::string  &path,
-                                const std::uint64_t n_rows,
-                                const MPI_Comm      comm)
+  LineageFile<dim>::LineageFile(const std::string &path,
+                                const TableExtent &kept,
+                                const MPI_Comm     comm)
     : comm(comm)
-    , file(path, names(), n_rows, comm)
+    , file(path, names(), kept, comm)
   {}
 
   template <int dim>
   void
-  LineageFile<dim>::check(const std::string  &path,
-                          const std::uint64_t n_rows,
-                          const MPI_Comm      comm)
+  LineageFile<dim>::check(const std::string &path,
+                          const TableExtent &kept,
+                          const MPI_Comm     comm)
   {
-    AppendedCsv::check(path, names(), n_rows, comm);
+    AppendedCsv::check(path, names(), kept, comm);
   }
 
   template <int dim>

@@ -24,6 +24,8 @@ namespace Morula
             return O_WRONLY | O_CREAT | O_TRUNC;
           case PosixFile::Mode::append:
             return O_WRONLY | O_CREAT | O_APPEND;
+          case PosixFile::Mode::overwrite:
+            return O_WRONLY;
           default:
             return O_WRONLY | O_APPEND;
         }

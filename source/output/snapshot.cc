@@ -6,6 +6,7 @@
 #include <morula/output/atomic_file.h>
 #include <morula/output/hdf5_reader.h>
 #include <morula/output/hdf5_writer.h>
+#include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,10 +14,8 @@
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <type_traits>
 
 namespace Morula
@@ -134,39 +133,45 @@ namespace Morula
       return points;
     }
 
-    /** Tells missing and foreign files from damaged ones. */
+    /** Refuses a file whose bytes are not those that were written: the HDF5
+     *  library must not see it. */
     void
-    check_signature(const std::string &path)
+    check_seal(const std::string &path)
     {
-      std::ifstream in(path, std::ios::binary);
-      if (!in)
-        throw InputError("--resume",
-                         path,
-                         "a snapshot that can be read",
-                         "There is none: start the run without --resume.");
-      const std::string signature = "\x89HDF\r\n\x1a\n";
-      std::string       start(signature.size(), '\0');
-      in.read(&start[0], start.size());
-      if (start != signature)
-        refuse_snapshot(path, "a snapshot of Morula (this is no HDF5 file)");
+      switch (examine_seal(path))
+        {
+          case SealState::missing:
+            throw InputError("--resume",
+                             path,
+                             "a snapshot that can be read",
+                             "There is none: start the run without --resume.");
+          case SealState::plain_hdf5:
+            refuse_snapshot(path,
+                            "a snapshot that begins with a digest (this is the "
+                            "HDF5 file of another program, or of a Morula that "
+                            "wrote none)");
+          case SealState::foreign:
+            refuse_snapshot(path,
+                            "a snapshot of Morula (this file does not begin as "
+                            "one)");
+          case SealState::damaged:
+            refuse_snapshot(path,
+                            "an undamaged snapshot (this file's bytes are not "
+                            "those that Morula wrote: their digest differs)");
+          case SealState::whole:
+            return;
+        }
     }
 
-    /** Checks whose file it is, and lets @p read read it. */
+    /** Checks format, and lets @p read read the file. */
     template <typename Read>
     void
     read_checked(const std::string &path, const Read &read)
     {
-      check_signature(path);
       try
         {
           const Hdf5Reader file(path);
-          const auto       names = file.attribute_names("/");
-          if (std::find(names.begin(), names.end(), format_name) == names.end())
-            refuse_snapshot(
-              path,
-              "a snapshot of Morula (this is the HDF5 file of another "
-              "program)");
-          const int format = file.attribute<int>("/", format_name);
+          const int        format = file.attribute<int>("/", format_name);
           if (format != snapshot_format)
             refuse_snapshot(path,
                             "a snapshot of format " +
@@ -277,6 +282,7 @@ namespace Morula
                                    "': is the disk full? The last good "
                                    "snapshot, if there is one, stays");
         }
+      seal(path_aside(path));
       publish(path);
     });
   }
@@ -306,6 +312,7 @@ namespace Morula
       data.cells           = read_points<dim>(file, "cells", comm);
       data.boundary_points = read_points<dim>(file, "boundary points", comm);
     };
+    on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() { read_checked(path, read); });
     return data;
   }
@@ -314,6 +321,7 @@ namespace Morula
   read_snapshot_parameters(const std::string &path, const MPI_Comm comm)
   {
     std::string parameters;
+    on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() {
       read_checked(path, [&](const Hdf5Reader &file) {
         parameters = file.text("parameters");

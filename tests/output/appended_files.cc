@@ -75,10 +75,10 @@ TEST(Statistics, HaveTheColumnsOfTheContract)
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
   StatisticsFile         file(path, MPI_COMM_WORLD);
-  EXPECT_EQ(file.n_rows(), 0u);
+  EXPECT_EQ(file.extent().n_rows, 0u);
   file.append(row(0));
   file.append(row(1));
-  EXPECT_EQ(file.n_rows(), 2u);
+  EXPECT_EQ(file.extent().n_rows, 2u);
   file.sync();
   EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
 }
@@ -87,35 +87,43 @@ TEST(Statistics, AreCutWhenResumed)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
+  TableExtent            two, three;
   {
     StatisticsFile file(path, MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 4; ++step)
-      file.append(row(step));
+      {
+        if (step == 2)
+          two = file.extent();
+        file.append(row(step));
+      }
   }
   tear(path, "4,0.25,3,4,5");
   {
-    StatisticsFile file(path, 2, MPI_COMM_WORLD);
+    StatisticsFile file(path, two, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
     MPI_Barrier(MPI_COMM_WORLD);
     file.append(row(7));
-    EXPECT_EQ(file.n_rows(), 3u);
+    three = file.extent();
+    EXPECT_EQ(three.n_rows, 3u);
   }
   EXPECT_EQ(content(path),
             statistics_header + row_text(0) + row_text(1) + row_text(7));
 
   // a torn row does not count
   tear(path, "8,0.25");
-  EXPECT_THROW(StatisticsFile(path, 4, MPI_COMM_WORLD), InputError);
-  EXPECT_NO_THROW(StatisticsFile(path, 3, MPI_COMM_WORLD));
+  const TableExtent four = {4, three.digest};
+  EXPECT_THROW(StatisticsFile(path, four, MPI_COMM_WORLD), InputError);
+  EXPECT_NO_THROW(StatisticsFile(path, three, MPI_COMM_WORLD));
 }
 
 TEST(Statistics, RefuseToResumeFromOtherFiles)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
-  EXPECT_THROW(StatisticsFile(path, 0, MPI_COMM_WORLD), InputError);
+  const TableExtent      nothing, one = {1, 0};
+  EXPECT_THROW(StatisticsFile(path, nothing, MPI_COMM_WORLD), InputError);
   on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
-  EXPECT_THROW(StatisticsFile(path, 1, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(StatisticsFile(path, one, MPI_COMM_WORLD), InputError);
   EXPECT_EQ(content(path), "step,time\n0,0\n");
 }
 
@@ -146,8 +154,9 @@ TEST(Lineage, IsInIdOrder)
       const std::string name = std::to_string(i);
       expected += name + ",-1,0,0,1.5,2," + name + "\n";
     }
+  const std::size_t end_of_founders = expected.size();
   EXPECT_EQ(content(path), expected);
-  EXPECT_EQ(file.n_rows(), n_ranks);
+  EXPECT_EQ(file.extent().n_rows, n_ranks);
   MPI_Barrier(MPI_COMM_WORLD);
 
   // two daughters on one rank, none elsewhere, and a step without any
@@ -159,11 +168,13 @@ TEST(Lineage, IsInIdOrder)
   file.append({});
   expected += "10,0,1,0.625,0,0,-1e-07\n11,0,1,0.625,0,0,1e-07\n";
   EXPECT_EQ(content(path), expected);
-  EXPECT_EQ(file.n_rows(), n_ranks + 2);
+  EXPECT_EQ(file.extent().n_rows, n_ranks + 2);
   MPI_Barrier(MPI_COMM_WORLD);
 
-  LineageFile<3> resumed(path, 1, MPI_COMM_WORLD);
-  EXPECT_EQ(content(path), header + "0,-1,0,0,1.5,2,0\n");
+  Digest founders;
+  founders.add(expected.substr(0, end_of_founders));
+  LineageFile<3> resumed(path, {n_ranks, founders.value()}, MPI_COMM_WORLD);
+  EXPECT_EQ(content(path), expected.substr(0, end_of_founders));
 }
 
 TEST(Lineage, HasAZeroZInTwoDimensions)

@@ -4,13 +4,16 @@
 """Runs that cannot be resumed: exit code 1, the option or key, the value, the limit
 and the remedy on stderr, and no file of the earlier run changed.
 """
+import re
 import shutil
 from pathlib import Path
 
 import h5py
 from program import ProgramTest, main, overrides
+from sealing import seal
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
+ESTIMATE = overrides({"Output/Condition estimate": "true"})
 HALF = overrides({"Time/End time": "0.25"})
 ANEW = "or start the run anew"
 
@@ -21,7 +24,8 @@ def cut_rows(path, n):
 
 
 def without(name):
-    """Removes a table or a number of the snapshot."""
+    """Removes a table or a number of the snapshot, as another program might
+    write it: with the digest of what is left."""
     def damage(output):
         with h5py.File(output / "snapshot.h5", "r+") as file:
             group, _, item = name.partition("/")
@@ -29,6 +33,7 @@ def without(name):
                 del file["numbers"].attrs[item]
             else:
                 del file[name]
+        seal(output / "snapshot.h5")
     return damage
 
 
@@ -37,16 +42,54 @@ def fewer_slots(output):
         properties = file["cells/properties"][:, :-1]
         del file["cells/properties"]
         file["cells/properties"] = properties
+    seal(output / "snapshot.h5")
 
 
-def truncated(output):
-    data = (output / "snapshot.h5").read_bytes()
-    (output / "snapshot.h5").write_bytes(data[:len(data) // 2])
+def changed(change, name="snapshot.h5"):
+    """The file with other bytes."""
+    def damage(output):
+        data = (output / name).read_bytes()
+        other = change(data)
+        assert other != data
+        (output / name).write_bytes(other)
+    return damage
+
+
+def one_bit(where):
+    def change(data):
+        at = int(where * len(data))
+        return data[:at] + bytes([data[at] ^ 16]) + data[at + 1:]
+    return changed(change)
+
+
+def swapped(data):
+    half = len(data) // 2
+    return (data[:half - 512] + data[half:half + 512] + data[half - 512:half]
+            + data[half + 512:])
+
+
+def other_digit(name, row, column):
+    """One digit of an old row of a table."""
+    def change(data):
+        rows = data.split(b"\n")
+        fields = rows[row].split(b",")
+        fields[column] = re.sub(
+            rb"\d(?=\D*$)", lambda m: b"%d" % ((int(m[0]) + 1) % 10),
+            fields[column])
+        rows[row] = b",".join(fields)
+        return b"\n".join(rows)
+    return changed(change, name)
 
 
 def foreign(output):
     with h5py.File(output / "snapshot.h5", "w") as file:
         file["numbers"] = [1, 2, 3]
+
+
+def other_position(output):
+    """A value that makes sense, without its digest."""
+    with h5py.File(output / "snapshot.h5", "r+") as file:
+        file["cells/positions"][3, 0] += 1.0
 
 
 def text(output):
@@ -58,9 +101,19 @@ DAMAGES = {
     "no snapshot": (lambda output: (output / "snapshot.h5").unlink(),
                     ("a snapshot that can be read",
                      "start the run without --resume")),
-    "truncated": (truncated, ("an undamaged snapshot", ANEW)),
-    "foreign": (foreign, ("the HDF5 file of another program", ANEW)),
-    "no HDF5": (text, ("this is no HDF5 file", ANEW)),
+    "truncated": (changed(lambda data: data[:len(data) // 2]),
+                  ("an undamaged snapshot", ANEW)),
+    "appended": (changed(lambda data: data + b"\0"),
+                 ("an undamaged snapshot", ANEW)),
+    "a page of zeros": (changed(lambda data: data[:4096] + bytes(4096)
+                                + data[8192:]), ("their digest differs", ANEW)),
+    "swapped blocks": (changed(swapped), ("their digest differs", ANEW)),
+    **{f"one bit at {where}": (one_bit(where), ("their digest differs", ANEW))
+       for where in (0.01, 0.1, 0.35, 0.6, 0.85, 0.999)},
+    "another position": (other_position, ("their digest differs", ANEW)),
+    "foreign": (foreign, ("a snapshot that begins with a digest",
+                          "the HDF5 file of another program", ANEW)),
+    "no HDF5": (text, ("this file does not begin as one", ANEW)),
     "no box": (without("integer tables/box_n"),
                ("the table 'box_n' of 3 integers", "lacks it", ANEW)),
     "no weights": (without("integer tables/box_weights"),
@@ -70,6 +123,8 @@ DAMAGES = {
     "no id": (without("numbers/next_id"), ("the number 'next_id'", ANEW)),
     "no row count": (without("numbers/statistics_rows"),
                      ("the number 'statistics_rows'", ANEW)),
+    "no digest of rows": (without("integer tables/lineage_digest"),
+                          ("the table 'lineage_digest' of 2", ANEW)),
     "no step": (without("numbers/step_level"),
                 ("the number 'step_level'", ANEW)),
     "no cells": (without("cells/positions"), ("an undamaged snapshot", ANEW)),
@@ -82,6 +137,17 @@ DAMAGES = {
     "lineage cut": (lambda output: cut_rows(output / "lineage.csv", 5),
                     ("lineage.csv", "rows that the snapshot counts",
                      "Restore the file")),
+    "another digit in the statistics": (
+        other_digit("statistics.csv", 1, 4),
+        ("statistics.csv", "whose first 3 rows are those of the run",
+         "Restore the file")),
+    "another digit in the lineage": (
+        other_digit("lineage.csv", 40, 5),
+        ("lineage.csv", "rows are those of the run", "Restore the file")),
+    "another digit in the conditions": (
+        other_digit("condition.csv", 2, 3),
+        ("condition.csv", "whose first 2 rows are those of the run",
+         "Restore the file")),
     "lineage missing": (lambda output: (output / "lineage.csv").unlink(),
                         ("lineage.csv", "a readable file next to the snapshot",
                          "Restore the file")),
@@ -100,13 +166,13 @@ KEYS = {"Grid/Spacing": ("34", "'35', as in the snapshot"),
 class ResumeRefusals(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.execute(SCENE, *HALF, output=self.work / "good")
+        self.execute(SCENE, *ESTIMATE, *HALF, output=self.work / "good")
 
     def refused(self, output, texts, *arguments):
         """Resumes; nothing may change but by what is said."""
         before = {path: path.read_bytes() for path in output.iterdir()}
-        result = self.execute(SCENE, "--resume", *arguments, output=output,
-                              code=1)
+        result = self.execute(SCENE, *ESTIMATE, "--resume", *arguments,
+                              output=output, code=1)
         for expected in texts:
             self.assertIn(expected, result.stderr)
         self.assertEqual(result.stdout, "")

@@ -4,6 +4,7 @@
 #ifndef morula_output_appended_csv_h
 #define morula_output_appended_csv_h
 
+#include <morula/output/digest.h>
 #include <morula/output/posix_file.h>
 
 #include <mpi.h>
@@ -15,6 +16,13 @@
 
 namespace Morula
 {
+  /** A table as far as it goes, for a snapshot: what is kept of it. */
+  struct TableExtent
+  {
+    std::uint64_t n_rows = 0; // below the header
+    std::uint64_t digest = 0; // of header and rows; known to rank 0
+  };
+
   /**
    * A CSV file that grows by rows during a run. Rank 0 writes; all members are
    * collective and throw on all ranks alike. A row that was torn by a crash is
@@ -32,13 +40,14 @@ namespace Morula
                 const MPI_Comm                  comm);
 
     /**
-     * Continues a file behind its first @p n_rows rows; what follows is cut.
-     * @throws InputError if the file is missing, has another header or fewer
-     *   rows
+     * Continues a file behind the rows that are to be @p kept; what follows is
+     * cut.
+     * @throws InputError if the file is missing, has another header, fewer
+     * rows, or rows with another digest
      */
     AppendedCsv(const std::string              &path,
                 const std::vector<std::string> &names,
-                const std::uint64_t             n_rows,
+                const TableExtent              &kept,
                 const MPI_Comm                  comm);
 
     /**
@@ -48,7 +57,7 @@ namespace Morula
     static void
     check(const std::string              &path,
           const std::vector<std::string> &names,
-          const std::uint64_t             n_rows,
+          const TableExtent              &kept,
           const MPI_Comm                  comm);
 
     /**
@@ -63,17 +72,18 @@ namespace Morula
     void
     sync();
 
-    /** Rows below the header, to be stored in a snapshot. */
-    std::uint64_t
-    n_rows() const
+    /** To be stored in a snapshot. */
+    TableExtent
+    extent() const
     {
-      return n_rows_;
+      return {n_rows, digest.value()};
     }
 
   private:
     MPI_Comm                   comm;
-    std::uint64_t              n_rows_;
-    std::unique_ptr<PosixFile> file; // on rank 0
+    std::uint64_t              n_rows = 0;
+    Digest                     digest; // of the file so far, on rank 0
+    std::unique_ptr<PosixFile> file;   // on rank 0
   };
 } // namespace Morula
 

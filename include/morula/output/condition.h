@@ -20,16 +20,16 @@ namespace Morula
     /** A new file. */
     ConditionFile(const std::string &path, const MPI_Comm comm);
 
-    /** Continues the file behind its first @p n_rows rows. */
-    ConditionFile(const std::string  &path,
-                  const std::uint64_t n_rows,
-                  const MPI_Comm      comm);
+    /** Continues the file behind the rows that are to be @p kept. */
+    ConditionFile(const std::string &path,
+                  const TableExtent &kept,
+                  const MPI_Comm     comm);
 
     /** See AppendedCsv. */
     static void
-    check(const std::string  &path,
-          const std::uint64_t n_rows,
-          const MPI_Comm      comm);
+    check(const std::string &path,
+          const TableExtent &kept,
+          const MPI_Comm     comm);
 
     /** Adds the row of a step. */
     void
@@ -44,10 +44,10 @@ namespace Morula
       file.sync();
     }
 
-    std::uint64_t
-    n_rows() const
+    TableExtent
+    extent() const
     {
-      return file.n_rows();
+      return file.extent();
     }
 
   private:

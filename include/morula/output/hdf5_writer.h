@@ -15,7 +15,8 @@ namespace Morula
    * Writes an HDF5 file on all ranks together. All members are collective. A
    * failure on one rank must not keep it from joining what the others do next:
    * it is kept in mind until close(). The content is the same, byte by byte,
-   * whenever the same data are written by as many ranks.
+   * whenever the same data are written by as many ranks. The file begins with
+   * room for a seal (sealed_file.h), which seal() writes when it is closed.
    */
   class Hdf5Writer
   {

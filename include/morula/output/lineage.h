@@ -28,16 +28,16 @@ namespace Morula
     /** A new file. */
     LineageFile(const std::string &path, const MPI_Comm comm);
 
-    /** Continues the file behind its first @p n_rows rows. */
-    LineageFile(const std::string  &path,
-                const std::uint64_t n_rows,
-                const MPI_Comm      comm);
+    /** Continues the file behind the rows that are to be @p kept. */
+    LineageFile(const std::string &path,
+                const TableExtent &kept,
+                const MPI_Comm     comm);
 
     /** See AppendedCsv. */
     static void
-    check(const std::string  &path,
-          const std::uint64_t n_rows,
-          const MPI_Comm      comm);
+    check(const std::string &path,
+          const TableExtent &kept,
+          const MPI_Comm     comm);
 
     /**
      * Appends all ranks' births since the last call; their ids follow those in
@@ -53,10 +53,10 @@ namespace Morula
       file.sync();
     }
 
-    std::uint64_t
-    n_rows() const
+    TableExtent
+    extent() const
     {
-      return file.n_rows();
+      return file.extent();
     }
 
   private:

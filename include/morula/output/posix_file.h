@@ -20,9 +20,10 @@ namespace Morula
   public:
     enum class Mode
     {
-      create, // an existing file is emptied
-      append, // created where it does not exist
-      change  // must exist, content stays
+      create,   // an existing file is emptied
+      append,   // created where it does not exist
+      change,   // must exist, content stays; what is written comes behind it
+      overwrite // must exist; what is written comes at its beginning
     };
 
     PosixFile(const std::string &path, const Mode mode);

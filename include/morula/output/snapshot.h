@@ -15,7 +15,7 @@
 namespace Morula
 {
   /** Raised whenever older programs could not read the file. */
-  constexpr int snapshot_format = 1;
+  constexpr int snapshot_format = 2;
 
   /**
    * Everything that outlives a step. The points are this rank's; of all else
@@ -60,7 +60,8 @@ namespace Morula
 
   /**
    * Writes snapshot.h5, all ranks together. Doubles keep their bits. The file
-   * replaces an older one when it is complete and on the disk. Collective.
+   * begins with a digest of its bytes, and replaces an older one when it is
+   * complete and on the disk. Collective.
    * @throws std::runtime_error, on all ranks; the older file stays
    */
   template <int dim>
@@ -71,7 +72,8 @@ namespace Morula
 
   /**
    * Reads a snapshot that any number of ranks wrote; each rank gets a
-   * contiguous piece of the points, in the order of the file. Collective.
+   * contiguous piece of the points, in the order of the file. A file whose
+   * bytes do not have their digest is refused before HDF5 opens it. Collective.
    * @throws InputError, on all ranks, if the file is missing, damaged, of
    *   another program, format or dimension
    */

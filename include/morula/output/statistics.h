@@ -46,16 +46,16 @@ namespace Morula
     /** A new file. */
     StatisticsFile(const std::string &path, const MPI_Comm comm);
 
-    /** Continues the file behind its first @p n_rows rows. */
-    StatisticsFile(const std::string  &path,
-                   const std::uint64_t n_rows,
-                   const MPI_Comm      comm);
+    /** Continues the file behind the rows that are to be @p kept. */
+    StatisticsFile(const std::string &path,
+                   const TableExtent &kept,
+                   const MPI_Comm     comm);
 
     /** See AppendedCsv. */
     static void
-    check(const std::string  &path,
-          const std::uint64_t n_rows,
-          const MPI_Comm      comm);
+    check(const std::string &path,
+          const TableExtent &kept,
+          const MPI_Comm     comm);
 
     /** Adds a row. */
     void
@@ -68,10 +68,10 @@ namespace Morula
       file.sync();
     }
 
-    std::uint64_t
-    n_rows() const
+    TableExtent
+    extent() const
     {
-      return file.n_rows();
+      return file.extent();
     }
 
   private:

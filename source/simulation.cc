@@ -68,6 +68,7 @@ namespace Morula
         output(must_stop());
       }
     resumed_from.reset();
+    warned_of_long_cells = row.lengths.n_too_long > 0;
   }
 
   template <int dim>

@@ -296,14 +296,16 @@ namespace Morula
   StatisticsRow
   Simulation<dim>::statistics() const
   {
-    StatisticsRow   state;
-    TissueSums<dim> sums;
-    std::uint64_t   held = 0;
+    StatisticsRow    state;
+    TissueSums<dim>  sums;
+    LongestCell<dim> longest(scene.grid.spacing);
+    std::uint64_t    held = 0;
     for (const auto &particle : tissue.cells().order())
       {
         const auto cell = tissue.cell(particle);
         sums.add_cell(quantities(cell), particle->get_location());
         held += is_held(cell);
+        longest.add(tissue.domain(particle));
       }
     for (const auto &point : tissue.boundary_points().order())
       sums.add_boundary_point(point->get_location());
@@ -312,6 +314,7 @@ namespace Morula
     state.cells =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(), comm);
     state.tissue             = sums.totals(comm);
+    state.lengths            = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
     return state;
   }
@@ -339,6 +342,32 @@ namespace Morula
     complete.rejected_steps    = row.rejected_steps;
     complete.residual          = newton_report.residual;
     row                        = complete;
+    warn_of_long_cells();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_long_cells()
+  {
+    if (row.lengths.n_too_long == 0 || warned_of_long_cells)
+      return;
+    warned_of_long_cells     = true;
+    const auto        &place = row.lengths.place;
+    std::ostringstream text;
+    text << "Warning: from t = " << row.time << " day on, fewer than "
+         << CellLengths::fewest
+         << " cells fill Grid/Spacing = " << scene.grid.spacing
+         << " um where the tissue is stretched: " << row.lengths.n_too_long
+         << " cells are too long, the longest, at (" << place[0] << ' '
+         << place[1];
+    if (dim == 3)
+      text << ' ' << place[2];
+    text << ") um, " << scene.grid.spacing / row.lengths.min_cells_per_spacing
+         << " um. Do not rely on positions and stresses there, and if it gets "
+            "worse the run may fail. Start anew with a smaller Tissue/Cell "
+            "spacing or a larger Grid/Spacing; the column "
+            "min_cells_per_spacing of statistics.csv has the number.";
+    files->message(text.str());
   }
 
   template <int dim>

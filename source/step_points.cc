@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/particle_domain.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/step_points.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <numeric>
 
 namespace Morula
@@ -68,6 +69,14 @@ namespace Morula
         points.previous.push_back(data.previous);
     }
 
+    /** Of n quadrature points per edge. */
+    template <std::size_t dim>
+    unsigned int
+    n_points(const std::array<unsigned int, dim> &n)
+    {
+      return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
+    }
+
     // Rows of numbers, for the exchange of points between ranks.
     template <int dim>
     constexpr unsigned int row_length = 2 + 2 * (dim * dim + 1);
@@ -120,22 +129,19 @@ namespace Morula
       list.n_slots = row_length<dim>;
       for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
         {
-          const auto          &particle = tissue.cells().order()[i];
-          const PointData<dim> data     = data_of(tissue, i, growth, material);
-          const Point<dim>    &x        = particle->get_location();
-          const double         V        = volume(tissue.cell(particle));
-          const unsigned int n = space.occupancy().n_points_per_direction(x, V);
-          const double       part = std::pow(1. / n, dim);
-          ParticleDomain<dim>(x, V).for_quadrature_points(
-            n, [&](const Point<dim> &point) {
-              space.occupancy().for_each_share(
-                point,
-                [&](const Point<dim> &share, const unsigned int n_shares) {
-                  list.ids.push_back(particle->get_id());
-                  list.positions.push_back(share);
-                  append_row(data, part / n_shares, list.properties);
-                });
-            });
+          const auto               &particle = tissue.cells().order()[i];
+          const PointData<dim>      data = data_of(tissue, i, growth, material);
+          const ParticleDomain<dim> domain = tissue.domain(particle);
+          const auto   n    = space.occupancy().n_points_per_edge(domain);
+          const double part = 1. / n_points(n);
+          domain.for_quadrature_points(n, [&](const Point<dim> &point) {
+            space.occupancy().for_each_share(
+              point, [&](const Point<dim> &share, const unsigned int n_shares) {
+                list.ids.push_back(particle->get_id());
+                list.positions.push_back(share);
+                append_row(data, part / n_shares, list.properties);
+              });
+          });
         }
       list = send_to_owners(list, tissue.grid());
 
@@ -207,10 +213,9 @@ namespace Morula
     bool several = false;
     for (const auto &particle : tissue.cells().order())
       {
-        const Point<dim> x = particle->get_location();
-        several = several || space.occupancy().n_points_per_direction(
-                               x, volume(tissue.cell(particle))) > 1;
-        space.occupancy().for_each_share(x,
+        several = several || n_points(space.occupancy().n_points_per_edge(
+                               tissue.domain(particle))) > 1;
+        space.occupancy().for_each_share(particle->get_location(),
                                          [&](const Point<dim> &,
                                              const unsigned int n) {
                                            several = several || n > 1;

@@ -119,14 +119,14 @@ namespace Morula
       if (first_rank)
         {
           for (const Point<dim> &x : particles)
-            occupancy.add_particle(x, V);
+            occupancy.add_particle({x, V});
           for (const Point<dim> &x : boundary)
             occupancy.add_boundary_point(x);
         }
       occupancy.sum(comm);
       if (first_rank)
         for (const Point<dim> &x : particles)
-          occupancy.add_quadrature_points(x, V);
+          occupancy.add_quadrature_points({x, V});
       occupancy.sum_quadrature_points(comm);
       space.emplace(grid, std::move(occupancy), parameters);
     }

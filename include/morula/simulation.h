@@ -136,6 +136,8 @@ namespace Morula
     begin_rows();
     void
     complete_row(const SplineSpace<dim> &space);
+    void
+    warn_of_long_cells();
     SnapshotData<dim>
     snapshot() const;
     void
@@ -183,6 +185,8 @@ namespace Morula
 
     PieceWatch<dim> piece_watch;
     bool            pieces_have_joined = false; // and the user knows
+
+    bool warned_of_long_cells = false; // once a run, or before it started
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

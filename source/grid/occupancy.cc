@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/grid/occupancy.h>
-#include <morula/grid/particle_domain.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -41,11 +40,10 @@ namespace Morula
 
   template <int dim>
   void
-  Occupancy<dim>::add_particle(const Point<dim> &x, const double V)
+  Occupancy<dim>::add_particle(const ParticleDomain<dim> &domain)
   {
-    const ParticleDomain<dim> domain(x, V);
-    const Point<dim>          lower = domain.lower(), upper = domain.upper();
-    GridIndex<dim> first = box_.locate(lower), last = box_.locate(upper);
+    const Point<dim> lower = domain.lower(), upper = domain.upper();
+    GridIndex<dim>   first = box_.locate(lower), last = box_.locate(upper);
     for (unsigned int d = 0; d < dim; ++d)
       {
         first[d] = std::max(first[d], box_.first()[d]);
@@ -68,7 +66,7 @@ namespace Morula
           }
         volumes[number] += std::llround(overlap * resolution);
       });
-    ++particles[box_.number(box_.locate(x))];
+    ++particles[box_.number(box_.locate(domain.position()))];
   }
 
   template <int dim>
@@ -180,10 +178,10 @@ namespace Morula
 
   template <int dim>
   void
-  Occupancy<dim>::add_quadrature_points(const Point<dim> &x, const double V)
+  Occupancy<dim>::add_quadrature_points(const ParticleDomain<dim> &domain)
   {
-    ParticleDomain<dim>(x, V).for_quadrature_points(
-      n_points_per_direction(x, V), [&](const Point<dim> &point) {
+    domain.for_quadrature_points(
+      n_points_per_edge(domain), [&](const Point<dim> &point) {
         for_each_share(point, [&](const Point<dim> &share, unsigned int) {
           ++quadrature_points[box_.number(box_.locate(share))];
         });
@@ -198,12 +196,11 @@ namespace Morula
   }
 
   template <int dim>
-  unsigned int
-  Occupancy<dim>::n_points_per_direction(const Point<dim> &x,
-                                         const double      V) const
+  typename ParticleDomain<dim>::Numbers
+  Occupancy<dim>::n_points_per_edge(const ParticleDomain<dim> &domain) const
   {
-    const unsigned int number = box_.number(box_.locate(x));
-    const double       side   = std::pow(V, 1. / dim);
+    const unsigned int number = box_.number(box_.locate(domain.position()));
+    const double       side   = domain.side();
     const bool         rod    = n_thin[number] > 1; // or a cluster
     const auto         below  = [&](const double n_layers) {
       // Most are thick: the neighbours are not looked at.
@@ -215,7 +212,7 @@ namespace Morula
       least = std::max(rod ? 3u : 2u, least);
     else if (rod && below(two_layers))
       least = std::max(2u, least);
-    return ParticleDomain<dim>(x, V).n_per_direction(box_.spacing(), least);
+    return domain.n_per_edge(box_.spacing(), least);
   }
 
   template <int dim>

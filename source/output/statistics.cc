@@ -51,7 +51,8 @@ namespace Morula
             {"linear_iterations", number(linear_iterations)},
             {"rejected_steps", number(rejected_steps)},
             {"residual", residual},
-            {"wall_seconds", wall_seconds}};
+            {"wall_seconds", wall_seconds},
+            {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
   }
 
   StatisticsFile::StatisticsFile(const std::string &path, const MPI_Comm comm)

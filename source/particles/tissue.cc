@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/particle_domain.h>
+#include <morula/particles/cell_domain.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,9 +25,9 @@ namespace Morula
       corners.reserve(2 * positions.size());
       for (std::size_t i = 0; i < positions.size(); ++i)
         {
-          const ParticleDomain<dim> domain(positions[i], volume(state(i)));
-          corners.push_back(domain.lower());
-          corners.push_back(domain.upper());
+          const auto bounds = cell_domain(positions[i], state(i)).bounds();
+          corners.push_back(bounds.first);
+          corners.push_back(bounds.second);
         }
       return corners;
     }
@@ -219,13 +219,12 @@ namespace Morula
                              parameters.points_per_cell,
                              share_points);
     for (const auto &particle : cells_.order())
-      occupancy.add_particle(particle->get_location(), volume(cell(particle)));
+      occupancy.add_particle(domain(particle));
     for (const auto &point : boundary_points_.order())
       occupancy.add_boundary_point(point->get_location());
     occupancy.sum(grid_.communicator());
     for (const auto &particle : cells_.order())
-      occupancy.add_quadrature_points(particle->get_location(),
-                                      volume(cell(particle)));
+      occupancy.add_quadrature_points(domain(particle));
     occupancy.sum_quadrature_points(grid_.communicator());
     return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
   }
@@ -266,6 +265,13 @@ namespace Morula
       static_cast<const Particles::ParticleAccessor<dim> &>(*particle)
         .get_properties();
     return CellView<dim, const double>(properties, slots_);
+  }
+
+  template <int dim>
+  ParticleDomain<dim>
+  Tissue<dim>::domain(const typename PointStore<dim>::Iterator &particle) const
+  {
+    return cell_domain(particle->get_location(), cell(particle));
   }
 
   template <int dim>

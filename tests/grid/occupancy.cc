@@ -50,12 +50,12 @@ namespace
   {
     Occupancy<dim> occupancy(box);
     for (const auto &[x, V] : particles)
-      occupancy.add_particle(x, V);
+      occupancy.add_particle({x, V});
     for (const Point<dim> &x : boundary)
       occupancy.add_boundary_point(x);
     occupancy.sum(comm);
     for (const auto &[x, V] : particles)
-      occupancy.add_quadrature_points(x, V);
+      occupancy.add_quadrature_points({x, V});
     occupancy.sum_quadrature_points(comm);
     return occupancy;
   }
@@ -91,7 +91,7 @@ namespace
         double         volume = 0.;
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
           for (const Point<dim> &x : points)
-            occupancy.add_particle(x, std::pow(spacing, dim));
+            occupancy.add_particle({x, std::pow(spacing, dim)});
         occupancy.sum(MPI_COMM_WORLD);
         for (unsigned int number = 0; number < box.size(); ++number)
           {
@@ -293,8 +293,9 @@ namespace
           });
         const double V         = std::pow(10., dim);
         const auto   occupancy = occupancy_of(box, of_volume(points, V));
-        EXPECT_EQ(occupancy.n_points_per_direction(points.front(), V),
-                  n_layers == 1 ? 2u : 1u);
+        typename ParticleDomain<dim>::Numbers expected;
+        expected.fill(n_layers == 1 ? 2 : 1);
+        EXPECT_EQ(occupancy.n_points_per_edge({points.front(), V}), expected);
         EXPECT_EQ(occupancy.n_quadrature_points(box.number(GridIndex<dim>{})),
                   n_layers * Utilities::pow(5, dim - 1) *
                     (n_layers == 1 ? Utilities::pow(2, dim) : 1));

@@ -20,7 +20,7 @@ namespace
     "max_elastic_volume_ratio,dividing,held_at_checkpoint,xmin,xmax,ymin,ymax,"
     "zmin,zmax,active_grid_cells,inner_splines,outer_splines,unknowns,"
     "newton_iterations,linear_iterations,rejected_steps,residual,"
-    "wall_seconds\n";
+    "wall_seconds,min_cells_per_spacing\n";
 
   /** A row whose every column can be told from the others. */
   StatisticsRow
@@ -51,6 +51,7 @@ namespace
     row.rejected_steps                  = 26;
     row.residual                        = 27e-10;
     row.wall_seconds                    = 28;
+    row.lengths.min_cells_per_spacing   = 29;
     return row;
   }
 
@@ -59,7 +60,7 @@ namespace
   {
     return std::to_string(step) +
            ",0.25,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,"
-           "25,26,2.7e-09,28\n";
+           "25,26,2.7e-09,28,29\n";
   }
 
   void

@@ -21,7 +21,8 @@ COLUMNS = {
         "min_elastic_volume_ratio,max_elastic_volume_ratio,dividing,"
         "held_at_checkpoint,xmin,xmax,ymin,ymax,zmin,zmax,active_grid_cells,"
         "inner_splines,outer_splines,unknowns,newton_iterations,"
-        "linear_iterations,rejected_steps,residual,wall_seconds",
+        "linear_iterations,rejected_steps,residual,wall_seconds,"
+        "min_cells_per_spacing",
     "cells-0000.csv":
         "time,id,parent,generation,phase,x,y,z,X,Y,Z,initial_volume,volume,"
         "growth_volume_ratio,elastic_volume_ratio,energy_density,sigma_xx,"

@@ -19,7 +19,7 @@ STATISTICS = {
 EFFORT = (
     "step", "time", "dt", "active_grid_cells", "inner_splines",
     "outer_splines", "unknowns", "newton_iterations", "linear_iterations",
-    "rejected_steps", "residual", "wall_seconds")
+    "rejected_steps", "residual", "wall_seconds", "min_cells_per_spacing")
 
 _POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
            "Z": LENGTH, "radius": LENGTH}

@@ -5,6 +5,7 @@
 #define morula_grid_occupancy_h
 
 #include <morula/grid/grid_box.h>
+#include <morula/grid/particle_domain.h>
 #include <morula/grid/shared_points.h>
 
 #include <mpi.h>
@@ -17,8 +18,8 @@ namespace Morula
 {
   /**
    * How full the grid cells are, over all ranks. Each particle's volume is
-   * spread over the axis-parallel box of side V^(1/dim) that it occupies:
-   * counting points instead would alias (a lattice of five points per grid
+   * spread over an axis-parallel cube of side V^(1/dim) around it: counting
+   * points instead would alias (a lattice of five points per grid
    * spacing grown to θ = 1.4 leaves interior grid cells with fill 0.59).
    *
    * Filled in two rounds: particles and boundary points, sum(), and then the
@@ -34,7 +35,7 @@ namespace Morula
   public:
     /**
      * @param points_per_cell least number of quadrature points of a particle
-     *        per direction
+     *        per edge
      * @param share_points whether a quadrature point on a grid line belongs to
      *        all grid cells around: see SharedPoint
      */
@@ -42,9 +43,9 @@ namespace Morula
                        const unsigned int  points_per_cell = 1,
                        const bool          share_points    = false);
 
-    /** Adds a particle at @p x with current volume @p V (µm^dim). */
+    /** Adds a particle. */
     void
-    add_particle(const Point<dim> &x, const double V);
+    add_particle(const ParticleDomain<dim> &domain);
 
     /** Adds a boundary point at @p x. */
     void
@@ -57,14 +58,14 @@ namespace Morula
     /** Adds the quadrature points (see ParticleDomain) of a particle that was
      *  added before. */
     void
-    add_quadrature_points(const Point<dim> &x, const double V);
+    add_quadrature_points(const ParticleDomain<dim> &domain);
 
     /** Sums the second round over all ranks. Collective. */
     void
     sum_quadrature_points(const MPI_Comm comm);
 
     /**
-     * Quadrature points per direction of a particle: as many as its box and
+     * Quadrature points per edge of a particle: as many as its box and
      * the scene ask for. Where the tissue is one cell thick, two at least: with
      * all points of a sheet in one plane, a displacement that is quadratic
      * across it could change at no cost of energy. The particles would not
@@ -72,8 +73,8 @@ namespace Morula
      * both directions across a rod need three points across it: three in each
      * cell of a row, two in a rod or a cluster that is two cells thick.
      */
-    unsigned int
-    n_points_per_direction(const Point<dim> &x, const double V) const;
+    typename ParticleDomain<dim>::Numbers
+    n_points_per_edge(const ParticleDomain<dim> &domain) const;
 
     /** Calls @p visit(position, n) for each of the n grid cells that a
      *  quadrature point at @p x belongs to; position is in that grid cell. */

@@ -5,6 +5,7 @@
 #define morula_output_statistics_h
 
 #include <morula/output/appended_csv.h>
+#include <morula/output/longest_cell.h>
 #include <morula/output/tissue_sums.h>
 
 #include <cstdint>
@@ -33,6 +34,7 @@ namespace Morula
     unsigned int  rejected_steps     = 0;
     double        residual           = 0.; // relative to the step's first
     double        wall_seconds       = 0.; // since the start, across resumes
+    CellLengths   lengths;
 
     /** The file's columns in their order, names and values. */
     std::vector<std::pair<std::string, double>>

@@ -100,6 +100,10 @@ namespace Morula
     CellView<dim, const double>
     cell(const typename PointStore<dim>::Iterator &particle) const;
 
+    /** The box that a cell of this rank occupies. */
+    ParticleDomain<dim>
+    domain(const typename PointStore<dim>::Iterator &particle) const;
+
     MPI_Comm
     communicator() const;
 

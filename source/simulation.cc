@@ -151,7 +151,6 @@ namespace Morula
     const RigidModes<dim> modes = rigid_modes(space);
     Equilibrium::Vector   u;
     solve_step(space, modes, u);
-    remove_rigid_motion(space, modes, u);
     commit(space, u);
     {
       const TimerOutput::Scope section(timer, "strays");
@@ -246,14 +245,8 @@ namespace Morula
       points = material_points(tissue, space, growth_of_step, material);
     }
     const auto           list = terms(points, space);
-    MomentumBalance<dim> balance(space,
-                                 list,
-                                 typical_stiffness,
-                                 rigid_modes.any() ?
-                                   rigid_modes.inertia(masses(space)) :
-                                   std::vector<Equilibrium::Vector>(),
-                                 timer,
-                                 comm);
+    MomentumBalance<dim> balance(
+      space, list, typical_stiffness, inertia(space, rigid_modes), timer, comm);
     estimate_condition(balance);
     solve(balance, scene.solver, timer, u, newton_report);
     if (boundary_conditions.has_dirichlet())
@@ -378,23 +371,14 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  Simulation<dim>::remove_rigid_motion(const SplineSpace<dim> &space,
-                                       const RigidModes<dim>  &modes,
-                                       Equilibrium::Vector    &u)
+  std::vector<Equilibrium::Vector>
+  Simulation<dim>::inertia(const SplineSpace<dim> &space,
+                           const RigidModes<dim>  &modes)
   {
     if (!modes.any())
-      return;
-    const TimerOutput::Scope     section(timer, "rigid motion");
-    const DisplacementField<dim> displacement(space, u, comm);
-    std::vector<Tensor<1, dim>>  displacements;
-    displacement.at_points(tissue.cells(),
-                           [&](const unsigned int,
-                               const LocalField<dim>   &field,
-                               const SplineValues<dim> &splines) {
-                             displacements.push_back(field.value(splines));
-                           });
-    modes.remove(masses(space), displacements, u);
+      return {};
+    const TimerOutput::Scope section(timer, "rigid motion");
+    return modes.inertia(masses(space));
   }
 
   template <int dim>

@@ -101,10 +101,9 @@ namespace Morula
              Equilibrium::Vector    &u);
     void
     estimate_condition(MomentumBalance<dim> &balance);
-    void
-    remove_rigid_motion(const SplineSpace<dim> &space,
-                        const RigidModes<dim>  &rigid_modes,
-                        Equilibrium::Vector    &u);
+    /** What keeps the step free of unsupported motions. */
+    std::vector<Equilibrium::Vector>
+    inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
     /** Of every cell at the end of the step, where ln J_e is projected;
      *  otherwise empty. */
     std::vector<double>

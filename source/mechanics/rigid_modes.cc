@@ -30,22 +30,6 @@ namespace Morula
       return Tensor<2, dim>(unit_symmetric_tensor<dim>());
     }
 
-    /** Σ B_ij M_ji = Σ V⁰ (B z)·u for M = Σ V⁰ z⊗u. */
-    template <int dim>
-    double
-    moment(const Tensor<2, dim> &B, const Tensor<2, dim> &M)
-    {
-      return trace(B * M);
-    }
-
-    /** A rotation about the axis of the skew @p B: Cayley's transform. */
-    template <int dim>
-    Tensor<2, dim>
-    rotation(const Tensor<2, dim> &B)
-    {
-      return invert(identity<dim>() - 0.5 * B) * (identity<dim>() + 0.5 * B);
-    }
-
     /** Appends what of @p vector is orthogonal to @p basis, at unit length;
      *  false if that is not longer than @p least. */
     bool
@@ -79,6 +63,13 @@ namespace Morula
         mode.B[j][i] = -1. / length;
       }
     return mode;
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  RigidModes<dim>::rotation(const Tensor<2, dim> &B)
+  {
+    return invert(identity<dim>() - 0.5 * B) * (identity<dim>() + 0.5 * B);
   }
 
   template <int dim>
@@ -180,6 +171,13 @@ namespace Morula
   }
 
   template <int dim>
+  bool
+  RigidModes<dim>::has_free_motion(const unsigned int piece) const
+  {
+    return !pieces[piece].free.empty();
+  }
+
+  template <int dim>
   std::vector<Equilibrium::Vector>
   RigidModes<dim>::null_space() const
   {
@@ -262,116 +260,6 @@ namespace Morula
             add_orthonormal(motions[k], basis);
         }
     return basis;
-  }
-
-  template <int dim>
-  void
-  RigidModes<dim>::superpose(const unsigned int    piece,
-                             const Tensor<2, dim> &Q,
-                             const Tensor<1, dim> &a,
-                             std::vector<double>  &u) const
-  {
-    const std::vector<double> affine =
-      space.affine_coefficients(piece, a, Q - identity<dim>());
-    for (unsigned int s = 0; s < space.pieces_of_unknowns().size(); ++s)
-      if (space.pieces_of_unknowns()[s] == piece)
-        {
-          Tensor<1, dim> old;
-          for (unsigned int d = 0; d < dim; ++d)
-            old[d] = u[s * dim + d];
-          const Tensor<1, dim> turned = Q * old;
-          for (unsigned int d = 0; d < dim; ++d)
-            u[s * dim + d] = turned[d] + affine[s * dim + d];
-        }
-  }
-
-  template <int dim>
-  void
-  RigidModes<dim>::remove(const std::vector<Mass>           &masses,
-                          const std::vector<Tensor<1, dim>> &displacements,
-                          Equilibrium::Vector               &u) const
-  {
-    // Moments about the center, z = x - center: U = Σ V⁰ u, M = Σ V⁰ z⊗u,
-    // S = Σ V⁰ z⊗z.
-    constexpr unsigned int width = dim + 2 * dim * dim;
-    std::vector<double>    sums(pieces.size() * width, 0.);
-    for (std::size_t i = 0; i < masses.size(); ++i)
-      {
-        double *const        sum = &sums[masses[i].piece * width];
-        const Tensor<1, dim> z   = masses[i].x - pieces[masses[i].piece].center;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            sum[d] += masses[i].V0 * displacements[i][d];
-            for (unsigned int e = 0; e < dim; ++e)
-              {
-                sum[dim + d * dim + e] +=
-                  masses[i].V0 * z[d] * displacements[i][e];
-                sum[dim + dim * dim + d * dim + e] +=
-                  masses[i].V0 * z[d] * z[e];
-              }
-          }
-      }
-    Utilities::MPI::sum(sums, comm, sums);
-
-    std::vector<double> coefficients(u.begin(), u.end());
-    for (unsigned int p = 0; p < pieces.size(); ++p)
-      {
-        const Piece &piece = pieces[p];
-        if (piece.free.empty() || piece.volume == 0.)
-          continue;
-        Tensor<1, dim> U;
-        Tensor<2, dim> M, S;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            U[d] = sums[p * width + d];
-            for (unsigned int e = 0; e < dim; ++e)
-              {
-                M[d][e] = sums[p * width + dim + d * dim + e];
-                S[d][e] = sums[p * width + dim + dim * dim + d * dim + e];
-              }
-          }
-
-        // Newton's method for the rigid motion y -> Q (y - center) + shift +
-        // center that makes Σ V⁰ m·u vanish for all free m.
-        Tensor<2, dim>     Q = identity<dim>();
-        Tensor<1, dim>     shift;
-        const unsigned int n = piece.free.size();
-        for (unsigned int iteration = 0; iteration < 20; ++iteration)
-          {
-            const Tensor<2, dim>     after = (S + M) * transpose(Q); // Σ V⁰ z⊗y
-            const Tensor<1, dim>     mean  = Q * U + piece.volume * shift;
-            LAPACKFullMatrix<double> jacobian(n);
-            Vector<double>           defect(n), twist(n);
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                const Mode &test = piece.free[k];
-                defect[k]        = -(test.a * mean) - moment(test.B, after - S);
-                for (unsigned int l = 0; l < n; ++l)
-                  {
-                    const Mode &motion = piece.free[l];
-                    jacobian(k, l) =
-                      test.a * (piece.volume * motion.a + motion.B * mean) +
-                      moment(test.B, after * transpose(motion.B));
-                  }
-              }
-            jacobian.compute_inverse_svd(inertia_tolerance);
-            jacobian.vmult(twist, defect);
-            Mode update;
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                update.a += twist[k] * piece.free[k].a;
-                update.B += twist[k] * piece.free[k].B;
-              }
-            const Tensor<2, dim> turn = rotation(update.B);
-            Q                         = turn * Q;
-            shift                     = turn * shift + update.a;
-            if (twist.linfty_norm() <= 1e-14 * space.box().spacing())
-              break;
-          }
-        superpose(p, Q, shift + piece.center - Q * piece.center, coefficients);
-      }
-    std::copy(coefficients.begin(), coefficients.end(), u.begin());
-    u.compress(VectorOperation::insert);
   }
 
   template class RigidModes<2>;

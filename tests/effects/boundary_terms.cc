@@ -4,6 +4,7 @@
 
 #include <morula/effects/boundary_terms.h>
 #include <morula/mechanics/neo_hookean.h>
+#include <morula/particles/strays.h>
 
 #include <gtest/gtest.h>
 
@@ -236,6 +237,98 @@ namespace
         }
   }
 
+  /** Growth that is no symmetric tensor, the same everywhere. */
+  template <int dim>
+  class ShearedGrowth : public GrowthLaw<dim>
+  {
+  public:
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &,
+           const double,
+           const double t1) const override
+    {
+      Tensor<2, dim> F_g = unit_tensor<dim>();
+      F_g[0][1] += 0.4 * t1;
+      F_g[1][0] -= 0.1 * t1;
+      F_g[dim - 1][dim - 1] += 0.2 * t1;
+      return F_g;
+    }
+
+    double
+    expected_volume_ratio(const Point<dim> &, const double) const override
+    {
+      return 1.3;
+    }
+  };
+
+  /** F_e = F F_g^-1, not that of the transpose. */
+  template <int dim>
+  void
+  check_sheared_growth()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where = at_top;
+    Tensor<2, dim> F       = unit_tensor<dim>();
+    F[0][0]                = 1.1;
+    F[0][1]                = 0.2;
+    const Problem<dim> problem(
+      parameters,
+      CellGrowth<dim>(std::make_unique<ShearedGrowth<dim>>(), {}),
+      Tensor<1, dim>(),
+      F);
+    for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
+      {
+        const Tensor<2, dim> F_g =
+          ShearedGrowth<dim>().growth({},
+                                      0.,
+                                      at == GrowthAt::current ? 1. : 0.);
+        const NeoHookean<dim> state(F * invert(F_g), lame(3., 0.3));
+        Tensor<1, dim>        N;
+        N[0] = 1.;
+        const Tensor<1, dim> expected =
+          -area * determinant(F_g) *
+          (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+        const auto sums =
+          problem.sums(*problem.nitsche(material("3", 0.3, true), 1.), at);
+        EXPECT_LE((sums.force - expected).norm(), 1e-12 * expected.norm());
+      }
+  }
+
+  /** Where a held point is as far from its nearest cell as no surface is, its
+   *  state is an extrapolation, and its traction counts in part or not. */
+  template <int dim>
+  void
+  check_trust()
+  {
+    Tensor<2, dim> F = unit_tensor<dim>();
+    F[0][0]          = 1.1;
+    Tensor<1, dim> N;
+    N[0] = 1.;
+    const NeoHookean<dim> state(F, lame(3., 0.3));
+    const Tensor<1, dim>  all =
+      -area * (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+    for (const double distance : {0., 16., 200.})
+      {
+        BoundaryConditionParameters parameters;
+        parameters.fixed_where  = at_top;
+        parameters.displacement = std::to_string(distance) + "; 0; 0";
+        Tensor<1, dim> moved;
+        moved[0] = distance;
+        const Problem<dim> problem(parameters,
+                                   CellGrowth<dim>({}, {}),
+                                   moved,
+                                   F);
+        Point<dim>         x;
+        x[0]               = 90. + distance;
+        const double trust = trust_in_surface<dim>({x}, problem.tissue)[0];
+        EXPECT_EQ(trust == 1., distance == 0.);
+        EXPECT_EQ(trust == 0., distance == 200.);
+        const auto sums =
+          problem.sums(*problem.nitsche(material("3", 0.3), 1.));
+        EXPECT_LE((sums.force - trust * all).norm(), 1e-11 * all.norm());
+      }
+  }
+
   template <int dim>
   void
   check_loads()
@@ -310,6 +403,14 @@ TEST(BoundaryTerms,
 
 TEST(BoundaryTerms,
      TractionOfTheNearestCellsGrowth){MORULA_BOTH_DIMENSIONS(check_growth)}
+
+
+TEST(BoundaryTerms,
+     GrowthNeedNotBeSymmetric){MORULA_BOTH_DIMENSIONS(check_sheared_growth)}
+
+
+TEST(BoundaryTerms,
+     ExtrapolatedTractionIsNotTrusted){MORULA_BOTH_DIMENSIONS(check_trust)}
 
 
 TEST(BoundaryTerms, DeadAndFollowingLoads){MORULA_BOTH_DIMENSIONS(check_loads)}

@@ -17,10 +17,10 @@ namespace Morula
 {
   /**
    * The unsupported rigid motions of the tissue's pieces (grid cells joined by
-   * shared splines), and their removal: whatever the solver did, in each step
-   * Σ V⁰ m·u = 0 for every unsupported rigid motion m(x) of every piece. A body
-   * on one slip plane keeps three rigid motions, a free one six, and so does
-   * each detached fragment.
+   * shared splines), and what keeps a step free of them: Σ V⁰ m·u = 0 for every
+   * unsupported rigid motion m(x) of every piece. A body on one slip plane
+   * keeps three rigid motions, a free one six, and so does each detached
+   * fragment.
    */
   template <int dim>
   class RigidModes
@@ -63,7 +63,8 @@ namespace Morula
     /**
      * Orthonormal vectors that span the forces Σ V⁰ N_a m(x) of all
      * unsupported rigid motions m of all pieces (@p masses as in the
-     * constructor). An increment u orthogonal to them has Σ V⁰ m·u = 0, and a
+     * constructor). An increment u orthogonal to them has Σ V⁰ m·u = 0,
+     * doc/theory.md (4.10), and a
      * load that has no part in them but is not balanced acts together with
      * forces of inertia: V⁰ m(x) on every particle, whatever the grid.
      * Collective.
@@ -71,18 +72,10 @@ namespace Morula
     std::vector<Equilibrium::Vector>
     inertia(const std::vector<Mass> &masses) const;
 
-    /**
-     * Superposes rigid motions on the increment @p u so that it has no part in
-     * the unsupported motions: a finite rotation and translation of each free
-     * piece, doc/theory.md (4.10).
-     * @param displacements u at each mass, in the constructor's order
-     */
-    void
-    remove(const std::vector<Mass>           &masses,
-           const std::vector<Tensor<1, dim>> &displacements,
-           Equilibrium::Vector               &u) const;
+    /** Whether a piece has an unsupported rigid motion. */
+    bool
+    has_free_motion(const unsigned int piece) const;
 
-  private:
     static constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
     static constexpr unsigned int n_modes     = dim + n_rotations;
 
@@ -93,6 +86,16 @@ namespace Morula
       Tensor<2, dim> B; // 1/µm
     };
 
+    /** The @p k th translation or rotation; it moves points at the distance
+     *  @p length (µm) from the axis by 1 µm. */
+    static Mode
+    elementary_mode(const unsigned int k, const double length);
+
+    /** A rotation about the axis of the skew @p B: Cayley's transform. */
+    static Tensor<2, dim>
+    rotation(const Tensor<2, dim> &B);
+
+  private:
     struct Piece
     {
       double            volume = 0.; // Σ V⁰
@@ -100,19 +103,8 @@ namespace Morula
       std::vector<Mode> free;        // unsupported motions, a basis
     };
 
-    static Mode
-    elementary_mode(const unsigned int k, const double length);
-
     void
     find_centers(const std::vector<Mass> &masses);
-
-    /** Superposes y -> Q y + a (µm) of a piece's positions on the increment u:
-     *  u -> Q u + (Q - I) x + a. */
-    void
-    superpose(const unsigned int    piece,
-              const Tensor<2, dim> &Q,
-              const Tensor<1, dim> &a,
-              std::vector<double>  &u) const;
 
     /** Those that the supports do not hold: doc/theory.md (4.9). */
     void

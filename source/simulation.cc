@@ -248,7 +248,12 @@ namespace Morula
     MomentumBalance<dim> balance(
       space, list, typical_stiffness, inertia(space, rigid_modes), timer, comm);
     estimate_condition(balance);
-    solve(balance, scene.solver, timer, u, newton_report);
+    solve(balance,
+          scene.solver,
+          timer,
+          u,
+          newton_report,
+          start_of_step(space, rigid_modes));
     if (boundary_conditions.has_dirichlet())
       check_gap(balance.extremes());
 
@@ -257,6 +262,23 @@ namespace Morula
     if (points.subdivided &&
         inverts(DisplacementField<dim>(space, u, comm), tissue.cells(), comm))
       throw StepFailed("a cell is turned inside out");
+  }
+
+  template <int dim>
+  std::optional<Equilibrium::Vector>
+  Simulation<dim>::start_of_step(const SplineSpace<dim> &space,
+                                 const RigidModes<dim>  &modes) const
+  {
+    if (!boundary_conditions.has_dirichlet())
+      return {};
+    std::vector<HeldPoint<dim>> points;
+    everywhere(comm, [&]() {
+      points = held_points(boundary_conditions,
+                           tissue,
+                           time_steps.time(),
+                           time_steps.next());
+    });
+    return rigid_start(space, modes, points, comm);
   }
 
   template <int dim>

@@ -14,6 +14,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <ostream>
 #include <sstream>
 
@@ -428,6 +429,19 @@ namespace Morula
   }
 
   template <int dim>
+  double
+  Simulation<dim>::way_of_held_points() const
+  {
+    double largest = 0.;
+    everywhere(comm, [&]() {
+      for (const auto &point : held_points(
+             boundary_conditions, tissue, time_steps.time(), time_steps.next()))
+        largest = std::max(largest, point.from.distance(point.to));
+    });
+    return Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
   void
   Simulation<dim>::give_up_step(const std::string &reason)
   {
@@ -442,6 +456,9 @@ namespace Morula
     if (boundary_conditions.has_dirichlet())
       text << ", or with another Boundary conditions/Nitsche penalty";
     text << '.';
+    if (const double way = way_of_held_points(); way > 0.5 * scene.grid.spacing)
+      text << " Even in so short a step held points move by " << way
+           << " um: let Boundary conditions/Displacement rise from 0 with t.";
     give_up(text.str());
   }
 

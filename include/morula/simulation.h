@@ -99,6 +99,9 @@ namespace Morula
     try_step(const SplineSpace<dim> &space,
              const RigidModes<dim>  &rigid_modes,
              Equilibrium::Vector    &u);
+    std::optional<Equilibrium::Vector>
+    start_of_step(const SplineSpace<dim> &space,
+                  const RigidModes<dim>  &modes) const;
     void
     estimate_condition(MomentumBalance<dim> &balance);
     /** What keeps the step free of unsupported motions. */
@@ -143,6 +146,9 @@ namespace Morula
     output(const bool last);
     void
     stop_if_asked(const StopSignals &signals); // RunStopped
+    /** The longest that the present attempt asks for, µm. Collective. */
+    double
+    way_of_held_points() const;
     [[noreturn]] void
     give_up(const std::string &reason);
     [[noreturn]] void

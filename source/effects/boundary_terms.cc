@@ -245,6 +245,34 @@ namespace Morula
     return list;
   }
 
+  template <int dim>
+  std::vector<HeldPoint<dim>>
+  held_points(const BoundaryConditions<dim> &conditions,
+              const Tissue<dim>             &tissue,
+              const double                   t,
+              const double                   t_next)
+  {
+    std::vector<HeldPoint<dim>> list;
+    if (!conditions.has_dirichlet())
+      return list;
+    for (const auto &particle : tissue.boundary_points().order())
+      {
+        const BoundaryView<dim> point = view<dim>(particle);
+        if (!is_dirichlet(point.condition()))
+          continue;
+        const Point<dim> x = particle->get_location();
+        HeldPoint<dim>   held{x, x, x, projection(point), point.initial_area()};
+        if (point.condition() == SurfaceCondition::fixed)
+          {
+            const Point<dim> X = point.initial_position();
+            held.from = t == 0. ? X : X + conditions.displacement(X, t);
+            held.to   = X + conditions.displacement(X, t_next);
+          }
+        list.push_back(held);
+      }
+    return list;
+  }
+
 #define INSTANTIATE(dim)                                            \
   template std::unique_ptr<Term<dim>> nitsche_term(                 \
     const BoundaryConditions<dim> &,                                \
@@ -266,7 +294,12 @@ namespace Morula
   template std::vector<typename RigidModes<dim>::Support> supports( \
     const BoundaryConditions<dim> &,                                \
     const Tissue<dim> &,                                            \
-    const SplineSpace<dim> &);
+    const SplineSpace<dim> &);                                      \
+  template std::vector<HeldPoint<dim>> held_points(                 \
+    const BoundaryConditions<dim> &,                                \
+    const Tissue<dim> &,                                            \
+    const double,                                                   \
+    const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -171,13 +171,16 @@ namespace Morula
   } // namespace
 
   void
-  solve(Equilibrium            &problem,
-        const SolverParameters &parameters,
-        TimerOutput            &timer,
-        Equilibrium::Vector    &u,
-        NewtonReport           &report)
+  solve(Equilibrium                              &problem,
+        const SolverParameters                   &parameters,
+        TimerOutput                              &timer,
+        Equilibrium::Vector                      &u,
+        NewtonReport                             &report,
+        const std::optional<Equilibrium::Vector> &start)
   {
     problem.initialize(u);
+    if (start)
+      u = *start;
     LinearSolver linear_solver(parameters, problem, timer);
     const auto   group =
       Teuchos::rcp(new NoxGroup(problem, linear_solver, report, u));

@@ -6,6 +6,7 @@
 
 #include <morula/effects/boundary_conditions.h>
 #include <morula/effects/growth/cell_growth.h>
+#include <morula/mechanics/held_motion.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
@@ -52,6 +53,16 @@ namespace Morula
   supports(const BoundaryConditions<dim> &conditions,
            const Tissue<dim>             &tissue,
            const SplineSpace<dim>        &space);
+
+  /** Where the fixed and slip points of this rank are held at @p t and at
+   *  @p t_next; at the start of the run (@p t = 0) nothing has moved yet, also
+   *  where the displacement has a value. */
+  template <int dim>
+  std::vector<HeldPoint<dim>>
+  held_points(const BoundaryConditions<dim> &conditions,
+              const Tissue<dim>             &tissue,
+              const double                   t,
+              const double                   t_next);
 } // namespace Morula
 
 #endif

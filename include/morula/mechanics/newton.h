@@ -9,6 +9,8 @@
 
 #include <deal.II/base/timer.h>
 
+#include <optional>
+
 namespace Morula
 {
   /** Work done, and where it ended. Counts add up over several solves. */
@@ -22,7 +24,7 @@ namespace Morula
 
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
-   * NOX), starting from u = 0 (doc/theory.md, section 5):
+   * NOX), starting from u = 0 or @p start (doc/theory.md, section 5):
    * - the first tangent is taken at the growth of the step's beginning;
    * - conservative problems: backtracking on the energy with Armijo's rule,
    *   which rejects inversion (infinite energy) and tolerates rounding; others:
@@ -34,14 +36,16 @@ namespace Morula
    *
    * @param u      out: the increment; initialised here
    * @param report in/out: this solve's work is added, also when it fails
+   * @param start  where to start from, if not from rest
    * @throws StepFailed on all ranks together
    */
   void
-  solve(Equilibrium            &problem,
-        const SolverParameters &parameters,
-        TimerOutput            &timer,
-        Equilibrium::Vector    &u,
-        NewtonReport           &report);
+  solve(Equilibrium                              &problem,
+        const SolverParameters                   &parameters,
+        TimerOutput                              &timer,
+        Equilibrium::Vector                      &u,
+        NewtonReport                             &report,
+        const std::optional<Equilibrium::Vector> &start = {});
 } // namespace Morula
 
 #endif

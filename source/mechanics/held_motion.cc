@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/held_motion.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A motion is mostly rigid if no more than this part of the squares of the
+     *  held points' displacements is left without it. */
+    constexpr double largest_rest = 0.1;
+
+    /** Rotations that hardly move the held points, relative to translations,
+     *  are not asked for: those about the line through all, or of one point. */
+    constexpr double weakest = 1e-9;
+
+    constexpr unsigned int max_iterations = 50;
+
+    /** y = Q (x - center) + center + shift, fitted to the points of a piece by
+     *  Gauss and Newton's method. */
+    template <int dim>
+    struct RigidFit
+    {
+      Point<dim>     center;
+      Tensor<1, dim> shift;
+      Tensor<2, dim> Q      = Tensor<2, dim>(unit_symmetric_tensor<dim>());
+      double         area   = 0.;        // Σ a
+      double         square = 0.;        // Σ a |M (y - to)|²
+      double         square_before = 0.; // at rest
+
+      /** From the center. */
+      Tensor<1, dim>
+      moved(const Point<dim> &x) const
+      {
+        return Q * (x - center) + shift;
+      }
+    };
+
+    template <int dim>
+    using Fits = std::vector<RigidFit<dim>>;
+
+    /** With the piece that each point belongs to. */
+    template <int dim>
+    using Points = std::vector<std::pair<unsigned int, HeldPoint<dim>>>;
+
+    template <int dim>
+    void
+    find_centers(const Points<dim> &points,
+                 Fits<dim>         &fits,
+                 const MPI_Comm     comm)
+    {
+      std::vector<double> sums(fits.size() * (dim + 1), 0.);
+      for (const auto &[piece, point] : points)
+        {
+          double *const sum = &sums[piece * (dim + 1)];
+          for (unsigned int d = 0; d < dim; ++d)
+            sum[d] += point.area * point.from[d];
+          sum[dim] += point.area;
+        }
+      Utilities::MPI::sum(sums, comm, sums);
+      for (std::size_t p = 0; p < fits.size(); ++p)
+        {
+          fits[p].area = sums[p * (dim + 1) + dim];
+          if (fits[p].area > 0.)
+            for (unsigned int d = 0; d < dim; ++d)
+              fits[p].center[d] = sums[p * (dim + 1) + d] / fits[p].area;
+        }
+    }
+
+    /** One correction of all pieces; returns the largest, µm. */
+    template <int dim>
+    double
+    improve(const Points<dim> &points,
+            const double       length,
+            Fits<dim>         &fits,
+            const MPI_Comm     comm)
+    {
+      using Modes           = RigidModes<dim>;
+      constexpr int       n = Modes::n_modes, width = n * n + n + 1;
+      std::vector<double> sums(fits.size() * width, 0.);
+      for (const auto &[piece, point] : points)
+        {
+          const RigidFit<dim> &fit = fits[piece];
+          const Tensor<1, dim> y   = fit.moved(point.from);
+          const Tensor<1, dim> gap =
+            point.projection * (y - (point.to - fit.center));
+          double *const  sum = &sums[piece * width];
+          Tensor<1, dim> held[n];
+          for (int k = 0; k < n; ++k)
+            {
+              const auto mode = Modes::elementary_mode(k, length);
+              held[k]         = point.projection * (mode.a + mode.B * y);
+              sum[n * n + k] -= point.area * (held[k] * gap);
+              for (int l = 0; l <= k; ++l)
+                sum[k * n + l] += point.area * (held[k] * held[l]);
+            }
+          sum[n * n + n] += point.area * gap.norm_square();
+        }
+      Utilities::MPI::sum(sums, comm, sums);
+
+      double largest = 0.;
+      for (std::size_t p = 0; p < fits.size(); ++p)
+        {
+          RigidFit<dim>      &fit = fits[p];
+          const double *const sum = &sums[p * width];
+          fit.square              = sum[n * n + n];
+          if (fit.area == 0.)
+            continue;
+          LAPACKFullMatrix<double> matrix(n);
+          Vector<double>           forces(n), twist(n);
+          for (int k = 0; k < n; ++k)
+            {
+              forces[k] = sum[n * n + k];
+              for (int l = 0; l < n; ++l)
+                matrix(k, l) = sum[std::max(k, l) * n + std::min(k, l)];
+            }
+          matrix.compute_inverse_svd(weakest);
+          matrix.vmult(twist, forces);
+          Tensor<1, dim> a;
+          Tensor<2, dim> B;
+          for (int k = 0; k < n; ++k)
+            {
+              const auto mode = Modes::elementary_mode(k, length);
+              a += twist[k] * mode.a;
+              B += twist[k] * mode.B;
+            }
+          const Tensor<2, dim> turn = Modes::rotation(B);
+          fit.Q                     = turn * fit.Q;
+          fit.shift                 = turn * fit.shift + a;
+          largest                   = std::max(largest, twist.linfty_norm());
+        }
+      return largest;
+    }
+  } // namespace
+
+  template <int dim>
+  std::optional<Equilibrium::Vector>
+  rigid_start(const SplineSpace<dim>            &space,
+              const RigidModes<dim>             &modes,
+              const std::vector<HeldPoint<dim>> &held,
+              const MPI_Comm                     comm)
+  {
+    const bool moves =
+      std::any_of(held.begin(), held.end(), [](const HeldPoint<dim> &point) {
+        return point.from != point.to;
+      });
+    if (!Utilities::MPI::logical_or(moves, comm))
+      return {};
+
+    const GridBox<dim> &box    = space.box();
+    const double        length = box.spacing();
+    Points<dim>         points;
+    for (const auto &point : held)
+      points.emplace_back(space.piece(box.number(box.locate(point.x))), point);
+    Fits<dim> fits(space.n_pieces());
+    find_centers(points, fits, comm);
+    for (unsigned int i = 0; i < max_iterations; ++i)
+      {
+        const double largest = improve(points, length, fits, comm);
+        if (i == 0)
+          for (RigidFit<dim> &fit : fits)
+            fit.square_before = fit.square;
+        if (largest <= 1e-13 * length)
+          break;
+      }
+
+    std::optional<Equilibrium::Vector> start;
+    std::vector<double> coefficients(space.owned_dofs().n_elements(), 0.);
+    for (unsigned int p = 0; p < fits.size(); ++p)
+      {
+        const RigidFit<dim> &fit = fits[p];
+        if (fit.square_before == 0. || modes.has_free_motion(p) ||
+            fit.square > largest_rest * fit.square_before)
+          continue;
+        const Tensor<1, dim> center = fit.center - Point<dim>();
+        const auto           part =
+          space.affine_coefficients(p,
+                                    fit.shift + center - fit.Q * center,
+                                    fit.Q - Tensor<2, dim>(
+                                              unit_symmetric_tensor<dim>()));
+        std::transform(part.begin(),
+                       part.end(),
+                       coefficients.begin(),
+                       coefficients.begin(),
+                       std::plus<>());
+        if (!start)
+          start.emplace(space.owned_dofs(), comm);
+      }
+    if (start)
+      {
+        std::copy(coefficients.begin(), coefficients.end(), start->begin());
+        start->compress(VectorOperation::insert);
+      }
+    return start;
+  }
+
+#define INSTANTIATE(dim)                                   \
+  template std::optional<Equilibrium::Vector> rigid_start( \
+    const SplineSpace<dim> &,                              \
+    const RigidModes<dim> &,                               \
+    const std::vector<HeldPoint<dim>> &,                   \
+    const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

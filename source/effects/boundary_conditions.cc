@@ -10,9 +10,10 @@ namespace Morula
 {
   namespace
   {
-    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
-     *  (λ + 2μ)/h: doc/theory.md (4.6). */
-    constexpr double least_penalty = 20.;
+    /** Least penalties that keep Nitsche's symmetric form definite, in units of
+     *  (λ + 2μ)/h, and of the stiffness of squeezed tissue by h:
+     *  doc/theory.md (4.6). */
+    constexpr double least_penalty = 20., squeezed_penalty = 100.;
 
     std::optional<Expression>
     where(const std::string &key, const std::string &text)
@@ -120,14 +121,17 @@ namespace Morula
   double
   BoundaryConditions<dim>::penalty(const double           E,
                                    const Lame            &lame,
+                                   const double           stiffness,
                                    const VolumetricStrain volumetric_form,
                                    const double           h) const
   {
     if (volumetric_form == VolumetricStrain::projected)
       return relative_penalty * (lame.lambda + 2. * lame.mu) / h;
-    const double least = form == NitscheForm::symmetric ?
-                           least_penalty * (lame.lambda + 2. * lame.mu) :
-                           0.;
+    const double at_rest = lame.lambda + 2. * lame.mu;
+    const double least =
+      form == NitscheForm::symmetric ?
+        std::max(least_penalty * at_rest, squeezed_penalty * stiffness) :
+        0.;
     return std::max(relative_penalty * E, least) / h;
   }
 

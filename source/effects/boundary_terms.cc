@@ -5,6 +5,7 @@
 #include <morula/effects/dead_load.h>
 #include <morula/effects/following_pressure.h>
 #include <morula/effects/nitsche.h>
+#include <morula/mechanics/neo_hookean.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/strays.h>
@@ -89,6 +90,19 @@ namespace Morula
               (per_grown_volume ? determinant(F_g) : 1.) / determinant(F)};
     }
 
+    /** Of a stretch along @p n in a state, per area at t, kPa. */
+    template <int dim>
+    double
+    stiffness(const ElasticState<dim> &state,
+              const Lame              &lame,
+              const Tensor<1, dim>    &n)
+    {
+      const NeoHookean<dim> material(state.A, lame);
+      const auto           &b = material.left_cauchy_green();
+      return state.W * (lame.lambda + material.mu_minus_lambda_log_J() +
+                        lame.mu * (n * (b * n)));
+    }
+
     template <int dim>
     PointGroups
     loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
@@ -149,15 +163,7 @@ namespace Morula
         condition.area           = area.norm();
         condition.normal         = area / area.norm();
         condition.lame           = material.lame_at(X);
-        condition.penalty = conditions.penalty(material.youngs_modulus(X),
-                                               condition.lame,
-                                               material.volumetric_form(),
-                                               space.box().spacing());
-        // ln J_e of the point itself says nothing about the pressure there.
-        if (material.volumetric_form() == VolumetricStrain::projected)
-          condition.lame.lambda = 0.;
-        condition.trust = trust[k];
-        list.push_back(condition);
+        condition.trust          = trust[k];
 
         const Tensor<2, dim> F = point.deformation();
         if (!growth.present)
@@ -172,6 +178,20 @@ namespace Morula
             current.push_back(
               state(F, tensor(row + dim * dim), material.per_grown_volume()));
           }
+        // Without trust there is no traction that the penalty must hold down.
+        condition.penalty = conditions.penalty(material.youngs_modulus(X),
+                                               condition.lame,
+                                               condition.trust > 0. ?
+                                                 stiffness(current.back(),
+                                                           condition.lame,
+                                                           condition.normal) :
+                                                 0.,
+                                               material.volumetric_form(),
+                                               space.box().spacing());
+        // ln J_e of the point itself says nothing about the pressure there.
+        if (material.volumetric_form() == VolumetricStrain::projected)
+          condition.lame.lambda = 0.;
+        list.push_back(condition);
       }
     return std::make_unique<Nitsche<dim>>(conditions.nitsche_form(),
                                           positions(tissue, space, groups),

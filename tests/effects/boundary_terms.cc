@@ -152,6 +152,39 @@ namespace
       }
   }
 
+  /** What is squeezed is stiffer than at rest, and so must be what holds it. */
+  template <int dim>
+  void
+  check_squeezed()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where     = at_top;
+    parameters.nitsche_penalty = 10.;
+    const Lame   constants     = lame(1., 0.4);
+    const double squeeze = 0.4, J = std::pow(squeeze, dim);
+    const double b         = squeeze * squeeze;
+    const double log_J     = std::log(J);
+    const double stiffness = (constants.lambda + constants.mu -
+                              constants.lambda * log_J + constants.mu * b) /
+                             J;
+    const double   beta = 100. * stiffness / 50.;
+    Tensor<1, dim> moved;
+    moved[0] = 1e-3;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               moved,
+                               squeeze * unit_tensor<dim>());
+    const double       a_t = area * std::pow(squeeze, dim - 1);
+    const double       traction =
+      (constants.mu * (b - 1.) + constants.lambda * log_J) / J;
+    const double energy =
+      problem.sums(*problem.nitsche(material("1", 0.4), 1.)).energy;
+    EXPECT_GT(stiffness, 5. * (constants.lambda + 2. * constants.mu));
+    EXPECT_NEAR(energy,
+                a_t * (0.5 * beta * 1e-6 - traction * 1e-3),
+                1e-9 * energy);
+  }
+
   /** Projected, the traction of a volume change alone is left to the penalty,
    *  which counts in λ + 2μ. */
   template <int dim>
@@ -391,6 +424,10 @@ namespace
 
 TEST(BoundaryTerms,
      PenaltyFollowsStiffnessAndSpacing){MORULA_BOTH_DIMENSIONS(check_penalty)}
+
+
+TEST(BoundaryTerms,
+     PenaltyFollowsTheSqueeze){MORULA_BOTH_DIMENSIONS(check_squeezed)}
 
 
 TEST(BoundaryTerms, ProjectedTractionHasNoVolumetricPart){

@@ -77,12 +77,13 @@ namespace Morula
     bool
     has_pressure() const;
 
-    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E and
-     *  Lamé constants @p lame (kPa) on a grid of spacing @p h (µm):
-     *  doc/theory.md (4.6). */
+    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
+     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
+     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
     double
     penalty(const double           E,
             const Lame            &lame,
+            const double           stiffness,
             const VolumetricStrain volumetric_form,
             const double           h) const;
 

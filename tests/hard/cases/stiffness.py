@@ -110,12 +110,21 @@ def bar(run):
                   equals=(0, 0.1), error=True, trial="soft-and-stiff")
 
 
+def soft_half(run):
+    """The stiff half cannot be squeezed: what it grows the other one loses."""
+    yield Finding("rejected steps, soft half", run.figures.rejected, at_most=2,
+                  trial="soft-half")
+    yield Finding("smallest J_e, soft half", run.figures.smallest_J,
+                  at_least=0.01, at_most=0.1, trial="soft-half")
+
+
 def judge(runs):
     yield from panel(runs)
     yield from confined(runs["confined"])
     yield from squeezed(runs["squeezed"])
     yield from stiff_core(runs["stiff-core-coarse"], runs["stiff-core"])
     yield from bar(runs["soft-and-stiff"])
+    yield from soft_half(runs["soft-half"])
     for name in ("stiff-core", "soft-and-stiff", "confined"):
         yield Finding(f"Newton iterations a step, {name}",
                       runs[name].figures.newton, at_most=5, trial=name)
@@ -145,4 +154,7 @@ CASE = Case(
               keys={"Grid/Spacing": "50", "Tissue/Cell spacing": "10"},
               quick={"Time/Step": "0.5"}),
         Trial("soft-and-stiff", "soft-and-stiff.prm", ranks=(1, 2)),
+        Trial("soft-half", "soft-half.prm",
+              quick={"Dimension": "2", "Time/End time": "1.5",
+                     "Boundary conditions/Fixed where": "-Y + 0.01"}),
     ])

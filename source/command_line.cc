@@ -20,7 +20,7 @@ namespace Morula
   namespace
   {
     const std::string usage =
-      "morula SCENE.prm [-s \"Section/Key=value\"]... [--resume] [--explain]";
+      "morula SCENE.prm [-s \"Section/Key=value\"]... [--resume | --replace] [--explain]";
 
     options::options_description
     visible_options()
@@ -31,6 +31,9 @@ namespace Morula
         options::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
         "override one key, e.g. -s \"Time/End time=2\"; may be repeated")(
         "resume", "go on from the last snapshot in the output directory")(
+        "replace",
+        "delete the run in the output directory, also one of another scene or "
+        "one that is not finished")(
         "explain", "check the scene, print what it will simulate, and stop")(
         "parameters", "print every key with default, units and allowed values")(
         "version", "print the version")("help,h", "print this text");
@@ -78,10 +81,15 @@ namespace Morula
 
     CommandLine result;
     result.resume     = found.count("resume") > 0;
+    result.replace    = found.count("replace") > 0;
     result.explain    = found.count("explain") > 0;
     result.parameters = found.count("parameters") > 0;
     result.version    = found.count("version") > 0;
     result.help       = found.count("help") > 0;
+    if (result.resume && result.replace)
+      throw wrong_command_line(all,
+                               "Either go on with the run, or replace it: "
+                               "leave one of the two out.");
     if (found.count("set") > 0)
       result.overrides = found["set"].as<std::vector<std::string>>();
     const auto scenes = found.count("scene") > 0 ?

@@ -4,6 +4,9 @@
 #include <morula/command_line.h>
 #include <morula/failure.h>
 #include <morula/input_error.h>
+#include <morula/output/agreement.h>
+#include <morula/output/directory.h>
+#include <morula/output/run_lock.h>
 #include <morula/program.h>
 #include <morula/scene_explain.h>
 #include <morula/scene_size.h>
@@ -117,8 +120,9 @@ namespace Morula
                          "This program makes several runs; leave the option "
                          "out.");
 
-      const Scene scene =
+      Scene scene =
         Scene::read(command.scene_file, command.overrides, program.catalogue);
+      scene.replace = command.replace;
       try
         {
           obey(command, program, scene, resume_hint);
@@ -134,6 +138,12 @@ namespace Morula
   void
   simulate(const Scene &scene, const bool resume)
   {
+    // Once more when the directory is taken; here, before cells are placed.
+    on_root(MPI_COMM_WORLD, [&]() {
+      RunLock::check_free(scene.output_directory);
+      if (!resume)
+        check_replaceable(scene.output_directory, scene.file, scene.replace);
+    });
     if (scene.dimension == 2)
       Simulation<2>(scene, MPI_COMM_WORLD, resume).run();
     else

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/output/csv.h>
-#include <morula/output/directory.h>
 #include <morula/output/vtu.h>
 #include <morula/run_files.h>
 
@@ -75,6 +74,7 @@ namespace Morula
                                   scene.output.snapshot_interval,
                                   scene.time.step))
   {
+    lock.emplace(scene.output_directory, comm);
     if (resumed_from)
       {
         output_times = resumed_from->table("output_times");
@@ -98,16 +98,13 @@ namespace Morula
         statistics.emplace(path("statistics.csv"), rows, comm);
         lineage.emplace(path("lineage.csv"), births, comm);
         prepare_resume(scene.output_directory,
-                       scene.parameters(),
+                       coming_run(),
                        output_times.size(),
                        comm);
       }
     else
       {
-        prepare_directory(scene.output_directory,
-                          scene.parameters(),
-                          {scene.tissue.surface_mesh, scene.tissue.points_file},
-                          comm);
+        prepare_directory(scene.output_directory, coming_run(), comm);
         statistics.emplace(path("statistics.csv"), comm);
         lineage.emplace(path("lineage.csv"), comm);
       }
@@ -118,8 +115,20 @@ namespace Morula
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
+    if (!lock->complaint().empty())
+      message(lock->complaint());
     if (resumed_from)
       tell_of_missing_states();
+  }
+
+  template <int dim>
+  ComingRun
+  RunFiles<dim>::coming_run() const
+  {
+    return {scene.file,
+            scene.parameters(),
+            {scene.tissue.surface_mesh, scene.tissue.points_file},
+            scene.replace};
   }
 
   template <int dim>
@@ -342,6 +351,8 @@ namespace Morula
                       wall_seconds(),
                       section_times(timer, sections_before),
                       scene.output_directory});
+    note_finished(scene.output_directory, coming_run(), wall_seconds(), comm);
+    lock.reset();
   }
 
   template class RunFiles<2>;

@@ -8,6 +8,7 @@
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 namespace Morula
@@ -78,8 +79,9 @@ namespace Morula
                       Patterns::Integer(2, 3));
     prm.add_parameter("Output directory",
                       output_directory,
-                      "Where all files go. A new run replaces the run it finds "
-                      "there.");
+                      "Where all files go; empty: output/NAME for a scene "
+                      "NAME.prm. A new run replaces a finished one of the same "
+                      "scene file, and others with --replace only.");
     prm.add_parameter("Random seed",
                       random_seed,
                       "Equal seeds give equal runs.",
@@ -162,6 +164,11 @@ namespace Morula
     for (const auto &[path, value] : Method::values(scene.method))
       if (scene.as_written.count(path) == 0)
         keys.apply({Statement::set, path, value, ""}, prm);
+    scene.file = file;
+    if (scene.output_directory.empty())
+      scene.output_directory =
+        (std::filesystem::path("output") / std::filesystem::path(file).stem())
+          .string();
     return scene;
   }
 

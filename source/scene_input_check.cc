@@ -10,8 +10,6 @@
 
 #include <deal.II/base/patterns.h>
 
-#include <boost/algorithm/string.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -109,11 +107,6 @@ namespace Morula
     void
     check_output(const Scene &scene)
     {
-      if (boost::trim_copy(scene.output_directory).empty())
-        throw InputError("Output directory",
-                         scene.output_directory,
-                         "the name of a directory",
-                         "Name one; it is created if it does not exist.");
       const auto       &formats = scene.output.formats;
       const std::string value   = Patterns::Tools::to_string(formats);
       const bool none = std::count(formats.begin(), formats.end(), "none") > 0;

@@ -61,6 +61,8 @@ TEST(CommandLine, CollectsOverridesInOrder)
 TEST(CommandLine, KnowsItsOptions)
 {
   EXPECT_TRUE(CommandLine::parse({"a.prm", "--explain"}).explain);
+  EXPECT_TRUE(CommandLine::parse({"a.prm", "--replace"}).replace);
+  EXPECT_FALSE(CommandLine::parse({"a.prm"}).replace);
   EXPECT_TRUE(CommandLine::parse({"--parameters"}).parameters);
   EXPECT_TRUE(CommandLine::parse({"--version"}).version);
   EXPECT_TRUE(CommandLine::parse({"--help"}).help);
@@ -76,6 +78,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow)
          {{"a.prm", "b.prm"}, "'a.prm' and 'b.prm'"},
          {{"a.prm", "--rezume"}, "--rezume"},
          {{"a.prm", "--res"}, "--res"},
+         {{"a.prm", "--resume", "--replace"}, "leave one of the two out"},
          {{"a.prm", "-s"}, "required argument"},
          {{"a.prm", "-x"}, "-x"}})
     {
@@ -94,6 +97,7 @@ TEST(CommandLine, PrintsEveryOptionAndExitCode)
   for (const char *part : {"SCENE.prm",
                            "-s",
                            "--resume",
+                           "--replace",
                            "--explain",
                            "--parameters",
                            "--version",

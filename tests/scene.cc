@@ -100,7 +100,7 @@ TEST(Scene, HasTheDefaultsOfTheContract)
   const std::map<std::string, std::string> contract = {
     {"Dimension", "3"},
     {"Method", "paper"},
-    {"Output directory", "output"},
+    {"Output directory", ""},
     {"Random seed", "1"},
     {"Time/End time", "1"},
     {"Time/Step", "0.05"},
@@ -236,6 +236,21 @@ TEST(Scene, PrintsParametersThatReadBackExactly)
 }
 
 
+TEST(Scene, NamesItsDirectory)
+{
+  const ScratchDirectory directory;
+  const std::string      file  = directory.write("fig-4e-0.95.prm", "");
+  const Scene            scene = Scene::read(file, {});
+  EXPECT_EQ(scene.output_directory, "output/fig-4e-0.95");
+  EXPECT_EQ(scene.file, file);
+  EXPECT_FALSE(scene.replace);
+  EXPECT_EQ(Scene::read(file, {"Output directory="}).output_directory,
+            "output/fig-4e-0.95");
+  EXPECT_EQ(Scene::read(file, {"Output directory=a b"}).output_directory,
+            "a b");
+}
+
+
 TEST(Scene, RefusesBadFiles)
 {
   try
@@ -345,7 +360,6 @@ TEST(Scene, RefusesBadValues)
          {"Grid/Extension=maybe",
           {"Grid/Extension", "maybe", "true or false", "Correct"}},
          {"Dimension=4", {"Dimension", "'4'", "2 to 3", "Correct"}},
-         {"Output directory=", {"Output directory", "directory", "Name"}},
          {"Time/End time=0", {"Time/End time", "'0'", "> 0", "Choose"}},
          {"Time/Step=-1", {"Time/Step", "'-1'", "> 0", "Choose"}},
          {"Time/Smallest step=1",

@@ -18,6 +18,7 @@ namespace Morula
     std::string scene_file;             // may be empty only with the last three
     std::vector<std::string> overrides; // "Section/Key=value"
     bool                     resume     = false;
+    bool                     replace    = false;
     bool                     explain    = false;
     bool                     parameters = false;
     bool                     version    = false;

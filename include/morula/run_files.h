@@ -5,9 +5,11 @@
 #define morula_run_files_h
 
 #include <morula/output/condition.h>
+#include <morula/output/directory.h>
 #include <morula/output/lineage.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
+#include <morula/output/run_lock.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/statistics.h>
 #include <morula/output/timings.h>
@@ -30,7 +32,8 @@ namespace Morula
   {
   public:
     /**
-     * Makes the directory ready: for a new run, or to go on behind a snapshot.
+     * Takes the directory for this run alone, and makes it ready: for a new
+     * run, or to go on behind a snapshot.
      * @param clock runs since the program began with this run; kept as a
      *        reference
      * @throws InputError, or std::runtime_error with path and reason
@@ -85,7 +88,8 @@ namespace Morula
     void
     fail(const std::string &text) noexcept;
 
-    /** The summary, on the terminal and in log.txt. Collective. */
+    /** The summary, on the terminal and in log.txt; the run is complete, and
+     *  its directory free. Collective. */
     void
     finish(const std::string   &outcome,
            const StatisticsRow &row,
@@ -105,6 +109,9 @@ namespace Morula
     void
     open_conditions(const std::optional<SnapshotData<dim>> &resumed_from);
 
+    ComingRun
+    coming_run() const;
+
     std::string
     path(const std::string &file) const;
 
@@ -116,11 +123,12 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene         scene;
-    const MPI_Comm      comm;
-    const double        wall_seconds_before;
-    const Timer        &clock;
-    std::vector<double> output_times;
+    const Scene            scene;
+    const MPI_Comm         comm;
+    std::optional<RunLock> lock; // until the end
+    const double           wall_seconds_before;
+    const Timer           &clock;
+    std::vector<double>    output_times;
     // Due at these multiples of their intervals.
     unsigned int                    next_output;
     unsigned int                    next_snapshot;

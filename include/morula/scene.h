@@ -48,10 +48,10 @@ namespace Morula
       : catalogue(catalogue)
     {}
 
-    std::string  method           = Method::by_default;
-    unsigned int dimension        = 3;
-    std::string  output_directory = "output";
-    unsigned int random_seed      = 1;
+    std::string  method    = Method::by_default;
+    unsigned int dimension = 3;
+    std::string  output_directory; // read() fills in what is empty
+    unsigned int random_seed = 1;
 
     TimeParameters              time;
     TissueParameters            tissue;
@@ -80,6 +80,12 @@ namespace Morula
     /** Where they were written, "file:line: " or "-s: ", by full path. */
     std::map<std::string, std::string> places;
 
+    /** The file that read() read; empty without. */
+    std::string file;
+
+    /** Whether the run may delete any run that it finds in its directory. */
+    bool replace = false;
+
     /** What to say about keys that were written by a former name. */
     std::vector<std::string> renamed;
 
@@ -102,8 +108,10 @@ namespace Morula
 
     /**
      * Reads a .prm file and applies "Section/Key=value" overrides, without
+     * Reads a .prm file and applies "Section/Key=value" overrides, without
      * checking more than each value by itself. Keys that neither of them sets
-     * have the values that `Method` gives them (method.h).
+     * have the values that `Method` gives them (method.h). Without Output
+     * directory it is that of the file's name, `output/NAME`.
      * @throws InputError with the key's full path, the file and the line
      */
     static Scene

@@ -120,6 +120,7 @@ namespace Morula
   AppendedCsv::append(const std::string &rows)
   {
     on_root(comm, [&]() {
+      file->check_in_place();
       file->write(rows);
       digest.add(rows);
     });
@@ -130,6 +131,9 @@ namespace Morula
   void
   AppendedCsv::sync()
   {
-    on_root(comm, [&]() { file->sync(); });
+    on_root(comm, [&]() {
+      file->check_in_place();
+      file->sync();
+    });
   }
 } // namespace Morula

@@ -5,11 +5,15 @@
 #include <morula/output/agreement.h>
 #include <morula/output/atomic_file.h>
 #include <morula/output/directory.h>
+#include <morula/output/run_record.h>
+#include <morula/output/time_left.h>
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 
 namespace Morula
@@ -20,6 +24,9 @@ namespace Morula
   {
     const char *const key = "Output directory";
 
+    /** A run that took longer is not replaced by the next one, seconds. */
+    constexpr double longest_unasked = 3600.;
+
     /** With the error of the system; the path is the one it concerns. */
     [[noreturn]] void
     refuse(const fs::path &path, const std::error_code &error)
@@ -29,12 +36,6 @@ namespace Morula
                        "a directory that can be written (" + error.message() +
                          ")",
                        "Choose another one, or change its permissions.");
-    }
-
-    std::string
-    parameters_file(const fs::path &directory)
-    {
-      return (directory / "parameters.prm").string();
     }
 
     /** Number of a file in a series; -1: not of a series. */
@@ -99,10 +100,41 @@ namespace Morula
                              "Choose another directory.");
     }
 
-    void
-    write_parameters(const std::string &directory, const std::string &text)
+    /** Whether a Morula that wrote no record was at work here: to be told from
+     *  files that only have the names. */
+    bool
+    holds_older_run(const std::string &directory)
     {
-      write_atomically(parameters_file(directory), text);
+      std::error_code ignored;
+      std::ifstream   in(fs::path(directory) / "statistics.csv");
+      std::string     line;
+      std::getline(in, line);
+      return line.rfind("step,time,dt,cells,", 0) == 0 &&
+             fs::exists(parameters_file(directory), ignored);
+    }
+
+    /** @param why a run that is there would be a loss */
+    [[noreturn]] void
+    refuse_to_replace(const std::string &directory,
+                      const std::string &why,
+                      const std::string &remedy)
+    {
+      throw InputError(key,
+                       directory,
+                       "a directory without a run that would be lost, but "
+                       "there is one " +
+                         why,
+                       remedy);
+    }
+
+    void
+    write_parameters(const std::string &directory,
+                     const ComingRun   &run,
+                     RunRecord          record)
+    {
+      record.scene = recorded_name(directory, run.scene_file);
+      write_atomically(parameters_file(directory),
+                       record.comments() + run.parameters);
     }
   } // namespace
 
@@ -144,28 +176,91 @@ namespace Morula
   }
 
   void
-  prepare_directory(const std::string              &directory,
-                    const std::string              &parameters,
-                    const std::vector<std::string> &inputs,
-                    const MPI_Comm                  comm)
+  create_directory(const std::string &directory)
+  {
+    check_directory(directory);
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (error && !fs::is_directory(directory))
+      refuse(directory, error);
+  }
+
+  void
+  check_replaceable(const std::string &directory,
+                    const std::string &scene_file,
+                    const bool         replace)
+  {
+    std::error_code error;
+    if (!fs::is_directory(directory, error))
+      return;
+    const std::vector<fs::path> files =
+      files_with(directory, [](const std::string &name) {
+        // this one is there when a run was killed as it began
+        return is_ours(name) && name != "parameters.prm.tmp";
+      });
+    if (files.empty())
+      return;
+    const auto record = RunRecord::read(directory);
+    if (!record && !holds_older_run(directory))
+      throw InputError(key,
+                       directory,
+                       "a directory without files of the names that Morula "
+                       "gives, unless a run of Morula wrote them (there is '" +
+                         files.front().filename().string() +
+                         "', but no parameters.prm of such a run)",
+                       "Move such files, or choose another directory.");
+    if (replace)
+      return;
+
+    const std::string delete_it =
+      "--replace deletes it, or choose another directory.";
+    if (!record)
+      refuse_to_replace(directory,
+                        "that does not say of which scene it is",
+                        "An older Morula wrote it. " + delete_it);
+    if (record->scene != recorded_name(directory, scene_file))
+      refuse_to_replace(directory,
+                        "of another scene, '" + record->scene + "'",
+                        delete_it);
+    if (!record->finished)
+      refuse_to_replace(directory,
+                        "that is not finished",
+                        (fs::exists(fs::path(directory) / "snapshot.h5",
+                                    error) ?
+                           "--resume goes on with it; " :
+                           "It has no snapshot to go on from; ") +
+                          delete_it);
+    if (record->wall_seconds > longest_unasked)
+      refuse_to_replace(directory,
+                        "that took " + duration(record->wall_seconds),
+                        delete_it);
+  }
+
+  void
+  prepare_directory(const std::string &directory,
+                    const ComingRun   &run,
+                    const MPI_Comm     comm)
   {
     on_root(comm, [&]() {
-      check_directory(directory);
-      std::error_code error;
-      fs::create_directories(directory, error);
-      if (error && !fs::is_directory(directory))
-        refuse(directory, error);
-
-      const std::vector<fs::path> old_run = files_with(directory, is_ours);
-      refuse_to_remove_inputs(old_run, inputs);
+      create_directory(directory);
+      check_replaceable(directory, run.scene_file, run.replace);
+      std::vector<fs::path> old_run = files_with(directory, is_ours);
+      refuse_to_remove_inputs(old_run, run.inputs);
+      // First, so that a run that is killed here leaves no files without it.
+      write_parameters(directory, run, {});
+      old_run.erase(std::remove_if(old_run.begin(),
+                                   old_run.end(),
+                                   [](const fs::path &file) {
+                                     return file.filename() == "parameters.prm";
+                                   }),
+                    old_run.end());
       remove(old_run);
-      write_parameters(directory, parameters);
     });
   }
 
   void
   prepare_resume(const std::string &directory,
-                 const std::string &parameters,
+                 const ComingRun   &run,
                  const unsigned int first_number,
                  const MPI_Comm     comm)
   {
@@ -174,7 +269,18 @@ namespace Morula
       remove(files_with(directory, [&](const std::string &name) {
         return series_number(name) >= static_cast<long long>(first_number);
       }));
-      write_parameters(directory, parameters);
+      write_parameters(directory, run, {});
+    });
+  }
+
+  void
+  note_finished(const std::string &directory,
+                const ComingRun   &run,
+                const double       wall_seconds,
+                const MPI_Comm     comm)
+  {
+    on_root(comm, [&]() {
+      write_parameters(directory, run, {"", true, wall_seconds});
     });
   }
 } // namespace Morula

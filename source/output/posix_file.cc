@@ -4,6 +4,7 @@
 #include <morula/output/posix_file.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,6 +32,15 @@ namespace Morula
         }
     }
   } // namespace
+
+  bool
+  is_open_at(const int descriptor, const std::string &path)
+  {
+    struct stat opened{}, there{};
+    return ::fstat(descriptor, &opened) == 0 &&
+           ::stat(path.c_str(), &there) == 0 && opened.st_dev == there.st_dev &&
+           opened.st_ino == there.st_ino;
+  }
 
   PosixFile::PosixFile(const std::string &path, const Mode mode)
     : path(path)
@@ -80,6 +90,16 @@ namespace Morula
     // pipes and some special files cannot be synchronised, and need not
     if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
       fail("write");
+  }
+
+  void
+  PosixFile::check_in_place() const
+  {
+    if (!is_open_at(descriptor, path))
+      throw std::runtime_error("the file '" + path +
+                               "' was deleted or replaced while the run went "
+                               "on. Put it back before you resume the run, or "
+                               "start the run anew.");
   }
 
   void

@@ -144,7 +144,8 @@ namespace Morula
             throw InputError("--resume",
                              path,
                              "a snapshot that can be read",
-                             "There is none: start the run without --resume.");
+                             "There is none: start the run without --resume, "
+                             "and with --replace if there are files of it.");
           case SealState::plain_hdf5:
             refuse_snapshot(path,
                             "a snapshot that begins with a digest (this is the "

@@ -23,6 +23,21 @@ namespace
         write(directory / name, "old");
     });
   }
+
+  /** What is said when a run is to go there; empty if it may. */
+  std::string
+  complaint(const std::string &directory, const ComingRun &run)
+  {
+    try
+      {
+        prepare_directory(directory, run, MPI_COMM_WORLD);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
 } // namespace
 
 TEST(Directory, NumbersFiles)
@@ -61,16 +76,22 @@ TEST(Directory, LosesTheOldRunAndNothingElse)
   all.insert(all.end(), strangers.begin(), strangers.end());
   fill(directory, all);
   on_root(MPI_COMM_WORLD, [&]() {
+    write(directory / "statistics.csv", "step,time,dt,cells,total_volume\n");
     std::filesystem::create_directory(directory / "cells-0007.vtu");
   });
 
-  prepare_directory(directory / "", "set A = 1\n", {}, MPI_COMM_WORLD);
+  prepare_directory(directory / "",
+                    {"a.prm", "set A = 1\n", {}, true},
+                    MPI_COMM_WORLD);
   Names left = strangers;
   left.push_back("cells-0007.vtu"); // a directory is not ours
   left.push_back("parameters.prm");
   std::sort(left.begin(), left.end());
   EXPECT_EQ(directory.files(), left);
-  EXPECT_EQ(content(directory / "parameters.prm"), "set A = 1\n");
+  const std::string written = content(directory / "parameters.prm");
+  EXPECT_EQ(written.substr(0, 18), "# A run of Morula ");
+  EXPECT_EQ(written.substr(written.size() - 33),
+            "\n# state: not finished\nset A = 1\n");
 }
 
 TEST(Directory, IsCreated)
@@ -79,7 +100,7 @@ TEST(Directory, IsCreated)
   check_directory(directory / "a/b/");
   EXPECT_FALSE(std::filesystem::exists(directory / "a"));
   MPI_Barrier(MPI_COMM_WORLD);
-  prepare_directory(directory / "a/b/", "", {}, MPI_COMM_WORLD);
+  prepare_directory(directory / "a/b/", {}, MPI_COMM_WORLD);
   EXPECT_TRUE(std::filesystem::exists(directory / "a/b/parameters.prm"));
 }
 
@@ -90,7 +111,7 @@ TEST(Directory, MustBeOne)
   EXPECT_THROW(check_directory(""), InputError);
   EXPECT_THROW(check_directory(directory / "file"), InputError);
   EXPECT_THROW(check_directory(directory / "file/below"), InputError);
-  EXPECT_THROW(prepare_directory(directory / "file", "", {}, MPI_COMM_WORLD),
+  EXPECT_THROW(prepare_directory(directory / "file", {}, MPI_COMM_WORLD),
                InputError);
   EXPECT_EQ(content(directory / "file"), "old");
   EXPECT_THROW(check_directory("/proc/sys/none"), InputError);
@@ -99,14 +120,83 @@ TEST(Directory, MustBeOne)
 TEST(Directory, DoesNotLoseTheInputOfTheNewRun)
 {
   const ScratchDirectory directory;
-  fill(directory, {"cells-0003.csv", "log.txt"});
-  EXPECT_THROW(prepare_directory(directory / "",
-                                 "",
-                                 {directory / "../nothing",
-                                  directory / "./cells-0003.csv"},
-                                 MPI_COMM_WORLD),
-               InputError);
-  EXPECT_EQ(directory.files(), (Names{"cells-0003.csv", "log.txt"}));
+  fill(directory, {"cells-0003.csv", "log.txt", "parameters.prm"});
+  on_root(MPI_COMM_WORLD, [&]() {
+    write(directory / "statistics.csv", "step,time,dt,cells,total_volume\n");
+  });
+  const ComingRun run = {"a.prm",
+                         "",
+                         {directory / "../nothing",
+                          directory / "./cells-0003.csv"},
+                         true};
+  EXPECT_NE(complaint(directory / "", run).find("the scene reads '"),
+            std::string::npos);
+  EXPECT_EQ(
+    directory.files(),
+    (Names{"cells-0003.csv", "log.txt", "parameters.prm", "statistics.csv"}));
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST(Directory, KeepsRunsThatWouldBeLost)
+{
+  const ScratchDirectory directory;
+  const ComingRun        a   = {directory / "a.prm", "set A = 1\n", {}, false};
+  const ComingRun        b   = {directory / "b.prm", "set A = 2\n", {}, false};
+  const std::string      run = directory / "run";
+
+  const auto refused = [&](const ComingRun &coming) {
+    const std::string said = complaint(run, coming);
+    MPI_Barrier(MPI_COMM_WORLD);
+    return said;
+  };
+  const auto says = [&](const ComingRun &coming, const std::string &part) {
+    const std::string said = refused(coming);
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  EXPECT_EQ(refused(a), "");
+  says(a, "there is one that is not finished");
+  note_finished(run, a, 3599., MPI_COMM_WORLD);
+  says(b, "of another scene, '../a.prm'");
+  EXPECT_EQ(refused(a), "");
+
+  // from its own keys it is a run of the same scene
+  note_finished(run, a, 1., MPI_COMM_WORLD);
+  EXPECT_EQ(refused({run + "/parameters.prm", "", {}, false}), "");
+  note_finished(run, a, 1., MPI_COMM_WORLD);
+  says(b, "of another scene, '../a.prm'");
+  EXPECT_EQ(refused(a), "");
+
+  note_finished(run, a, 7265., MPI_COMM_WORLD);
+  says(a, "that took 2 h 01 min");
+  ComingRun replacing = b;
+  replacing.replace   = true;
+  EXPECT_EQ(refused(replacing), "");
+  says(a, "of another scene, '../b.prm'");
+
+  on_root(MPI_COMM_WORLD, [&]() {
+    write(run + "/parameters.prm", "set A = 1\n");
+    write(run + "/statistics.csv", "step,time,dt,cells,total_volume\n");
+  });
+  says(a, "that does not say of which scene it is");
+
+  // somebody's own files
+  on_root(MPI_COMM_WORLD,
+          [&]() { write(run + "/statistics.csv", "country,people\n"); });
+  for (const ComingRun &coming : {a, replacing})
+    says(coming, "', but no parameters.prm of such a run)");
+
+  // files of these names without a run
+  on_root(MPI_COMM_WORLD, [&]() {
+    std::filesystem::remove(run + "/parameters.prm");
+    std::filesystem::remove(run + "/statistics.csv");
+    write(run + "/parameters.prm.tmp", "# A r");
+  });
+  EXPECT_EQ(refused(a), "");
+  on_root(MPI_COMM_WORLD, [&]() {
+    std::filesystem::remove(run + "/parameters.prm");
+    write(run + "/cells-0001.csv", "x,y,z\n");
+  });
+  says(replacing, "there is 'cells-0001.csv', but no parameters.prm");
 }
 
 TEST(Directory, LosesWhatCameAfterTheSnapshot)
@@ -119,11 +209,15 @@ TEST(Directory, LosesWhatCameAfterTheSnapshot)
         "parameters.prm",
         "statistics.csv",
         "snapshot.h5"});
-  prepare_resume(directory / "", "new", 5, MPI_COMM_WORLD);
+  prepare_resume(directory / "",
+                 {"a.prm", "new", {}, false},
+                 5,
+                 MPI_COMM_WORLD);
   EXPECT_EQ(directory.files(),
             (Names{"cells-0004.vtu",
                    "parameters.prm",
                    "snapshot.h5",
                    "statistics.csv"}));
-  EXPECT_EQ(content(directory / "parameters.prm"), "new");
+  const std::string written = content(directory / "parameters.prm");
+  EXPECT_NE(written.find("# state: not finished\nnew"), std::string::npos);
 }

@@ -37,7 +37,7 @@ ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv",
 
 # The keys of the contract with their defaults.
 DEFAULTS = {
-    "Dimension": "3", "Output directory": "output", "Random seed": "1",
+    "Dimension": "3", "Output directory": "", "Random seed": "1",
     "Time/End time": "1", "Time/Step": "0.05", "Time/Smallest step": "1e-4",
     "Time/Stop at cells": "0", "Tissue/Shape": "sphere",
     "Tissue/Center": "0, 0, 0", "Tissue/Radius": "250",
@@ -250,8 +250,8 @@ class Contract(ProgramTest):
 
     def test_information(self):
         help_text = self.run_words([self.options.morula, "--help"]).stdout
-        for option in ("-s", "--resume", "--explain", "--parameters",
-                       "--version"):
+        for option in ("-s", "--resume", "--replace", "--explain",
+                       "--parameters", "--version"):
             self.assertIn(option, help_text)
         version = self.run_words([self.options.morula, "--version"]).stdout
         self.assertRegex(version, r"^Morula \d+\.\d+\.\d+")

@@ -111,7 +111,8 @@ class Killed(ProgramTest):
                 INTERVAL + STEP)
         else:
             self.assert_little_lost(output)
-        self.execute(SCENE, *FINE, *arguments, *([] if anew else ["--resume"]),
+        self.execute(SCENE, *FINE, *arguments,
+                     "--replace" if anew else "--resume",
                      output=output, ranks=ranks)
         self.assertEqual(list(output.glob("*.tmp")), [])
 

@@ -144,7 +144,8 @@ class Runner:
         overrides = [*run.overrides, ("Output directory", record.output)]
         words = self.scene.program.command(self.scene.path, overrides,
                                            self.ranks)
-        words += ["--resume"] if resumed else []
+        # The directory is this object's own.
+        words += ["--resume" if resumed else "--replace"]
         cost = record.directory / "cost.json"
         cost.unlink(missing_ok=True)
         with self._guard:

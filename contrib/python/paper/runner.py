@@ -64,8 +64,9 @@ class Runner:
         finished run is left as it is: the program itself sees that."""
         start = time.monotonic()
         there = (self.directory(scene) / "snapshot.h5").exists()
-        resume = ["--resume"] if there and not self.fresh else []
-        failure = self.execute(scene, scene, *resume)
+        resume = there and not self.fresh
+        failure = self.execute(scene, scene,
+                               "--resume" if resume else "--replace")
         for file in CONTINUED.get(scene, []):
             failure = failure or self.execute(scene, file, "--resume")
         if failure and self.stopped:

@@ -63,7 +63,8 @@ namespace Morula
     /**
      * Appends rank 0's @p rows, complete lines; they have left the program on
      * return.
-     * @throws std::runtime_error with path and reason
+     * @throws std::runtime_error with path and reason, also if somebody has
+     *   deleted the file
      */
     void
     append(const std::string &rows);

@@ -10,6 +10,10 @@
 
 namespace Morula
 {
+  /** Whether the file that is open as @p descriptor is the one at the path. */
+  bool
+  is_open_at(const int descriptor, const std::string &path);
+
   /**
    * A file open for writing. Unlike a std::ofstream it says why something
    * failed, and can be forced to the disk. Every error is thrown as
@@ -50,6 +54,13 @@ namespace Morula
     /** Returns when the content is on the disk. */
     void
     sync();
+
+    /**
+     * Notices that somebody has deleted the file, or put another one in its
+     * place: what is written here is lost then.
+     */
+    void
+    check_in_place() const;
 
     /** Ends the work on the file. */
     void

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/input_error.h>
+#include <morula/output/agreement.h>
+#include <morula/output/directory.h>
+#include <morula/output/posix_file.h>
+#include <morula/output/run_lock.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Another process may only be looking, or be about to write its name.
+    constexpr unsigned int              n_attempts = 20;
+    constexpr std::chrono::milliseconds pause(10);
+
+    std::string
+    lock_file(const std::string &directory)
+    {
+      return directory + "/morula.lock";
+    }
+
+    /** What the holder has written, in characters that can be printed. */
+    std::string
+    holder(const std::string &path)
+    {
+      std::ifstream in(path);
+      std::string   line;
+      std::getline(in, line);
+      line.resize(std::min<std::size_t>(line.size(), 200));
+      for (char &c : line)
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+          c = '?';
+      return line.empty() ? "a process that has not said its name" : line;
+    }
+
+    /** With the error of the system. */
+    [[noreturn]] void
+    refuse_to_write(const std::string &directory)
+    {
+      throw InputError("Output directory",
+                       directory,
+                       std::string("a directory in which 'morula.lock' can be "
+                                   "written (") +
+                         std::strerror(errno) + ")",
+                       "Choose another one, or change its permissions.");
+    }
+
+    bool
+    sign(const int descriptor)
+    {
+      const std::string name = "process " + std::to_string(::getpid()) +
+                               " on " + Utilities::System::get_hostname() +
+                               '\n';
+      return ::ftruncate(descriptor, 0) == 0 &&
+             ::pwrite(descriptor, name.data(), name.size(), 0) > 0;
+    }
+
+    [[noreturn]] void
+    refuse(const std::string &directory)
+    {
+      throw InputError("Output directory",
+                       directory,
+                       "a directory in which no other run is at work (there is "
+                       "one: " +
+                         holder(lock_file(directory)) + ")",
+                       "Wait for its end, or stop it there: after 'kill -USR1' "
+                       "it saves its state. Or choose another directory.");
+    }
+  } // namespace
+
+  RunLock::RunLock(const std::string &directory, const MPI_Comm comm)
+    : path(lock_file(directory))
+  {
+    on_root(comm, [&]() {
+      create_directory(directory);
+      take(directory);
+    });
+    complaint_ = Utilities::MPI::broadcast(comm, complaint_);
+  }
+
+  void
+  RunLock::take(const std::string &directory)
+  {
+    for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
+      {
+        descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor < 0)
+          refuse_to_write(directory);
+        const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+        const int  reason = errno;
+        // Who held it before may have removed the file meanwhile.
+        if (locked && is_open_at(descriptor, path))
+          {
+            if (!sign(descriptor))
+              refuse_to_write(directory);
+            return;
+          }
+        ::close(std::exchange(descriptor, -1));
+        if (locked)
+          continue;
+        if (reason != EWOULDBLOCK)
+          {
+            complaint_ = std::string("This file system knows no locks (") +
+                         std::strerror(reason) +
+                         "): nothing keeps another run out of '" + directory +
+                         "'.";
+            std::remove(path.c_str());
+            return;
+          }
+        std::this_thread::sleep_for(pause);
+      }
+    refuse(directory);
+  }
+
+  RunLock::~RunLock()
+  {
+    if (descriptor < 0)
+      return;
+    // before the lock goes: nobody else can have it until then
+    if (is_open_at(descriptor, path))
+      std::remove(path.c_str());
+    ::close(descriptor);
+  }
+
+  void
+  RunLock::check_free(const std::string &directory)
+  {
+    const int descriptor =
+      ::open(lock_file(directory).c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      return;
+    const bool held =
+      ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(descriptor);
+    if (held)
+      refuse(directory);
+  }
+} // namespace Morula

@@ -261,6 +261,25 @@ TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
 }
 
 
+TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
+{
+  Scene scene                               = good_scene();
+  scene.boundary_conditions.nitsche_form    = "unsymmetric";
+  scene.boundary_conditions.nitsche_penalty = 20.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty()); // there is a free surface
+  scene.boundary_conditions.fixed_where = "1";
+  expect_warning(scene,
+                 {"Nitsche penalty = '20 E/h'",
+                  "all of the surface is fixed",
+                  "9 % low",
+                  "Method = paper"});
+  scene.boundary_conditions.nitsche_penalty = 1000.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.boundary_conditions.nitsche_form = "symmetric";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
 TEST(SceneWarnings, OfAMethodThatChangesNothing)
 {
   Scene scene                                          = good_scene();

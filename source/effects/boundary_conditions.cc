@@ -10,9 +10,9 @@ namespace Morula
 {
   namespace
   {
-    /** Least penalties that keep Nitsche's symmetric form definite, in units of
-     *  (λ + 2μ)/h, and of the stiffness of squeezed tissue by h:
-     *  doc/theory.md (4.6). */
+    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
+     *  (λ + 2μ)/h, and what is added for squeezed tissue, in units of the
+     *  stiffness beyond that at rest by h: doc/theory.md (4.6). */
     constexpr double least_penalty = 20., squeezed_penalty = 100.;
 
     std::optional<Expression>
@@ -130,7 +130,8 @@ namespace Morula
     const double at_rest = lame.lambda + 2. * lame.mu;
     const double least =
       form == NitscheForm::symmetric ?
-        std::max(least_penalty * at_rest, squeezed_penalty * stiffness) :
+        least_penalty * at_rest +
+          squeezed_penalty * std::max(0., stiffness - at_rest) :
         0.;
     return std::max(relative_penalty * E, least) / h;
   }

@@ -33,7 +33,8 @@ TEST(IsotropicGrowth, FollowsTheExpressionInSpaceAndTime)
 TEST(IsotropicGrowth, HasNoZInThePlane)
 {
   EXPECT_DOUBLE_EQ(growth<2>("1 + Y + X").stretch(Point<2>(2., 3.), 1.), 6.);
-  EXPECT_THROW(growth<2>("1 + Z + X"), InputError);
+  EXPECT_THROW(growth<2>("1 + Z + X").stretch(Point<2>(2., 3.), 1.),
+               InputError);
 }
 
 

@@ -5,6 +5,7 @@
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
 #include <morula/particles/boundary_state.h>
+#include <morula/particles/cell_domain.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene_checks.h>
 #include <morula/scene_limits.h>
@@ -306,7 +307,8 @@ namespace Morula
         const auto cell = tissue.cell(particle);
         sums.add_cell(quantities(cell), particle->get_location());
         held += is_held(cell);
-        longest.add(tissue.domain(particle));
+        longest.add(
+          cell_domain(particle->get_location(), tissue.cell(particle)));
       }
     for (const auto &point : tissue.boundary_points().order())
       sums.add_boundary_point(point->get_location());
@@ -359,8 +361,8 @@ namespace Morula
          << CellLengths::fewest
          << " cells fill Grid/Spacing = " << scene.grid.spacing
          << " um where the tissue is stretched: " << row.lengths.n_too_long
-         << " cells are too long, the longest, at (" << place[0] << ' '
-         << place[1];
+         << (row.lengths.n_too_long == 1 ? " cell is" : " cells are")
+         << " too long, the longest, at (" << place[0] << ' ' << place[1];
     if (dim == 3)
       text << ' ' << place[2];
     text << ") um, " << scene.grid.spacing / row.lengths.min_cells_per_spacing

@@ -271,7 +271,10 @@ namespace Morula
   ParticleDomain<dim>
   Tissue<dim>::domain(const typename PointStore<dim>::Iterator &particle) const
   {
-    return cell_domain(particle->get_location(), cell(particle));
+    const auto state = cell(particle);
+    return parameters.points_per_cell > 1 ?
+             cell_domain(particle->get_location(), state) :
+             ParticleDomain<dim>(particle->get_location(), volume(state));
   }
 
   template <int dim>

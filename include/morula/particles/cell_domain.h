@@ -11,7 +11,7 @@ namespace Morula
 {
   /**
    * The box of volume V around a cell at @p x (µm), deformed as the cell is:
-   * doc/theory.md (2.2). Where cells proliferate, only their elastic
+   * doc/theory.md (2.2b). Where cells proliferate, only their elastic
    * deformation counts: a cell that grows to double length and divides leaves
    * two of the shape that it had, though F stays doubled.
    */

@@ -100,7 +100,8 @@ namespace Morula
     CellView<dim, const double>
     cell(const typename PointStore<dim>::Iterator &particle) const;
 
-    /** The box that a cell of this rank occupies. */
+    /** The box that a cell of this rank occupies: its cube, deformed where
+     *  cells have several points by the scene's wish, doc/theory.md (2.2b). */
     ParticleDomain<dim>
     domain(const typename PointStore<dim>::Iterator &particle) const;
 

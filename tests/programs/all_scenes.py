@@ -93,7 +93,8 @@ class AllScenes(ProgramTest):
                 keys = {**shortened(scene), **self.made(name)}
                 output = self.work / "output"
                 self.run_words(self.command(
-                    scene, *overrides({**keys, "Output directory": output})),
+                    scene, "--replace",
+                    *overrides({**keys, "Output directory": output})),
                     cwd=ROOT)
                 rows = read_csv(output / "statistics.csv")
                 self.assertEqual(rows["time"][-1], float(keys["Time/End time"]))

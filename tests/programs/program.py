@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Runs of the program for tests that take several of them."""
 import argparse
+import csv
 import os
 import shlex
 import shutil
@@ -18,6 +19,15 @@ sys.path[:0] = [str(SCENES / "checks"), str(TESTS / "common")]
 # flake8: noqa: E402, F401 (also for the tests that import them)
 from processes import overrides
 from results import read_csv
+
+
+def without_wall_time(run):
+    """The rows of a run's statistics.csv without the column that differs from
+    one run to the next."""
+    with open(run / "statistics.csv", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    column = rows[0].index("wall_seconds")
+    return [row[:column] + row[column + 1:] for row in rows]
 
 
 class ProgramTest(unittest.TestCase):

@@ -12,7 +12,8 @@ namespace Morula
   /**
    * A text of the user's as messages show it: the beginning of a long one
    * (without the second half of a character of several bytes), and what cannot
-   * be printed as \x00, since a null byte would end the message.
+   * be printed as its hexadecimal code, since a null byte would end the
+   * message.
    */
   std::string
   shown(const std::string &text);

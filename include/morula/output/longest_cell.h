@@ -36,6 +36,7 @@ namespace Morula
     /** @param h grid spacing, µm */
     explicit LongestCell(const double h);
 
+    /** Counts a cell of this rank. */
     void
     add(const ParticleDomain<dim> &cell);
 

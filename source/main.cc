@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program.h>
+#include <morula/program/program.h>
 
 int
 main(int argc, char *argv[])

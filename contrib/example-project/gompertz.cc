@@ -15,9 +15,9 @@
 // law, and a main() that adds it to the library's own. Everything else is
 // Morula.
 
-#include <morula/expression.h>
-#include <morula/input_error.h>
-#include <morula/program.h>
+#include <morula/base/expression.h>
+#include <morula/base/input_error.h>
+#include <morula/program/program.h>
 
 #include <deal.II/base/patterns.h>
 

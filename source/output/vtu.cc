@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/agreement.h>
+#include <morula/base/agreement.h>
 #include <morula/output/atomic_file.h>
 #include <morula/output/gather.h>
 #include <morula/output/vtu.h>

@@ -14,9 +14,9 @@
 // The rooms of the library that this program visits: `particles` for the cells
 // that fill the disc, `grid` for the splines around them. There is no mechanics
 // here. The scene is read and checked by `program` as in every other program.
-#include <morula/particles/seeding.h>
+#include <morula/seeding/seeding.h>
 #include <morula/particles/tissue.h>
-#include <morula/program.h>
+#include <morula/program/program.h>
 
 #include <deal.II/base/convergence_table.h>
 #include <deal.II/base/mpi.h>

@@ -12,11 +12,11 @@
 //
 //   build/step-2 prm/step-2.prm
 
-#include <morula/expression.h>
+#include <morula/base/expression.h>
 #include <morula/mechanics/material.h>
 #include <morula/particles/boundary_state.h>
-#include <morula/program.h>
-#include <morula/simulation.h>
+#include <morula/program/program.h>
+#include <morula/simulation/simulation.h>
 
 #include <deal.II/base/convergence_table.h>
 #include <deal.II/base/mpi.h>

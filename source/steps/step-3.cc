@@ -12,8 +12,8 @@
 //
 //   build/step-3 prm/step-3.prm
 
-#include <morula/program.h>
-#include <morula/simulation.h>
+#include <morula/program/program.h>
+#include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/table_handler.h>

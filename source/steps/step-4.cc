@@ -12,10 +12,10 @@
 //
 //   build/step-4 prm/step-4.prm
 
-#include <morula/expression.h>
-#include <morula/input_error.h>
-#include <morula/program.h>
-#include <morula/simulation.h>
+#include <morula/base/expression.h>
+#include <morula/base/input_error.h>
+#include <morula/program/program.h>
+#include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/table_handler.h>

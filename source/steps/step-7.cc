@@ -12,9 +12,9 @@
 //
 //   build/step-7 prm/step-7.prm
 
-#include <morula/expression.h>
-#include <morula/input_error.h>
-#include <morula/program.h>
+#include <morula/base/expression.h>
+#include <morula/base/input_error.h>
+#include <morula/program/program.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/symmetric_tensor.h>

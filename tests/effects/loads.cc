@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/dead_load.h>
-#include <morula/effects/following_pressure.h>
+#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/following_pressure.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "../finite_differences.h"
+#include "common/finite_differences.h"
 
 using namespace Morula;
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 namespace Morula
 {

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 using namespace Morula;
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 using namespace Morula;
 

@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 using namespace Morula;
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "../finite_differences.h"
+#include "common/finite_differences.h"
 
 using namespace Morula;
 

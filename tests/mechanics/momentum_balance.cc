@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/following_pressure.h>
-#include <morula/effects/nitsche.h>
+#include <morula/effects/surface/following_pressure.h>
+#include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/momentum_balance.h>
@@ -15,8 +15,8 @@
 #include <random>
 #include <vector>
 
-#include "../body_on_grid.h"
-#include "linear_problem.h"
+#include "common/body_on_grid.h"
+#include "common/linear_problem.h"
 
 using namespace Morula;
 

@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 using namespace Morula;
 

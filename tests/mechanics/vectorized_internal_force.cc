@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "../finite_differences.h"
+#include "common/finite_differences.h"
 
 using namespace Morula;
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/input_error.h>
+#include <morula/base/input_error.h>
 #include <morula/output/lineage.h>
 #include <morula/output/statistics.h>
 
 #include <gtest/gtest.h>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/input_error.h>
+#include <morula/base/input_error.h>
 #include <morula/output/atomic_file.h>
 
 #include <gtest/gtest.h>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

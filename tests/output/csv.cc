@@ -12,7 +12,7 @@
 #include <limits>
 #include <random>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

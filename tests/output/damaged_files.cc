@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/input_error.h>
+#include <morula/base/input_error.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/statistics.h>
@@ -13,7 +13,7 @@
 #include <random>
 #include <set>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <thread>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/input_error.h>
+#include <morula/base/input_error.h>
 #include <morula/output/run_lock.h>
 
 #include <deal.II/base/utilities.h>
@@ -16,7 +16,7 @@
 #include <cerrno>
 #include <memory>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

@@ -4,7 +4,7 @@
 #ifndef morula_tests_output_scratch_directory_h
 #define morula_tests_output_scratch_directory_h
 
-#include <morula/output/agreement.h>
+#include <morula/base/agreement.h>
 
 #include <deal.II/base/mpi.h>
 

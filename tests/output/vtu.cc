@@ -13,7 +13,7 @@
 #include <map>
 #include <sstream>
 
-#include "scratch_directory.h"
+#include "output/scratch_directory.h"
 
 using namespace Morula;
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "random_points.h"
+#include "particles/random_points.h"
 
 using namespace Morula;
 

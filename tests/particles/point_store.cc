@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-#include "random_points.h"
+#include "particles/random_points.h"
 
 using namespace Morula;
 

@@ -16,7 +16,7 @@
 #include <random>
 #include <vector>
 
-#include "../body_on_grid.h"
+#include "common/body_on_grid.h"
 
 namespace Morula
 {

@@ -9,8 +9,8 @@
 
 #include <cmath>
 
-#include "../body_on_grid.h"
-#include "random_points.h"
+#include "common/body_on_grid.h"
+#include "particles/random_points.h"
 
 using namespace Morula;
 

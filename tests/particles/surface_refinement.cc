@@ -11,7 +11,7 @@
 #include <map>
 #include <random>
 
-#include "random_points.h"
+#include "particles/random_points.h"
 
 using namespace Morula;
 

@@ -8,7 +8,7 @@
 
 #include <random>
 
-#include "random_points.h"
+#include "particles/random_points.h"
 
 using namespace Morula;
 

@@ -3,7 +3,7 @@
 """Mistakes in what the user asked for."""
 
 
-# Of a text that messages show; source/input_error.cc does the same.
+# Of a text that messages show; source/base/input_error.cc does the same.
 LONGEST = 400
 
 

@@ -4,7 +4,7 @@
 #ifndef morula_mechanics_tissue_material_h
 #define morula_mechanics_tissue_material_h
 
-#include <morula/expression.h>
+#include <morula/base/expression.h>
 #include <morula/mechanics/material.h>
 
 namespace Morula

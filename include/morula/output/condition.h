@@ -4,7 +4,7 @@
 #ifndef morula_output_condition_h
 #define morula_output_condition_h
 
-#include <morula/mechanics/condition_estimate.h>
+#include <morula/solver/condition_estimate.h>
 #include <morula/output/appended_csv.h>
 
 namespace Morula

@@ -5,7 +5,7 @@
 #include <morula/effects/division/numbering.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/voronoi/wall_distance.h>
+#include <morula/effects/division/wall_distance.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/growth/isotropic.h>
-#include <morula/input_error.h>
+#include <morula/base/input_error.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-#include "../small_tissue.h"
+#include "effects/small_tissue.h"
 
 using namespace Morula;
 

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "../small_tissue.h"
+#include "effects/small_tissue.h"
 
 using namespace Morula;
 

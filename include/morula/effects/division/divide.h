@@ -4,7 +4,7 @@
 #ifndef morula_effects_division_divide_h
 #define morula_effects_division_divide_h
 
-#include <morula/effects/proliferation/cell_cycle.h>
+#include <morula/effects/fate/cell_cycle.h>
 #include <morula/particles/birth.h>
 #include <morula/particles/tissue.h>
 

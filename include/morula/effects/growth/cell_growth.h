@@ -6,7 +6,7 @@
 
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/growth/growth_law.h>
-#include <morula/effects/proliferation/cell_cycle.h>
+#include <morula/effects/fate/cell_cycle.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>

@@ -5,7 +5,7 @@
 #define morula_effects_growth_isotropic_h
 
 #include <morula/effects/growth/growth_law.h>
-#include <morula/expression.h>
+#include <morula/base/expression.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_agreement_h
+#define morula_base_agreement_h
+
+#include <mpi.h>
+
+#include <functional>
+
+namespace Morula
+{
+  /**
+   * Runs @p action on every rank. If it throws on any of them, every rank
+   * throws, with the message of the lowest rank that failed, so that no rank
+   * waits for another one that is gone. The action must not communicate.
+   * Collective.
+   * @throws InputError if that was what the lowest failing rank threw
+   * @throws std::runtime_error for every other exception
+   */
+  void
+  everywhere(const MPI_Comm comm, const std::function<void()> &action);
+
+  /** The same for an action that only rank 0 runs. */
+  void
+  on_root(const MPI_Comm comm, const std::function<void()> &action);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_parameter_file_h
+#define morula_base_parameter_file_h
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** A statement of a .prm file: 'set' or 'subsection'. */
+  struct Statement
+  {
+    enum Kind
+    {
+      set,
+      section
+    };
+
+    Kind        kind;
+    std::string path;  // full path of the key or section, separated by '/'
+    std::string value; // of the key
+    std::string place; // where it stands, "file:line: "
+    // where the subsections around it begin, "file:line", the outermost first
+    std::vector<std::string> around = {};
+  };
+
+  /**
+   * The statements of a .prm file, with the full path of every key, which the
+   * messages of deal.II's ParameterHandler lack. The grammar is its own: set,
+   * subsection ... end, include, comments from '#' on, '\' at the end of a line
+   * that goes on. A file named by include is looked for in the working
+   * directory, then next to the file that includes it.
+   * @throws InputError for a file that cannot be read, a line that is no
+   *         statement, subsections that are not closed (with the line where
+   *         the first of them begins) or not open
+   */
+  std::vector<Statement>
+  read_statements(const std::string &file);
+
+  /** The same from a stream; @p name stands in the messages. */
+  std::vector<Statement>
+  read_statements(std::istream &input, const std::string &name);
+
+  /**
+   * The statement of a command line's "Section/Key=value".
+   * @throws InputError without a '='
+   */
+  Statement
+  read_override(const std::string &text);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_unit_vector_h
+#define morula_base_unit_vector_h
+
+#include <deal.II/base/tensor.h>
+
+#include <string>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * The unit vector along a direction that a key gives as text, two or three
+   * numbers separated by ',' or ';'. In 2-D the first two count.
+   * @param key full path of the key, for error messages
+   * @throws InputError if it is no vector or has no length
+   */
+  template <int dim>
+  Tensor<1, dim>
+  unit_vector(const std::string &key, const std::string &text);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_cell_cycle_h
+#define morula_effects_fate_cell_cycle_h
+
+#include <morula/base/expression.h>
+#include <morula/particles/cell_state.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Proliferation/Cell cycle". */
+  struct CellCycleParameters
+  {
+    std::string         start                 = "waiting";
+    std::string         duration              = "1";
+    std::string         exit_rate             = "1";
+    std::string         size_checkpoint       = "0";
+    std::string         where                 = "1";
+    std::string         division_axis         = "random";
+    std::vector<double> fixed_axis            = {0., 0., 1.};
+    bool                axis_follows_rotation = false;
+
+    /** @param more_axes further values of Division axis, "|name|name": these
+     *         draw an axis as 'random' does, for a DivisionRule to use */
+    void
+    declare(ParameterHandler &prm, const std::string &more_axes = "");
+  };
+
+  /** Where a cell stands in its cycle. S and G2 differ by the clock alone. */
+  enum class CyclePhase
+  {
+    waiting = 0, // G0, or held at the size checkpoint
+    growing = 1, // S and G2: from the onset to the division
+    divided = 4, // G1: from the division to the end of the cycle
+    never   = 9  // does not proliferate
+  };
+
+  /** The clock of one cell. */
+  template <int dim>
+  struct CycleState
+  {
+    CyclePhase     phase      = CyclePhase::never;
+    double         event_time = 0.; // day: end of the G0 wait, or onset of S
+    std::uint64_t  key        = 0;  // of the random numbers, from the lineage
+    Tensor<1, dim> axis;            // n_s of the running cycle
+    Tensor<2, dim> growth_pre;      // F_g,cycle before the onset of S
+
+    /** Reads the state from a cell's slots. */
+    template <typename Number>
+    static CycleState
+    load(const CellView<dim, Number> &cell);
+
+    /** Writes the state to a cell's slots. */
+    void
+    store(const CellView<dim, double> &cell) const;
+  };
+
+  /**
+   * The cell cycle of section 2.3 of the paper: an exponential wait in G0, then
+   * S, G2, M, G1 of fixed total duration T with unidirectional growth (15) and
+   * division at T/2, and the size checkpoint of section 3.2. A pure function of
+   * a cell's state: it keeps nothing.
+   *
+   * All events have exact times, whatever the steps. A wait that ends in
+   * (t0, t1] starts S at its exact time if J_e(t0) > J_th; otherwise the cell
+   * is held, and starts S at the first later step start t0 with J_e(t0) > J_th.
+   * As J_th goes to zero this becomes no checkpoint. Each cell draws at most
+   * one wait and one axis, from its own key.
+   *
+   * Expressions are evaluated at the founder's initial position @p X, passed
+   * to every call, at t = 0.
+   */
+  template <int dim>
+  class CellCycle
+  {
+  public:
+    /**
+     * @param seed  random seed of the scene
+     * @param slack times closer than this count as equal, day
+     * @throws InputError
+     */
+    CellCycle(const CellCycleParameters &parameters,
+              const std::uint64_t        seed,
+              const double               slack);
+
+    /**
+     * Refuses a time step too long for the cycle (above T/2 for the smallest T
+     * of those of these founders that proliferate: a cell could divide twice in
+     * a step), T <= 0, negative rates, negative thresholds of the checkpoint.
+     * Not collective: ranks that pass different founders may disagree.
+     * @throws InputError
+     */
+    void
+    check(const std::vector<Point<dim>> &founders, const double step) const;
+
+    /**
+     * State at t = 0 of founder number @p id at @p X. With Start = together, a
+     * cell that does not pass the size checkpoint at rest (J_th >= 1) is held.
+     */
+    CycleState<dim>
+    founder(const types::particle_index id, const Point<dim> &X) const;
+
+    /**
+     * The state at @p t1 of a cell that is in @p state at @p t0 and does not
+     * divide in between: a cell whose division falls into (t0, t1] stays
+     * `growing`; divides() tells, and daughters() follows.
+     * @param J_e elastic volume ratio at @p t0, for the size checkpoint
+     */
+    CycleState<dim>
+    advance(CycleState<dim>   state,
+            const Point<dim> &X,
+            const double      t0,
+            const double      t1,
+            const double      J_e) const;
+
+    /** Whether a cell in (advanced) @p state divides at or before @p t1. */
+    bool
+    divides(const CycleState<dim> &state,
+            const Point<dim>      &X,
+            const double           t1) const;
+
+    /** Exact time of the division of a `growing` cell, day. */
+    double
+    division_time(const CycleState<dim> &state, const Point<dim> &X) const;
+
+    /**
+     * F_g of the cycle at @p t, doc/theory.md (6.2), equation (15) of the
+     * paper: (I + (θ-1) n_s⊗n_s) F_g,pre, θ = 1 + (t - t_S)/T, the same before
+     * and after the division. @p t is within the cycle.
+     */
+    Tensor<2, dim>
+    growth(const CycleState<dim> &state,
+           const Point<dim>      &X,
+           const double           t) const;
+
+    /** The daughters' states, -n_s daughter first. */
+    std::pair<CycleState<dim>, CycleState<dim>>
+    daughters(const CycleState<dim> &mother) const;
+
+    /**
+     * Unit direction along which the daughters of a `growing` cell are placed:
+     * n_s, or F_e n_s normalised if the axis follows the rotation.
+     */
+    Tensor<1, dim>
+    placement_axis(const CycleState<dim> &state,
+                   const Tensor<2, dim>  &F_e) const;
+
+    /** Whether there is a size checkpoint at all. */
+    bool
+    has_checkpoint() const;
+
+    /** Whether the cell waits at @p t only because of the size checkpoint. */
+    bool
+    is_held(const CycleState<dim> &state,
+            const Point<dim>      &X,
+            const double           t,
+            const double           J_e) const;
+
+    /**
+     * Phase number of cells-NNNN.csv: 0 G0 or held; by the time since the onset
+     * 1 S [0, T/4), 2 G2 [T/4, T/2), 3 M at T/2, 4 G1 (T/2, T]; 9 never.
+     */
+    unsigned int
+    phase_number(const CycleState<dim> &state,
+                 const Point<dim>      &X,
+                 const double           t) const;
+
+  private:
+    /** Whether J_e is above the threshold, or there is none. */
+    bool
+    passes_checkpoint(const Point<dim> &X, const double J_e) const;
+
+    double
+    draw_wait(const std::uint64_t key, const Point<dim> &X) const;
+
+    Expression     duration, exit_rate, size_checkpoint, where;
+    bool           start_together;
+    bool           random_axis;
+    Tensor<1, dim> fixed_axis;
+    bool           axis_follows_rotation;
+    std::uint64_t  seed;
+    double         slack;
+  };
+} // namespace Morula
+
+#endif

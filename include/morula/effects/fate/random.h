@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_random_h
+#define morula_effects_fate_random_h
+
+#include <deal.II/base/tensor.h>
+
+#include <cstdint>
+
+/**
+ * Random numbers as pure functions of (seed, lineage key, draw), from the
+ * counter-based generator Philox 4x32-10 of Random123: no state to save, and
+ * the same for any number of ranks and any order of evaluation.
+ */
+namespace Morula::Random
+{
+  /** What a number is drawn for; every cell draws each at most once. */
+  enum class Draw : std::uint32_t
+  {
+    wait,
+    axis,
+    first_daughter,
+    second_daughter
+  };
+
+  /** Key of founder number @p id. */
+  std::uint64_t
+  founder_key(const std::uint64_t seed, const std::uint64_t id);
+
+  /** Key of a daughter: from its mother's key and which of the two it is. */
+  std::uint64_t
+  daughter_key(const std::uint64_t seed,
+               const std::uint64_t mother_key,
+               const Draw          which);
+
+  /** Exponentially distributed with @p rate (1/day); infinite for rate 0. */
+  double
+  exponential(const std::uint64_t seed,
+              const std::uint64_t key,
+              const double        rate);
+
+  /** Uniform on the unit sphere (2-D: circle). */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  direction(const std::uint64_t seed, const std::uint64_t key);
+} // namespace Morula::Random
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_boundary_terms_h
+#define morula_effects_surface_boundary_terms_h
+
+#include <morula/effects/surface/boundary_conditions.h>
+#include <morula/effects/growth/cell_growth.h>
+#include <morula/mechanics/held_motion.h>
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/term.h>
+#include <morula/mechanics/tissue_material.h>
+#include <morula/particles/tissue.h>
+
+#include <memory>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Nitsche's term for the fixed and slip points, over the step up to time
+   * @p t. Collective.
+   */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  nitsche_term(const BoundaryConditions<dim> &conditions,
+               const TissueMaterial          &material,
+               const Tissue<dim>             &tissue,
+               const SplineSpace<dim>        &space,
+               const GrowthOfStep<dim>       &growth,
+               const double                   t);
+
+  /** Dead traction on the loaded points at time @p t. */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  traction_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t);
+
+  /** Following pressure on the loaded points at time @p t. */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  pressure_term(const BoundaryConditions<dim> &conditions,
+                const Tissue<dim>             &tissue,
+                const SplineSpace<dim>        &space,
+                const double                   t);
+
+  /** The fixed and slip points of this rank. */
+  template <int dim>
+  std::vector<typename RigidModes<dim>::Support>
+  supports(const BoundaryConditions<dim> &conditions,
+           const Tissue<dim>             &tissue,
+           const SplineSpace<dim>        &space);
+
+  /** Where the fixed and slip points of this rank are held at @p t and at
+   *  @p t_next; at the start of the run (@p t = 0) nothing has moved yet, also
+   *  where the displacement has a value. */
+  template <int dim>
+  std::vector<HeldPoint<dim>>
+  held_points(const BoundaryConditions<dim> &conditions,
+              const Tissue<dim>             &tissue,
+              const double                   t,
+              const double                   t_next);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_nitsche_h
+#define morula_effects_surface_nitsche_h
+
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** How the traction stands in Nitsche's term: the signs of doc/theory.md
+   *  (4.4), (4.5). */
+  enum class NitscheForm
+  {
+    /** Derived from an energy; stable for large penalties. */
+    symmetric,
+    /** The traction's variation with the other sign: no energy, but stable for
+     *  any penalty. */
+    unsymmetric
+  };
+
+  /**
+   * Prescribed positions of boundary points by Nitsche's method in total-gap
+   * form, doc/theory.md (4.1), (4.2), (4.4):
+   *
+   *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
+   *
+   * with T multiplied by the point's trust; M = I at fixed points and N⊗N at
+   * slip points, and the nominal traction of the step's configuration T =
+   * (W/V_t) τ f⁻ᵀ n_t. The upper sign is that of the symmetric form, which has
+   * the energy Π = Σ a_t (β/2 g·g - T·g).
+   */
+  template <int dim>
+  class Nitsche : public Term<dim>
+  {
+  public:
+    /** How a boundary point is held. */
+    struct Condition
+    {
+      /** M. */
+      Tensor<2, dim> projection;
+      /** M (x_t - x̄), µm. */
+      Tensor<1, dim> gap;
+      /** max(|x_t|, |x̄|), µm: what the gap is a difference of. */
+      double position_scale;
+      /** n_t, unit outward normal of the configuration at t. */
+      Tensor<1, dim> normal;
+      /** a_t, µm^(dim-1). */
+      double area;
+      /** β, kPa/µm. */
+      double penalty;
+      /** Part of the traction that counts, 0 to 1: less than 1 where the point
+       *  has no cell near, so that its traction is extrapolated. */
+      double trust = 1.;
+      Lame   lame;
+    };
+
+    /**
+     * @param current  states with growth at t + dt
+     * @param previous states with growth at t; empty if nothing grows
+     */
+    Nitsche(const NitscheForm              form,
+            GroupedPoints<dim>             points,
+            std::vector<Condition>         conditions,
+            std::vector<ElasticState<dim>> current,
+            std::vector<ElasticState<dim>> previous);
+
+    void
+    add(const unsigned int     cell,
+        const LocalField<dim> &field,
+        const GrowthAt         growth,
+        LocalSystem<dim>      &system) const override;
+
+    bool
+    is_conservative() const override;
+
+  private:
+    const NitscheForm                    form;
+    const GroupedPoints<dim>             points;
+    const std::vector<Condition>         conditions;
+    const std::vector<ElasticState<dim>> current;
+    const std::vector<ElasticState<dim>> previous;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_program_command_line_h
+#define morula_program_command_line_h
+
+#include <morula/scene/catalogue.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** What the command line asks for. */
+  struct CommandLine
+  {
+    std::string scene_file;             // may be empty only with the last three
+    std::vector<std::string> overrides; // "Section/Key=value"
+    bool                     resume     = false;
+    bool                     replace    = false;
+    bool                     explain    = false;
+    bool                     parameters = false;
+    bool                     version    = false;
+    bool                     help       = false;
+
+    /**
+     * Parses the words of the command line, without the program's name.
+     * @throws InputError for unknown or contradictory words
+     */
+    static CommandLine
+    parse(const std::vector<std::string> &words);
+  };
+
+  /** Usage, options and exit codes. */
+  void
+  print_help(std::ostream &out);
+
+  /** Versions of Morula and deal.II. */
+  void
+  print_version(std::ostream &out);
+
+  /** Every key with meaning, unit, allowed values and default, as a .prm file.
+   */
+  void
+  print_parameters(std::ostream &out, const Catalogue &catalogue = Catalogue());
+} // namespace Morula
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_estimates_h
+#define morula_scene_estimates_h
+
+#include <morula/seeding/seeding.h>
+#include <morula/scene/size.h>
+
+namespace Morula
+{
+  /** What --explain tells of the size of a run. */
+  struct SizeEstimate
+  {
+    double cells             = 0.; // at the end
+    double unknowns_at_start = 0.; // as given
+    double unknowns          = 0.; // at the end
+    double memory            = 0.; // bytes
+    double seconds           = 0.; // of one core, all steps, without output
+    double steps             = 0.;
+  };
+
+  /**
+   * Estimates, rough ones of the time, fitted to the runs of doc/performance.md
+   * ("What --explain expects"). Collective; every rank gives its own founders.
+   * @param n_unknowns of the first step; 0: estimated, too
+   * @throws InputError, on some ranks only, where an expression has no value
+   */
+  template <int dim>
+  SizeEstimate
+  estimated_size(const Scene         &scene,
+                 const Founders<dim> &founders,
+                 const MPI_Comm       comm,
+                 const unsigned int   n_unknowns = 0);
+
+  /**
+   * Memory that a run of this size needs on all ranks together, bytes:
+   * particles and what is copied of them, matrix and preconditioner on the
+   * grid around a compact tissue. An estimate, right within a factor of about
+   * two (doc/performance.md, "What --explain expects").
+   */
+  double
+  estimated_memory(const Scene &scene, const SceneSize &size);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_explain_h
+#define morula_scene_explain_h
+
+#include <morula/scene/scene.h>
+
+#include <mpi.h>
+
+#include <functional>
+#include <iosfwd>
+
+namespace Morula
+{
+  /**
+   * Seeds the tissue, makes all checks, and prints on rank 0 what the scene
+   * will simulate: number of cells and boundary points, which effects are on
+   * and which are off, the slots that every particle carries, cells and memory
+   * to expect, also estimates of unknowns and time, and the warnings.
+   * Simulates nothing and writes no file. Collective.
+   * @param n_unknowns counts those of the first step; called when all checks
+   *                   are passed, collective
+   * @throws InputError
+   */
+  void
+  explain(const Scene                         &scene,
+          std::ostream                        &out,
+          const MPI_Comm                       comm,
+          const std::function<unsigned int()> &n_unknowns);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_size_h
+#define morula_scene_size_h
+
+#include <morula/scene/scene.h>
+
+#include <deal.II/base/point.h>
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** How large a scene is or becomes. */
+  struct SceneSize
+  {
+    double cells  = 0.;
+    double volume = 0.; // µm^dim, without stress
+    // of the box around the tissue; 0: not known, it is little for compact ones
+    double grid_cells = 0.;
+  };
+
+  /**
+   * Size at t = 0 from the shape and the cell spacing, before anything is
+   * seeded; 0 for shapes from files, whose size is not known yet.
+   */
+  SceneSize
+  initial_size(const Scene &scene);
+
+  /**
+   * Expected number of cells at time @p t, day, that descend from one which
+   * waits in G0 at t = 0, or enters S then if all start @p together: 1 + sum
+   * over k of 2^(k-1) times the probability that k waits, exponential with the
+   * rate @p Lambda, 1/day, and k - 1/2 cycles of duration @p T, day, fit in.
+   */
+  double
+  expected_cells(const double T,
+                 const double Lambda,
+                 const double t,
+                 const bool   together);
+
+  /**
+   * Expected size at End time of the descendants of @p founders, no more than
+   * twice 'Stop at cells'. With a size checkpoint, whose effect only
+   * the run can tell, the founders alone are counted: a lower bound.
+   * Collective; every rank gives its own founders.
+   * @throws InputError, on some ranks only, where an expression has no value
+   */
+  template <int dim>
+  SceneSize
+  expected_size(const Scene                   &scene,
+                const std::vector<Point<dim>> &founders,
+                const MPI_Comm                 comm);
+
+  /** Physical memory of all machines that run ranks, bytes. Collective. */
+  double
+  physical_memory(const MPI_Comm comm);
+
+  /**
+   * Refuses a scene that does not fit into memory. Collective.
+   * @throws InputError
+   */
+  void
+  check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

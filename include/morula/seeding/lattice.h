@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_lattice_h
+#define morula_seeding_lattice_h
+
+#include <morula/seeding/seeding.h>
+#include <morula/seeding/shape.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * The regular lattice of section 2.5 of the paper: sites at
+   * Center + offset + (i + 1/2) L_p for all integers i, for a box at
+   * Center - Size/2 + offset + (i + 1/2) L_p. Those around the shape's bounding
+   * box are numbered, x fastest, then y, then z.
+   */
+  template <int dim>
+  class Lattice
+  {
+  public:
+    /** @throws InputError if there are more sites than ids of cells */
+    Lattice(const TissueParameters &parameters, const BoundingBox<dim> &box);
+
+    std::uint64_t
+    n_sites() const;
+
+    /** µm; bitwise the same for any number of ranks. */
+    Point<dim>
+    position(std::uint64_t site) const;
+
+    /** L_p, µm. */
+    double
+    site_spacing() const;
+
+    /** The numbered ones of the 3^dim - 1 sites around it, ascending. */
+    std::vector<std::uint64_t>
+    neighbors(const std::uint64_t site) const;
+
+    /** Whether a cell sits there: inside by more than 1e-9 L_p. */
+    bool
+    is_occupied(const Shape<dim> &shape, const Point<dim> &position) const;
+
+  private:
+    Point<dim>                     origin;
+    double                         spacing;
+    std::array<std::int64_t, dim>  first;
+    std::array<std::uint64_t, dim> counts;
+  };
+
+  /** @throws InputError always: the lattice misses the shape */
+  [[noreturn]] void
+  throw_no_cell_fits(const TissueParameters &parameters);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_mesh_patches_h
+#define morula_seeding_mesh_patches_h
+
+#include <morula/seeding/shape.h>
+#include <morula/seeding/surface_mesh.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Outward normal times area, µm². */
+  Tensor<1, 3>
+  area_vector(const std::array<Point<3>, 3> &triangle);
+
+  /**
+   * Cuts a triangle into @p n_pieces triangles of equal area, halving the
+   * longest edge as nearly as that allows, and appends them to @p pieces.
+   */
+  void
+  cut_triangle(const std::array<Point<3>, 3>        &triangle,
+               const std::uint64_t                   n_pieces,
+               std::vector<std::array<Point<3>, 3>> &pieces);
+
+  /**
+   * Tiles a closed surface with @p n_wished patches of about equal area.
+   * Triangles above the mean patch's area are cut, those below it are merged,
+   * smallest first, each into the neighbour whose centre is nearest, but never
+   * across an edge sharper than 30 degrees; so there may remain more patches
+   * than wished. A patch has the sum of its triangles' areas, their mean
+   * normal, and lies at their common centroid, moved onto the nearest of them
+   * and off its edges.
+   */
+  std::vector<SurfacePatch<3>>
+  cut_into_patches(const std::vector<SurfaceTriangle> &triangles,
+                   const std::uint64_t                 n_wished);
+} // namespace Morula
+
+#endif

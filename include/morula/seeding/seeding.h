@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_seeding_h
+#define morula_seeding_seeding_h
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <mpi.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Tissue": the initial tissue. */
+  struct TissueParameters
+  {
+    std::string         shape           = "sphere";
+    std::vector<double> center          = {0., 0., 0.};
+    double              radius          = 250.;
+    std::vector<double> size            = {200., 200., 200.};
+    std::string         surface_mesh    = "";
+    std::string         points_file     = "";
+    double              cell_spacing    = 10.;
+    std::vector<double> lattice_offset  = {0., 0., 0.};
+    std::string         surface_cells   = "whole";
+    unsigned int        boundary_points = 0;
+    bool                refine_surface  = false;
+
+    /** Declares the section's keys, bound to the members. */
+    void
+    declare(ParameterHandler &prm);
+
+    /**
+     * Refuses contradictions (missing mesh file, shape without cells, shapes
+     * that do not exist in @p dim dimensions, ...).
+     * @throws InputError
+     */
+    void
+    check(const unsigned int dim) const;
+  };
+
+  /**
+   * The founders that one rank seeds. Founders are numbered 0...N-1 in lattice
+   * order, x fastest; each rank holds a contiguous piece of the numbering, so
+   * that nobody holds all.
+   */
+  template <int dim>
+  struct Founders
+  {
+    types::particle_index   first_id = 0;
+    std::vector<Point<dim>> positions; // µm
+    std::vector<double>     volumes;   // µm^dim
+    types::particle_index   n_global = 0;
+  };
+
+  /**
+   * The boundary points that one rank seeds: centres of patches that tile the
+   * tissue's surface, with outward unit normal and area; their areas add up to
+   * the exact surface.
+   */
+  template <int dim>
+  struct SurfacePatches
+  {
+    types::particle_index       first_id = 0;
+    std::vector<Point<dim>>     positions; // µm
+    std::vector<Tensor<1, dim>> normals;
+    std::vector<double>         areas; // µm^(dim-1)
+    types::particle_index       n_global = 0;
+  };
+
+  /**
+   * How far a tissue from a file may reach, and how large its cells may be. One
+   * vertex or cell far away from all others would make the grid between them
+   * larger than any memory. Lengths in µm.
+   */
+  template <int dim>
+  struct SeedingLimits
+  {
+    /** Largest coordinate, of either sign. */
+    double farthest = std::numeric_limits<double>::infinity();
+    /** Largest extent along an axis. */
+    double extent = std::numeric_limits<double>::infinity();
+    /** Largest V^(1/dim) of a cell. */
+    double cell_length = std::numeric_limits<double>::infinity();
+    /**
+     * Refuses what keeps to these limits, but does not fit into memory: asked
+     * with the bounding box, the number of cells and their volume (µm^dim),
+     * before anything is done with them. Collective.
+     */
+    std::function<void(const BoundingBox<dim> &, const double, const double)>
+      check_memory;
+  };
+
+  /**
+   * Fills the shape with the regular lattice of section 2.5 of the paper, or
+   * reads the cells from a file.
+   * @throws InputError if no cell fits, or if a file exceeds the limits
+   */
+  template <int dim>
+  Founders<dim>
+  seed_founders(const TissueParameters   &parameters,
+                const MPI_Comm            comm,
+                const SeedingLimits<dim> &limits = {});
+
+  /** Tiles the shape's surface. Points from a file have no surface. */
+  template <int dim>
+  SurfacePatches<dim>
+  seed_surface(const TissueParameters &parameters, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

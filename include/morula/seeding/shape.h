@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_shape_h
+#define morula_seeding_shape_h
+
+#include <morula/seeding/seeding.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** One patch of a tissue's initial surface. */
+  template <int dim>
+  struct SurfacePatch
+  {
+    /** Centre, on the surface, never on an edge or corner of it; µm. */
+    Point<dim> position;
+    /** Outward unit normal. */
+    Tensor<1, dim> normal;
+    /** µm^(dim-1) */
+    double area;
+  };
+
+  /**
+   * A surface cut into numbered patches, each of them computed on request, so
+   * that a rank needs only its own. Valid without the shape that made it.
+   */
+  template <int dim>
+  struct SurfaceTiling
+  {
+    std::uint64_t                                   n_patches = 0;
+    std::function<SurfacePatch<dim>(std::uint64_t)> patch;
+  };
+
+  /** The body that the initial tissue fills. Lengths in µm. */
+  template <int dim>
+  class Shape
+  {
+  public:
+    virtual ~Shape() = default;
+
+    virtual BoundingBox<dim>
+    bounding_box() const = 0;
+
+    /** Whether @p x lies inside, farther than @p clearance from the surface. */
+    virtual bool
+    contains(const Point<dim> &x, const double clearance) const = 0;
+
+    /** µm^dim */
+    virtual double
+    volume() const = 0;
+
+    /** Area of the surface, in 2-D its length. */
+    virtual double
+    surface_area() const = 0;
+
+    /**
+     * Cuts the surface into @p n_wished patches, or as near to that as the
+     * layout allows; their areas add up to surface_area().
+     */
+    virtual SurfaceTiling<dim>
+    tile(const std::uint64_t n_wished) const = 0;
+  };
+
+  /**
+   * The shape that the section "Tissue" names, which must not be 'points'.
+   * @throws InputError if the shape does not exist in dim dimensions or its
+   * mesh cannot be used
+   */
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  make_shape(const TissueParameters &parameters);
+
+  /** The first dim of the numbers that the user gave for a point or vector. */
+  template <int dim>
+  Point<dim>
+  leading_components(const std::vector<double> &numbers);
+
+  /**
+   * The golden angle as a fraction of a turn, (3 - sqrt 5)/2. Points of a
+   * spiral turned against each other by it spread evenly at every aspect ratio
+   * of the surface.
+   */
+  constexpr double golden_turn = 0.381966011250105151795;
+
+  /** Turns of the i-th point of a golden spiral, in [0,1). */
+  double
+  golden_fraction(const std::uint64_t i);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_shapes_cylinder_h
+#define morula_seeding_shapes_cylinder_h
+
+#include <morula/seeding/shape.h>
+#include <morula/seeding/shapes/rings.h>
+
+namespace Morula
+{
+  /** A solid cylinder along z. */
+  class Cylinder : public Shape<3>
+  {
+  public:
+    /** Radius and full height in µm. */
+    Cylinder(const Point<3> &center, const double radius, const double height);
+
+    BoundingBox<3>
+    bounding_box() const override;
+
+    bool
+    contains(const Point<3> &x, const double clearance) const override;
+
+    double
+    volume() const override;
+
+    double
+    surface_area() const override;
+
+    /**
+     * Rings of patches of equal area, on the lower cap from the middle
+     * outwards, up the side, and on the upper cap; at least one patch on a cap
+     * and three on the side.
+     */
+    SurfaceTiling<3>
+    tile(const std::uint64_t n_wished) const override;
+
+  private:
+    double
+    cap_area() const;
+
+    double
+    side_area() const;
+
+    /** @param side -1: lower, 1: upper */
+    SurfacePatch<3>
+    cap_patch(const RingPlace &place, const double side) const;
+
+    SurfacePatch<3>
+    side_patch(const RingPlace &place) const;
+
+    Point<3> center;
+    double   radius;
+    double   height;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_shapes_mesh_h
+#define morula_seeding_shapes_mesh_h
+
+#include <morula/seeding/shape.h>
+#include <morula/seeding/surface_mesh.h>
+
+#include <string>
+
+namespace Morula
+{
+  /** The body inside a closed surface from a file, where the file has it. */
+  class MeshShape : public Shape<3>
+  {
+  public:
+    /** @throws InputError as SurfaceMesh does */
+    explicit MeshShape(const std::string &file);
+
+    BoundingBox<3>
+    bounding_box() const override;
+
+    bool
+    contains(const Point<3> &x, const double clearance) const override;
+
+    double
+    volume() const override;
+
+    double
+    surface_area() const override;
+
+    /** See cut_into_patches(). */
+    SurfaceTiling<3>
+    tile(const std::uint64_t n_wished) const override;
+
+  private:
+    SurfaceMesh mesh;
+  };
+} // namespace Morula
+
+#endif

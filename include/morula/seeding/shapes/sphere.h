@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_shapes_sphere_h
+#define morula_seeding_shapes_sphere_h
+
+#include <morula/seeding/shape.h>
+
+namespace Morula
+{
+  /** A ball; in 2-D, a disc. */
+  template <int dim>
+  class Sphere : public Shape<dim>
+  {
+  public:
+    /** @param radius µm */
+    Sphere(const Point<dim> &center, const double radius);
+
+    BoundingBox<dim>
+    bounding_box() const override;
+
+    bool
+    contains(const Point<dim> &x, const double clearance) const override;
+
+    double
+    volume() const override;
+
+    double
+    surface_area() const override;
+
+    /**
+     * 3-D: golden-angle spiral from the top to the bottom,
+     * z_i = R (1 - (2i+1)/n). 2-D: the middles of equal arcs. Patches of equal
+     * area, at least dim + 1 of them.
+     */
+    SurfaceTiling<dim>
+    tile(const std::uint64_t n_wished) const override;
+
+  private:
+    Point<dim> center;
+    double     radius;
+  };
+} // namespace Morula
+
+#endif

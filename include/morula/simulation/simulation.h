@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_simulation_h
+#define morula_simulation_simulation_h
+
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/growth/cell_growth.h>
+#include <morula/grid/piece_watch.h>
+#include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/momentum_balance.h>
+#include <morula/solver/newton.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/particles/tissue.h>
+#include <morula/simulation/run_files.h>
+#include <morula/scene/scene.h>
+#include <morula/simulation/stop_signals.h>
+#include <morula/simulation/time_steps.h>
+
+#include <deal.II/base/timer.h>
+
+#include <functional>
+#include <optional>
+
+namespace Morula
+{
+  /**
+   * One run of a scene. Owns the parts, and is the only type that sees them
+   * all; run() and step() read as the algorithm of section 2 of the paper.
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /**
+     * Seeds the tissue, or reads the snapshot. Touches no file.
+     * @throws InputError for a scene that cannot be run
+     */
+    Simulation(const Scene &scene, const MPI_Comm comm, const bool resume);
+
+    /**
+     * Runs to End time.
+     * @param observe called on all ranks with the initial state, or that of the
+     *        snapshot, and after every step; it may read this object
+     * @throws std::runtime_error if a step fails at Smallest step, with the
+     *         time and how to resume; the last good state is saved
+     * @throws RunStopped where SIGINT, SIGTERM or SIGUSR1 asked for it, after
+     *         the step in which they came; the state is saved
+     */
+    void
+    run(const std::function<void()> &observe = {});
+
+    /** Cells and boundary points as they are now. */
+    const Tissue<dim> &
+    state() const;
+
+    /** What statistics.csv says of the present state, and of the step to it. */
+    const StatisticsRow &
+    last_row() const;
+
+    /** Mechanics of a cell of the present state, as in cells-NNNN.csv. */
+    CellQuantities
+    quantities(const CellView<dim, const double> &cell) const;
+
+    /** Size of the first step's equations, for --explain. Collective. */
+    unsigned int
+    n_unknowns();
+
+  private:
+    void
+    seed();
+    void
+    restore();
+    void
+    check_points(const SnapshotData<dim> &data) const; // InputError
+    void
+    check_resumed_cycle() const; // Step may have changed
+
+    void
+    begin();
+    /** Runs @p steps; what makes them fail goes into the run's files, too. */
+    void
+    record_failure(const std::function<void()> &steps);
+    void
+    finish();
+    bool
+    must_stop() const;
+    void
+    step();
+    SplineSpace<dim>
+    splines();
+    void
+    tell_of_joined_pieces(const SplineSpace<dim> &space);
+    void
+    solve_step(const SplineSpace<dim> &space,
+               const RigidModes<dim>  &rigid_modes,
+               Equilibrium::Vector    &u);
+    void
+    try_step(const SplineSpace<dim> &space,
+             const RigidModes<dim>  &rigid_modes,
+             Equilibrium::Vector    &u);
+    std::optional<Equilibrium::Vector>
+    start_of_step(const SplineSpace<dim> &space,
+                  const RigidModes<dim>  &modes) const;
+    void
+    estimate_condition(MomentumBalance<dim> &balance);
+    /** What keeps the step free of unsupported motions. */
+    std::vector<Equilibrium::Vector>
+    inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
+    /** Of every cell at the end of the step, where ln J_e is projected;
+     *  otherwise empty. */
+    std::vector<double>
+    elastic_volumes(const SplineSpace<dim>       &space,
+                    const DisplacementField<dim> &displacement) const;
+    void
+    commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
+    void
+    refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
+    void
+    refine_stretched_surface(const SplineSpace<dim> &space);
+    void
+    divide();
+    void
+    write_rows();
+    void
+    write_condition();
+
+    typename MomentumBalance<dim>::TermList
+    terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
+    std::vector<typename RigidModes<dim>::Mass>
+    masses(const SplineSpace<dim> &space) const;
+    RigidModes<dim>
+    rigid_modes(const SplineSpace<dim> &space) const;
+
+    StatisticsRow
+    statistics() const;
+    void
+    begin_rows();
+    void
+    complete_row(const SplineSpace<dim> &space);
+    void
+    warn_of_long_cells();
+    SnapshotData<dim>
+    snapshot() const;
+    void
+    output(const bool last);
+    void
+    stop_if_asked(const StopSignals &signals); // RunStopped
+    /** The longest that the present attempt asks for, µm. Collective. */
+    double
+    way_of_held_points() const;
+    [[noreturn]] void
+    give_up(const std::string &reason);
+    [[noreturn]] void
+    give_up_step(const std::string &reason);
+    void
+    check_gap(const Extremes<dim> &extremes) const; // StepFailed
+
+    /** As in cells-NNNN.csv. */
+    unsigned int
+    phase(const CellView<dim, const double> &cell) const;
+    /** At the size checkpoint, now. */
+    bool
+    is_held(const CellView<dim, const double> &cell) const;
+
+    const Scene    scene;
+    const MPI_Comm comm;
+    const Timer    clock;
+    TimerOutput    timer;
+
+    const TissueMaterial            material;
+    const BoundaryConditions<dim>   boundary_conditions;
+    const CellGrowth<dim>           growth;
+    const std::optional<Expression> body_force;
+    double                          typical_stiffness = 0.; // kPa
+
+    Tissue<dim>           tissue;
+    TimeSteps             time_steps;
+    types::particle_index next_id          = 0; // of cells
+    types::particle_index next_boundary_id = 0; // where the surface is refined
+    unsigned int          n_steps          = 0;
+    unsigned int          n_rejected       = 0;
+
+    // Of the present step.
+    GrowthOfStep<dim>                growth_of_step;
+    std::vector<Birth<dim>>          births; // on this rank
+    NewtonReport                     newton_report;
+    StatisticsRow                    row;
+    std::optional<ConditionEstimate> condition; // if the scene asks for it
+
+    PieceWatch<dim> piece_watch;
+    bool            pieces_have_joined = false; // and the user knows
+
+    bool warned_of_long_cells = false; // once a run, or before it started
+
+    std::vector<std::string>         warnings;      // of a new run
+    std::optional<SplineSpace<dim>>  first_splines; // until the first step
+    std::optional<SnapshotData<dim>> resumed_from;  // until run()
+    std::optional<RunFiles<dim>>     files;         // from run() on
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_step_points_h
+#define morula_simulation_step_points_h
+
+#include <morula/effects/growth/cell_growth.h>
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/tissue_material.h>
+#include <morula/particles/tissue.h>
+
+namespace Morula
+{
+  /**
+   * The tissue's quadrature points for one step: one for each cell, or several
+   * in its domain where that is large on the grid (see ParticleDomain). All of
+   * a cell's points share its F and F_g. Collective.
+   */
+  template <int dim>
+  MaterialPoints<dim>
+  material_points(const Tissue<dim>       &tissue,
+                  const SplineSpace<dim>  &space,
+                  const GrowthOfStep<dim> &growth,
+                  const TissueMaterial    &material);
+
+  /** The cells' own positions by active grid cell, in the order of
+   *  Tissue::cells(). */
+  template <int dim>
+  GroupedPoints<dim>
+  cell_positions(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
+} // namespace Morula
+
+#endif

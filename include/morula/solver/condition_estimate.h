@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_condition_estimate_h
+#define morula_solver_condition_estimate_h
+
+#include <morula/mechanics/equilibrium.h>
+
+#include <cstdint>
+
+namespace Morula
+{
+  /**
+   * The extreme eigenvalues of a tangent K scaled to a unit diagonal,
+   * D^(-1/2) K D^(-1/2), among the displacements that the problem determines:
+   * doc/theory.md (5.5).
+   */
+  struct ConditionEstimate
+  {
+    std::uint64_t unknowns = 0;
+    double        smallest = 0.; // negative: K is indefinite
+    double        largest  = 0.;
+
+    /** Their ratio. No more than 1/ε can be told from a singular matrix; that
+     *  is also the value of an indefinite one. */
+    double
+    condition() const;
+  };
+
+  /**
+   * Estimates the condition of the first tangent of a step, which Newton's
+   * method takes at the growth of the step's beginning. Of an unsymmetric one
+   * (following pressure) the symmetric part counts. Assembles the tangent anew.
+   * Collective.
+   */
+  ConditionEstimate
+  estimate_condition(Equilibrium &problem);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_nox_group_h
+#define morula_solver_nox_group_h
+
+#include <morula/mechanics/equilibrium.h>
+#include <morula/solver/linear_solver.h>
+#include <morula/solver/newton.h>
+#include <morula/solver/nox_vector.h>
+
+#include <NOX_Abstract_Group.H>
+#include <NOX_LineSearch_Generic.H>
+
+namespace Morula
+{
+  /**
+   * An increment u together with what has been computed for it, as NOX sees
+   * it. Copies share the problem, the linear solver and the report, which must
+   * outlive them.
+   */
+  class NoxGroup : public NOX::Abstract::Group
+  {
+  public:
+    NoxGroup(Equilibrium               &problem,
+             LinearSolver              &linear_solver,
+             NewtonReport              &report,
+             const Equilibrium::Vector &u);
+
+    /** Energy at u; infinite if inverted. computeF() must have been called. */
+    const Equilibrium::Evaluation &
+    evaluation() const;
+
+    NOX::Abstract::Group &
+    operator=(const NOX::Abstract::Group &source) override;
+    void
+    setX(const NOX::Abstract::Vector &y) override;
+    void
+    computeX(const NOX::Abstract::Group  &group,
+             const NOX::Abstract::Vector &direction,
+             double                       step) override;
+    ReturnType
+    computeF() override;
+    ReturnType
+    computeJacobian() override;
+    ReturnType
+    computeGradient() override;
+    ReturnType
+    computeNewton(Teuchos::ParameterList &parameters) override;
+    ReturnType
+    applyJacobian(const NOX::Abstract::Vector &input,
+                  NOX::Abstract::Vector       &result) const override;
+    bool
+    isF() const override;
+    bool
+    isJacobian() const override;
+    bool
+    isGradient() const override;
+    bool
+    isNewton() const override;
+    const NOX::Abstract::Vector &
+    getX() const override;
+    const NOX::Abstract::Vector &
+    getF() const override;
+    double
+    getNormF() const override;
+    const NOX::Abstract::Vector &
+    getGradient() const override;
+    const NOX::Abstract::Vector &
+    getNewton() const override;
+    Teuchos::RCP<const NOX::Abstract::Vector>
+    getXPtr() const override;
+    Teuchos::RCP<const NOX::Abstract::Vector>
+    getFPtr() const override;
+    Teuchos::RCP<const NOX::Abstract::Vector>
+    getGradientPtr() const override;
+    Teuchos::RCP<const NOX::Abstract::Vector>
+    getNewtonPtr() const override;
+    Teuchos::RCP<NOX::Abstract::Group>
+    clone(NOX::CopyType type) const override;
+
+  private:
+    void
+    invalidate();
+
+    Equilibrium               &problem;
+    LinearSolver              &linear_solver;
+    NewtonReport              &report;
+    NoxVector                  u, R, direction;
+    Equilibrium::Evaluation    evaluation_{0., 0.};
+    const Equilibrium::Matrix *K            = nullptr;
+    bool                       has_residual = false, has_direction = false;
+    bool                       first_tangent = true;
+  };
+
+  /**
+   * Backtracking on the energy with Armijo's rule and slack for rounding,
+   * doc/theory.md (5.2); for problems without energy, on |R|. Inversion counts
+   * as infinite energy.
+   */
+  class EnergyLineSearch : public NOX::LineSearch::Generic
+  {
+  public:
+    explicit EnergyLineSearch(const Equilibrium &problem);
+
+    bool
+    compute(NOX::Abstract::Group        &group,
+            double                      &step,
+            const NOX::Abstract::Vector &direction,
+            const NOX::Solver::Generic  &solver) override;
+
+  private:
+    const Equilibrium &problem;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/expression_syntax.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <regex>
+
+namespace Morula::ExpressionSyntax
+{
+  namespace
+  {
+    std::string
+    at(const std::size_t position)
+    {
+      return "Character " + std::to_string(position + 1) + ": ";
+    }
+
+    /** Length of the comparison <, <=, >, >= that begins at @p i, or 0. */
+    unsigned int
+    comparison_length(const std::string &s, const std::size_t i)
+    {
+      if (s[i] != '<' && s[i] != '>')
+        return 0;
+      return i + 1 < s.size() && s[i + 1] == '=' ? 2 : 1;
+    }
+
+    /** Whether && or || ends at @p i. */
+    bool
+    ends_logical(const std::string &s, const std::size_t i)
+    {
+      return i > 0 && s[i] == s[i - 1] && (s[i] == '&' || s[i] == '|');
+    }
+
+    /** Whether an operator that begins a new comparison stands at @p i. */
+    bool
+    separates_comparisons(const std::string &s, const std::size_t i)
+    {
+      return std::string("&|?:,=!").find(s[i]) != std::string::npos;
+    }
+
+    /** Position of the second comparison of a chain such as 0 < X < 5. */
+    std::size_t
+    find_chain(const std::string &s)
+    {
+      std::vector<bool> compared(1, false); // one for each open parenthesis
+      for (std::size_t i = 0; i < s.size(); ++i)
+        if (const unsigned int length = comparison_length(s, i))
+          {
+            if (compared.back())
+              return i;
+            compared.back() = true;
+            i += length - 1;
+          }
+        else if (s[i] == '(')
+          compared.push_back(false);
+        else if (s[i] == ')' && compared.size() > 1)
+          compared.pop_back();
+        else if (separates_comparisons(s, i))
+          compared.back() = false;
+      return std::string::npos;
+    }
+
+    std::size_t
+    find_outer_comma(const std::string &s)
+    {
+      int depth = 0;
+      for (std::size_t i = 0; i < s.size(); ++i)
+        if (s[i] == '(')
+          ++depth;
+        else if (s[i] == ')')
+          --depth;
+        else if (s[i] == ',' && depth <= 0)
+          return i;
+      return std::string::npos;
+    }
+
+    std::size_t
+    find_assignment(const std::string &s)
+    {
+      static const std::regex assignment("(^|[^<>!=])=($|[^=])");
+      std::smatch             match;
+      return std::regex_search(s, match, assignment) ?
+               match.position(0) + match.length(1) :
+               std::string::npos;
+    }
+  } // namespace
+
+
+  std::vector<std::string>
+  components(const std::string &text)
+  {
+    std::vector<std::string> result;
+    boost::split(result, text, boost::is_any_of(";"));
+    for (std::string &component : result)
+      boost::trim(component);
+    return result;
+  }
+
+
+  bool
+  uses(const std::string &text, const std::string &name)
+  {
+    return std::regex_search(text,
+                             std::regex("(^|[^A-Za-z_0-9])" + name +
+                                        "($|[^A-Za-z_0-9])"));
+  }
+
+
+  std::string
+  with_blanks(const std::string &component)
+  {
+    std::string result;
+    for (std::size_t i = 0; i < component.size(); ++i)
+      {
+        result += component[i];
+        if (ends_logical(component, i))
+          result += ' ';
+      }
+    return result;
+  }
+
+
+  std::size_t
+  position_without_blanks(const std::string &component,
+                          const std::size_t  position)
+  {
+    std::size_t with = 0; // of character i, in the longer text
+    for (std::size_t i = 0; i < component.size(); ++i)
+      {
+        if (with >= position)
+          return i;
+        with += ends_logical(component, i) ? 2 : 1;
+      }
+    return component.size();
+  }
+
+
+  std::string
+  misunderstanding(const std::string &component)
+  {
+    if (const auto i = find_outer_comma(component); i != std::string::npos)
+      return at(i) + "a comma outside parentheses. Write decimals with a "
+                     "point and separate components by ';'.";
+    if (const auto i = find_assignment(component); i != std::string::npos)
+      return at(i) + "a single '='. Compare with '==', '<=' or '>='.";
+    if (const auto i = find_chain(component); i != std::string::npos)
+      return at(i) + "a chain of comparisons. Join them: 0 < X && X < 5.";
+    if (uses(component, "rand") || uses(component, "rand_seed"))
+      return "Random numbers would change with every evaluation. Use a function "
+             "of X, Y, Z, t; 'Random seed' governs what is random.";
+    return "";
+  }
+} // namespace Morula::ExpressionSyntax

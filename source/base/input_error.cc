@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Bytes of a text that messages show. */
+    constexpr std::size_t longest = 400;
+
+    bool
+    is_control(const char c)
+    {
+      const auto byte = static_cast<unsigned char>(c);
+      return byte < 0x20 || byte == 0x7F;
+    }
+  } // namespace
+
+
+  std::string
+  shown(const std::string &text)
+  {
+    std::size_t end = std::min(text.size(), longest);
+    while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80)
+      --end;
+
+    const std::string digits = "0123456789abcdef";
+    std::string       result;
+    for (std::size_t i = 0; i < end; ++i)
+      if (is_control(text[i]))
+        {
+          const auto byte = static_cast<unsigned char>(text[i]);
+          result += std::string("\\x") + digits[byte / 16] + digits[byte % 16];
+        }
+      else
+        result += text[i];
+    return end < text.size() ? result + "..." : result;
+  }
+} // namespace Morula

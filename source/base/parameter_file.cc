@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/parameter_file.h>
+#include <morula/base/suggestion.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Files that include files that ...; more is taken for a circle. */
+    constexpr unsigned int max_includes = 20;
+
+    /** Sections in sections in ...; no scene has more than three. */
+    constexpr unsigned int max_sections = 20;
+
+    /** Characters of a line, also with its continuations. */
+    constexpr std::size_t max_line = 10000;
+
+    const std::string byte_order_mark = "\xEF\xBB\xBF";
+
+    std::string
+    too_long()
+    {
+      return "at most " + std::to_string(max_line) + " characters";
+    }
+
+    bool
+    is_control(const char c)
+    {
+      return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') ||
+             c == 0x7F;
+    }
+
+    /** Reads one file line by line and keeps track of the open sections. */
+    class Reader
+    {
+    public:
+      Reader(std::istream            &input,
+             const std::string       &name,
+             std::vector<Statement>  &statements,
+             std::vector<std::string> sections = {},
+             std::vector<std::string> openings = {},
+             const unsigned int       depth    = 0)
+        : input(input)
+        , name(name)
+        , statements(statements)
+        , sections(std::move(sections))
+        , openings(std::move(openings))
+        , depth(depth)
+      {}
+
+      void
+      read()
+      {
+        const std::size_t n_outer = sections.size();
+        std::string       line, part;
+        while (get_line(part))
+          {
+            ++line_number;
+            if (line_number == 1 && part.rfind(byte_order_mark, 0) == 0)
+              part.erase(0, byte_order_mark.size());
+            refuse_control_characters(part);
+            boost::trim(part);
+            const bool goes_on = !part.empty() && part.back() == '\\';
+            if (goes_on)
+              part.pop_back();
+            line += part;
+            if (std::min(line.find('#'), line.size()) > max_line)
+              refuse_long_line(line);
+            if (goes_on)
+              continue;
+            read_line(line, n_outer);
+            line.clear();
+          }
+        if (input.bad())
+          fail(name,
+               "a file that can be read to its end",
+               "Check its permissions and the disk.");
+        read_line(line, n_outer);
+        if (sections.size() > n_outer)
+          throw InputError(
+            openings[n_outer] + ": subsection",
+            sections[n_outer],
+            "a subsection that is closed by 'end'",
+            "Add the missing 'end', of this subsection or of one "
+            "within it; the file ends with line " +
+              std::to_string(line_number) + ".");
+      }
+
+    private:
+      /**
+       * The next line, of which no more is read than a line may have: the file
+       * may be anything. Comments may be longer.
+       */
+      bool
+      get_line(std::string &line)
+      {
+        line.clear();
+        bool comment = false;
+        int  c;
+        while ((c = input.get()) != std::char_traits<char>::eof() && c != '\n')
+          {
+            comment = comment || c == '#';
+            if (line.size() <= max_line)
+              line += static_cast<char>(c);
+            else if (!comment)
+              {
+                ++line_number;
+                refuse_control_characters(line);
+                refuse_long_line(line);
+              }
+          }
+        return c == '\n' || !line.empty();
+      }
+
+      [[noreturn]] void
+      refuse_long_line(const std::string &line) const
+      {
+        fail(line, too_long(), "Shorten the line. Is this a scene?");
+      }
+
+      void
+      refuse_control_characters(const std::string &line) const
+      {
+        const auto bad = std::find_if(line.begin(), line.end(), is_control);
+        if (bad != line.end())
+          fail(std::string(line.begin(), bad),
+               "text",
+               "Character " + std::to_string(bad - line.begin() + 1) +
+                 " cannot be printed: remove it. Is this a scene?");
+      }
+
+      void
+      read_line(std::string line, const std::size_t n_outer)
+      {
+        line = line.substr(0, line.find('#'));
+        boost::replace_all(line, "\t", " ");
+        boost::trim(line);
+        const auto        blank = line.find(' ');
+        const std::string word  = line.substr(0, blank);
+        const std::string rest  = blank == std::string::npos ?
+                                    "" :
+                                    boost::trim_left_copy(line.substr(blank));
+
+        if (line.empty())
+          return;
+        else if ((word == "set" || word == "SET") && !rest.empty())
+          read_set(rest);
+        else if ((word == "subsection" || word == "SUBSECTION") &&
+                 !rest.empty())
+          {
+            sections.push_back(rest);
+            openings.push_back(place());
+            if (sections.size() > max_sections)
+              fail(line,
+                   "at most " + std::to_string(max_sections) +
+                     " subsections in each other",
+                   "Is an 'end' missing?");
+            add(Statement::section, boost::join(sections, "/"), "");
+          }
+        else if ((word == "include" || word == "INCLUDE") && !rest.empty())
+          read_include(rest);
+        else if (line == "end" || line == "END")
+          {
+            if (sections.size() == n_outer)
+              fail(line,
+                   "an 'end' for every 'subsection'",
+                   "No subsection is open here: remove the 'end'.");
+            sections.pop_back();
+            openings.pop_back();
+          }
+        else
+          fail(line,
+               "'set Key = value', 'subsection Name', 'end' or 'include file'",
+               guess(line, word) +
+                 "Correct the line, or begin it with '#' if it is a comment.");
+      }
+
+      /** What a line that is no statement may have been meant to be. */
+      static std::string
+      guess(const std::string &line, const std::string &word)
+      {
+        const std::string meant =
+          most_similar(word, {"set", "subsection", "end", "include"});
+        if (!meant.empty() && meant != word)
+          return "Did you mean '" + meant + "'? ";
+        if (line.find('=') != std::string::npos)
+          return "A line that gives a key its value begins with 'set'. ";
+        if (meant.empty())
+          return "A section begins with 'subsection' and its name. ";
+        return "";
+      }
+
+      void
+      read_set(const std::string &assignment)
+      {
+        const auto equals = assignment.find('=');
+        if (equals == std::string::npos)
+          fail("set " + assignment,
+               "'set Key = value'",
+               "Put '=' between the key and its value.");
+        std::vector<std::string> path = sections;
+        path.push_back(boost::trim_copy(assignment.substr(0, equals)));
+        add(Statement::set,
+            boost::join(path, "/"),
+            boost::trim_copy(assignment.substr(equals + 1)));
+      }
+
+      void
+      read_include(const std::string &file)
+      {
+        if (depth >= max_includes)
+          fail("include " + file,
+               "files that do not include themselves",
+               "Break the circle.");
+        const auto sibling = std::filesystem::path(name).parent_path() / file;
+        std::error_code error; // the name may be longer than any file's
+        const bool      here  = std::filesystem::exists(file, error);
+        const auto      found = here ? file : sibling.string();
+        std::ifstream   stream(found);
+        if (!stream || std::filesystem::is_directory(found, error))
+          fail("include " + file,
+               "a file that can be read",
+               "Correct the name; it counts from the working directory or from "
+               "this file.");
+        Reader(stream, found, statements, sections, openings, depth + 1).read();
+      }
+
+      void
+      add(const Statement::Kind kind,
+          const std::string    &path,
+          const std::string    &value)
+      {
+        statements.push_back({kind, path, value, place() + ": ", openings});
+      }
+
+      std::string
+      place() const
+      {
+        return name + ":" + std::to_string(line_number);
+      }
+
+      [[noreturn]] void
+      fail(const std::string &what,
+           const std::string &allowed,
+           const std::string &remedy) const
+      {
+        throw InputError(place(), what, allowed, remedy);
+      }
+
+      std::istream            &input;
+      const std::string        name;
+      std::vector<Statement>  &statements;
+      std::vector<std::string> sections; // open ones, the outermost first
+      std::vector<std::string> openings; // where they begin
+      const unsigned int       depth;
+      unsigned int             line_number = 0;
+    };
+  } // namespace
+
+
+  std::vector<Statement>
+  read_statements(std::istream &input, const std::string &name)
+  {
+    std::vector<Statement> statements;
+    Reader(input, name, statements).read();
+    return statements;
+  }
+
+
+  std::vector<Statement>
+  read_statements(const std::string &file)
+  {
+    std::ifstream input(file);
+    if (!input || std::filesystem::is_directory(file))
+      throw InputError("The scene file",
+                       file,
+                       "a .prm file that can be read",
+                       "Correct its name; 'morula --parameters' prints a "
+                       "complete one to start from.");
+    return read_statements(input, file);
+  }
+
+
+  Statement
+  read_override(const std::string &text)
+  {
+    if (text.size() > max_line)
+      throw InputError("-s", text, too_long(), "Shorten it.");
+    const auto control = std::find_if(text.begin(), text.end(), is_control);
+    if (control != text.end())
+      throw InputError("-s",
+                       std::string(text.begin(), control),
+                       "text",
+                       "The next character cannot be printed: remove it.");
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw InputError("-s",
+                       text,
+                       "\"Section/Key=value\"",
+                       "Put '=' between the key and its value, and quote the "
+                       "whole for the shell.");
+    std::vector<std::string> path;
+    const std::string        key = text.substr(0, equals);
+    boost::split(path, key, boost::is_any_of("/"));
+    for (std::string &name : path)
+      boost::trim(name);
+    return {Statement::set,
+            boost::join(path, "/"),
+            boost::trim_copy(text.substr(equals + 1)),
+            "-s: "};
+  }
+} // namespace Morula

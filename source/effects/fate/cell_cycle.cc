@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/fate/random.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** (I + amount n⊗n) F. */
+    template <int dim>
+    Tensor<2, dim>
+    stretched_along(const Tensor<1, dim> &n,
+                    const double          amount,
+                    const Tensor<2, dim> &F)
+    {
+      return F + amount * outer_product(n, n * F);
+    }
+  } // namespace
+
+
+  template <int dim>
+  CycleState<dim>
+  CellCycle<dim>::founder(const types::particle_index id,
+                          const Point<dim>           &X) const
+  {
+    CycleState<dim> state;
+    state.growth_pre = unit_symmetric_tensor<dim>();
+    state.key        = Random::founder_key(seed, id);
+
+    if (!(where.value(X, 0.) > 0.))
+      return state;
+
+    state.phase = CyclePhase::waiting;
+    if (start_together)
+      // A wait that ends at once: the checkpoint, where there is one that a
+      // cell at rest does not pass, holds.
+      return advance(state, X, 0., 0., 1.);
+
+    state.event_time = draw_wait(state.key, X);
+    return state;
+  }
+
+
+  template <int dim>
+  CycleState<dim>
+  CellCycle<dim>::advance(CycleState<dim>   state,
+                          const Point<dim> &X,
+                          const double      t0,
+                          const double      t1,
+                          const double      J_e) const
+  {
+    if (state.phase == CyclePhase::divided)
+      {
+        // G1 is (T/2, T]: a cycle that ends at t1 is left in the next step.
+        const double cycle_end = state.event_time + duration.value(X, 0.);
+        if (cycle_end < t1 - slack)
+          {
+            // doc/theory.md (6.3)
+            state.growth_pre =
+              stretched_along(state.axis, 1., state.growth_pre);
+            state.axis       = Tensor<1, dim>();
+            state.phase      = CyclePhase::waiting;
+            state.event_time = cycle_end + draw_wait(state.key, X);
+          }
+      }
+
+    // J_e is that of the step's start also for a wait that ends within the
+    // step, and a wait that ended before has been held.
+    if (state.phase == CyclePhase::waiting && state.event_time <= t1 + slack &&
+        passes_checkpoint(X, J_e))
+      {
+        state.phase      = CyclePhase::growing;
+        state.event_time = std::max(state.event_time, t0);
+        state.axis =
+          random_axis ? Random::direction<dim>(seed, state.key) : fixed_axis;
+      }
+
+    return state;
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::divides(const CycleState<dim> &state,
+                          const Point<dim>      &X,
+                          const double           t1) const
+  {
+    return state.phase == CyclePhase::growing &&
+           division_time(state, X) <= t1 + slack;
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::division_time(const CycleState<dim> &state,
+                                const Point<dim>      &X) const
+  {
+    Assert(state.phase == CyclePhase::growing, ExcInternalError());
+    return state.event_time + 0.5 * duration.value(X, 0.);
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  CellCycle<dim>::growth(const CycleState<dim> &state,
+                         const Point<dim>      &X,
+                         const double           t) const
+  {
+    if (state.phase != CyclePhase::growing &&
+        state.phase != CyclePhase::divided)
+      return state.growth_pre;
+
+    // The clamp cuts off nothing but what the slack admits.
+    const double theta_minus_1 =
+      std::clamp((t - state.event_time) / duration.value(X, 0.), 0., 1.);
+    return stretched_along(state.axis, theta_minus_1, state.growth_pre);
+  }
+
+
+  template <int dim>
+  std::pair<CycleState<dim>, CycleState<dim>>
+  CellCycle<dim>::daughters(const CycleState<dim> &mother) const
+  {
+    Assert(mother.phase == CyclePhase::growing, ExcInternalError());
+
+    std::pair<CycleState<dim>, CycleState<dim>> states(mother, mother);
+    states.first.phase  = CyclePhase::divided;
+    states.second.phase = CyclePhase::divided;
+    states.first.key =
+      Random::daughter_key(seed, mother.key, Random::Draw::first_daughter);
+    states.second.key =
+      Random::daughter_key(seed, mother.key, Random::Draw::second_daughter);
+    return states;
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  CellCycle<dim>::placement_axis(const CycleState<dim> &state,
+                                 const Tensor<2, dim>  &F_e) const
+  {
+    if (!axis_follows_rotation)
+      return state.axis;
+
+    const Tensor<1, dim> carried = F_e * state.axis;
+    return carried / carried.norm();
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::has_checkpoint() const
+  {
+    return !size_checkpoint.is_constant() ||
+           size_checkpoint.value(Point<dim>(), 0.) != 0.;
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::is_held(const CycleState<dim> &state,
+                          const Point<dim>      &X,
+                          const double           t,
+                          const double           J_e) const
+  {
+    return state.phase == CyclePhase::waiting &&
+           state.event_time <= t + slack && !passes_checkpoint(X, J_e);
+  }
+
+
+  template <int dim>
+  unsigned int
+  CellCycle<dim>::phase_number(const CycleState<dim> &state,
+                               const Point<dim>      &X,
+                               const double           t) const
+  {
+    if (state.phase == CyclePhase::never)
+      return 9;
+    if (state.phase == CyclePhase::waiting)
+      return 0;
+
+    const double T   = duration.value(X, 0.);
+    const double age = t - state.event_time;
+    if (std::abs(age - 0.5 * T) <= slack)
+      return 3;
+    if (state.phase == CyclePhase::divided)
+      return 4;
+    return age < 0.25 * T - slack ? 1 : 2;
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::passes_checkpoint(const Point<dim> &X, const double J_e) const
+  {
+    const double threshold = size_checkpoint.value(X, 0.);
+    return threshold == 0. || J_e > threshold;
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::draw_wait(const std::uint64_t key, const Point<dim> &X) const
+  {
+    return Random::exponential(seed, key, exit_rate.value(X, 0.));
+  }
+
+
+  template class CellCycle<2>;
+  template class CellCycle<3>;
+} // namespace Morula

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/cell_cycle.h>
+#include <morula/base/input_error.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::string section = "Proliferation/Cell cycle/";
+
+    /** The unit vector along the key "Fixed axis". */
+    template <int dim>
+    Tensor<1, dim>
+    unit_fixed_axis(const CellCycleParameters &parameters)
+    {
+      const std::vector<double> &components = parameters.fixed_axis;
+
+      Tensor<1, dim> axis;
+      for (unsigned int d = 0;
+           d < std::min<std::size_t>(dim, components.size());
+           ++d)
+        axis[d] = components[d];
+
+      const double length = axis.norm();
+      if (components.size() < dim || !(length > 0.) || !std::isfinite(length))
+        throw InputError(section + "Fixed axis",
+                         Patterns::Tools::to_string(components),
+                         "a vector of " + std::to_string(dim) +
+                           " components that is not zero",
+                         "Give the direction along which cells divide, or set "
+                         "Division axis = random.");
+      return axis / length;
+    }
+
+
+    /** What an expression is at a cell, for the end of "what is allowed". */
+    template <int dim>
+    std::string
+    value_at(const double value, const Point<dim> &X)
+    {
+      std::ostringstream text;
+      text << "; it is " << value << " for the cell at (" << X << ") um";
+      return text.str();
+    }
+  } // namespace
+
+
+  template <int dim>
+  CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
+                            const std::uint64_t        seed,
+                            const double               slack)
+    : duration(section + "Duration", parameters.duration)
+    , exit_rate(section + "G0 exit rate", parameters.exit_rate)
+    , size_checkpoint(section + "Size checkpoint", parameters.size_checkpoint)
+    , where(section + "Where", parameters.where)
+    , start_together(parameters.start == "together")
+    , random_axis(parameters.division_axis != "fixed")
+    , axis_follows_rotation(parameters.axis_follows_rotation)
+    , seed(seed)
+    , slack(slack)
+  {
+    if (!random_axis)
+      fixed_axis = unit_fixed_axis<dim>(parameters);
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::check(const std::vector<Point<dim>> &founders,
+                        const double                   step) const
+  {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Point<dim> &X : founders)
+      if (where.value(X, 0.) > 0.)
+        {
+          const double T = duration.value(X, 0.);
+          if (!(T > 0.))
+            throw InputError(duration.key(),
+                             duration.text(),
+                             "a positive duration in days" + value_at(T, X),
+                             "Make it positive wherever cells proliferate, or "
+                             "exclude these cells by 'Where'.");
+          shortest = std::min(shortest, T);
+
+          const double rate = exit_rate.value(X, 0.);
+          if (!(rate >= 0.))
+            throw InputError(exit_rate.key(),
+                             exit_rate.text(),
+                             "a rate per day that is not negative" +
+                               value_at(rate, X),
+                             "Use 0 for cells that never leave G0.");
+
+          const double threshold = size_checkpoint.value(X, 0.);
+          if (!(threshold >= 0.))
+            throw InputError(size_checkpoint.key(),
+                             size_checkpoint.text(),
+                             "a volume ratio that is not negative" +
+                               value_at(threshold, X),
+                             "Use 0 for no checkpoint.");
+        }
+
+    if (step > 0.5 * shortest + slack)
+      {
+        std::ostringstream value, limit;
+        value << step;
+        limit << "at most half the shortest cell cycle, " << 0.5 * shortest
+              << " day";
+        throw InputError("Time/Step",
+                         value.str(),
+                         limit.str(),
+                         "Shorten the step, or lengthen " + duration.key() +
+                           ".");
+      }
+  }
+
+
+  template CellCycle<2>::CellCycle(const CellCycleParameters &,
+                                   const std::uint64_t,
+                                   const double);
+  template CellCycle<3>::CellCycle(const CellCycleParameters &,
+                                   const std::uint64_t,
+                                   const double);
+  template void
+  CellCycle<2>::check(const std::vector<Point<2>> &, const double) const;
+  template void
+  CellCycle<3>::check(const std::vector<Point<3>> &, const double) const;
+} // namespace Morula

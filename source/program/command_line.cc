@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/command_line.h>
+#include <morula/base/input_error.h>
+#include <morula/base/parameter_keys.h>
+#include <morula/scene/scene.h>
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <boost/program_options.hpp>
+
+#include <ostream>
+
+namespace Morula
+{
+  namespace options = boost::program_options;
+
+  namespace
+  {
+    const std::string usage =
+      "morula SCENE.prm [-s \"Section/Key=value\"]... [--resume | --replace] [--explain]";
+
+    options::options_description
+    visible_options()
+    {
+      options::options_description result("Options");
+      result.add_options()(
+        "set,s",
+        options::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
+        "override one key, e.g. -s \"Time/End time=2\"; may be repeated")(
+        "resume", "go on from the last snapshot in the output directory")(
+        "replace",
+        "delete the run in the output directory, also one of another scene or "
+        "one that is not finished")(
+        "explain", "check the scene, print what it will simulate, and stop")(
+        "parameters", "print every key with default, units and allowed values")(
+        "version", "print the version")("help,h", "print this text");
+      return result;
+    }
+
+    InputError
+    wrong_command_line(const std::string &words, const std::string &remedy)
+    {
+      return InputError("The command line",
+                        words,
+                        usage,
+                        remedy + " 'morula --help' explains the options.");
+    }
+  } // namespace
+
+
+  CommandLine
+  CommandLine::parse(const std::vector<std::string> &words)
+  {
+    std::string all;
+    for (const std::string &word : words)
+      all += (all.empty() ? "" : " ") + word;
+
+    options::options_description every = visible_options();
+    every.add_options()("scene", options::value<std::vector<std::string>>());
+    options::positional_options_description positions;
+    positions.add("scene", -1);
+
+    options::variables_map found;
+    try
+      {
+        using namespace options::command_line_style;
+        options::store(options::command_line_parser(words)
+                         .options(every)
+                         .positional(positions)
+                         .style(unix_style & ~allow_guessing)
+                         .run(),
+                       found);
+      }
+    catch (const options::error &error)
+      {
+        throw wrong_command_line(all, std::string(error.what()) + ".");
+      }
+
+    CommandLine result;
+    result.resume     = found.count("resume") > 0;
+    result.replace    = found.count("replace") > 0;
+    result.explain    = found.count("explain") > 0;
+    result.parameters = found.count("parameters") > 0;
+    result.version    = found.count("version") > 0;
+    result.help       = found.count("help") > 0;
+    if (result.resume && result.replace)
+      throw wrong_command_line(all,
+                               "Either go on with the run, or replace it: "
+                               "leave one of the two out.");
+    if (found.count("set") > 0)
+      result.overrides = found["set"].as<std::vector<std::string>>();
+    const auto scenes = found.count("scene") > 0 ?
+                          found["scene"].as<std::vector<std::string>>() :
+                          std::vector<std::string>();
+    if (scenes.size() > 1)
+      throw wrong_command_line(all,
+                               "Name one scene, not '" + scenes[0] + "' and '" +
+                                 scenes[1] +
+                                 "'; quote a -s option that has blanks.");
+    if (!scenes.empty())
+      result.scene_file = scenes[0];
+    else if (!result.parameters && !result.version && !result.help)
+      throw wrong_command_line(all, "Name the scene.");
+    return result;
+  }
+
+
+  void
+  print_help(std::ostream &out)
+  {
+    out << "Morula simulates growing and proliferating tissue.\n\nUsage: "
+        << usage << "\n       mpirun -np N morula SCENE.prm ...\n\n"
+        << visible_options()
+        << "\nExit codes: 0 finished; 1 bad input, nothing was computed or "
+           "written;\n2 the run failed; go on with --resume from its last "
+           "snapshot.\n";
+  }
+
+
+  void
+  print_version(std::ostream &out)
+  {
+    out << "Morula " << MORULA_VERSION << " with deal.II "
+        << DEAL_II_PACKAGE_VERSION << '\n';
+  }
+
+
+  void
+  print_parameters(std::ostream &out, const Catalogue &catalogue)
+  {
+    Scene            scene(catalogue);
+    ParameterHandler prm;
+    scene.declare(prm);
+    ParameterKeys(prm).print(out);
+  }
+} // namespace Morula

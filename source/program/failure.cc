@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/failure.h>
+
+#include <chrono>
+#include <iostream>
+#include <set>
+#include <thread>
+
+namespace Morula
+{
+  namespace
+  {
+    /** How long failed ranks wait for the others. */
+    constexpr std::chrono::seconds patience(5);
+
+    /**
+     * Whether all ranks arrive here in time. A nonblocking barrier never
+     * matches the operations in which the other ranks may be waiting.
+     */
+    bool
+    all_arrive(const MPI_Comm comm)
+    {
+      MPI_Request request;
+      MPI_Ibarrier(comm, &request);
+      const auto end     = std::chrono::steady_clock::now() + patience;
+      int        arrived = 0;
+      while (true)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived || std::chrono::steady_clock::now() > end)
+            return arrived;
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+    /** Messages repeat what the user wrote, which may be long; the end says
+     *  what to do. */
+    constexpr std::size_t longest_message = 2500;
+
+    void
+    print(std::string message)
+    {
+      if (message.size() > longest_message)
+        message = message.substr(0, longest_message / 2) + " [...] " +
+                  message.substr(message.size() - longest_message / 2);
+      // one piece, so that ranks do not mix their lines
+      std::cerr << "morula: " + message + "\n" << std::flush;
+    }
+  } // namespace
+
+
+  int
+  end_of_all_ranks(const int          exit_code,
+                   const std::string &message,
+                   const MPI_Comm     comm)
+  {
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    if (!all_arrive(comm))
+      {
+        print("(rank " + std::to_string(rank) + ") " + message);
+        MPI_Abort(comm, exit_code);
+      }
+
+    // ranks that stumble over the failure of another one have other messages
+    std::set<std::string> printed;
+    for (const std::string &each :
+         dealii::Utilities::MPI::gather(comm, message))
+      if (printed.insert(each).second)
+        print(each);
+    return dealii::Utilities::MPI::max(exit_code, comm);
+  }
+} // namespace Morula

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/command_line.h>
+#include <morula/program/failure.h>
+#include <morula/base/input_error.h>
+#include <morula/base/agreement.h>
+#include <morula/output/directory.h>
+#include <morula/output/run_lock.h>
+#include <morula/program/program.h>
+#include <morula/scene/explain.h>
+#include <morula/scene/size.h>
+#include <morula/simulation/simulation.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+
+#include <csignal>
+#include <iostream>
+#include <new>
+
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
+namespace Morula
+{
+  namespace
+  {
+    /**
+     * Gives arrays of 32 MB and more a mapping of their own, which goes back to
+     * the system with them; that is glibc's default. SuperLU_DIST, which
+     * Trilinos may link, switches it off for the whole process as it is loaded,
+     * and the holes that such arrays leave in the heap make 0.6 GB of a million
+     * cells (doc/performance.md, Numbers of cells).
+     */
+    void
+    map_large_arrays()
+    {
+#ifdef __GLIBC__
+      mallopt(M_MMAP_MAX, 1 << 16);
+      mallopt(M_MMAP_THRESHOLD, 1 << 25);
+#endif
+    }
+
+    bool
+    is_first_rank()
+    {
+      return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    }
+
+    /** What only the first step's splines can tell --explain. */
+    template <int dim>
+    unsigned int
+    n_unknowns(const Scene &scene)
+    {
+      return Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
+    }
+
+    /** Prints what was asked for instead of a run; false if that is nothing. */
+    bool
+    print_information(const CommandLine &command, const Catalogue &catalogue)
+    {
+      if (!command.help && !command.version && !command.parameters)
+        return false;
+      if (is_first_rank())
+        {
+          if (command.help)
+            print_help(std::cout);
+          if (command.version)
+            print_version(std::cout);
+          if (command.parameters)
+            print_parameters(std::cout, catalogue);
+        }
+      return true;
+    }
+
+    /** Does with a scene what the command line asks for. Sets @p resume_hint
+     *  once the scene is accepted. */
+    void
+    obey(const CommandLine &command,
+         const Program     &program,
+         const Scene       &scene,
+         std::string       &resume_hint)
+    {
+      scene.check();
+      if (program.dimension != 0 && scene.dimension != program.dimension)
+        throw InputError("Dimension",
+                         std::to_string(scene.dimension),
+                         std::to_string(program.dimension),
+                         "This program knows no other dimension.");
+      if (command.explain)
+        {
+          explain(scene, std::cout, MPI_COMM_WORLD, [&scene]() {
+            return scene.dimension == 2 ? n_unknowns<2>(scene) :
+                                          n_unknowns<3>(scene);
+          });
+          return;
+        }
+      check_memory(scene, initial_size(scene), MPI_COMM_WORLD);
+      if (program.resumes)
+        resume_hint = "If there is a snapshot.h5 in '" +
+                      scene.output_directory + "', 'morula " +
+                      command.scene_file + " ... --resume' goes on from there.";
+      program.work(scene, command.resume);
+    }
+
+    /** Does what the command line asks for. */
+    void
+    obey(const CommandLine &command,
+         const Program     &program,
+         std::string       &resume_hint)
+    {
+      if (print_information(command, program.catalogue))
+        return;
+      if (command.resume && !program.resumes)
+        throw InputError("The command line",
+                         "--resume",
+                         "a new run",
+                         "This program makes several runs; leave the option "
+                         "out.");
+
+      Scene scene =
+        Scene::read(command.scene_file, command.overrides, program.catalogue);
+      scene.replace = command.replace;
+      try
+        {
+          obey(command, program, scene, resume_hint);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(scene.located(error.what()));
+        }
+    }
+  } // namespace
+
+
+  void
+  simulate(const Scene &scene, const bool resume)
+  {
+    // Once more when the directory is taken; here, before cells are placed.
+    on_root(MPI_COMM_WORLD, [&]() {
+      RunLock::check_free(scene.output_directory);
+      if (!resume)
+        check_replaceable(scene.output_directory, scene.file, scene.replace);
+    });
+    if (scene.dimension == 2)
+      Simulation<2>(scene, MPI_COMM_WORLD, resume).run();
+    else
+      Simulation<3>(scene, MPI_COMM_WORLD, resume).run();
+  }
+
+
+  int
+  Program::run(int argc, char *argv[]) const
+  {
+    int       stop_signal = 0;
+    const int exit_code   = run_with_mpi(argc, argv, stop_signal);
+    if (stop_signal != 0)
+      std::raise(stop_signal);
+    return exit_code;
+  }
+
+
+  int
+  Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
+  {
+    map_large_arrays();
+    // Libraries get the name only: PETSc would complain, on the standard
+    // output, of every option that it does not know.
+    char                            *name[]    = {argv[0], nullptr};
+    char                           **only_name = name;
+    int                              n_words   = 1;
+    Utilities::MPI::MPI_InitFinalize mpi(n_words, only_name, 1);
+    deal_II_exceptions::disable_abort_on_exception();
+    deal_II_exceptions::suppress_stacktrace_in_exceptions();
+
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    std::string                    resume_hint;
+    try
+      {
+        obey(CommandLine::parse(words), *this, resume_hint);
+        return 0;
+      }
+    catch (const InputError &error)
+      {
+        return end_of_all_ranks(1, error.what(), MPI_COMM_WORLD);
+      }
+    catch (const RunStopped &stop)
+      {
+        stop_signal = stop.signal;
+        return end_of_all_ranks(2,
+                                std::string(stop.what()) + '\n' + resume_hint,
+                                MPI_COMM_WORLD);
+      }
+    catch (const std::bad_alloc &)
+      {
+        return end_of_all_ranks(2,
+                                "The run failed: out of memory. " + resume_hint,
+                                MPI_COMM_WORLD);
+      }
+    catch (const std::exception &error)
+      {
+        return end_of_all_ranks(2,
+                                std::string("The run failed: ") + error.what() +
+                                  "\n" + resume_hint,
+                                MPI_COMM_WORLD);
+      }
+    catch (...)
+      {
+        return end_of_all_ranks(2,
+                                "The run failed for an unknown reason. " +
+                                  resume_hint,
+                                MPI_COMM_WORLD);
+      }
+  }
+} // namespace Morula

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/cell_state.h>
+#include <morula/scene/estimates.h>
+#include <morula/scene/refusals.h>
+
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    // What follows is fitted to the runs of the table "estimates" of
+    // doc/performance.md; contrib/benchmark estimates measures them anew. The
+    // exponents of the direct solver are those of nested dissection.
+
+    /** Bytes of a run with @p n_cells cells and @p n equations, on one rank. */
+    template <int dim>
+    double
+    memory(const Scene &scene, const double n_cells, const double n)
+    {
+      constexpr double program = 180e6;
+      // position, reference position, id, place in the grid: about 200 bytes;
+      // and what a step makes of them
+      const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
+      const double cell = (dim == 2 ? 2.7 : 2.3) * (8. * slots.n_slots + 200.);
+      // a row couples with 5^dim splines, 12 bytes an entry; matrix,
+      // preconditioner and positions of the entries
+      const double row     = 2.6 * 12. * dim * std::pow(5., dim);
+      const double factors = scene.solver.linear_solver != "direct" ? 0. :
+                             dim == 2 ? 370. * n * std::log(n) :
+                                        1000. * std::pow(n, 4. / 3.);
+      // boundary points hold less than cells; without a wished number they are
+      // fewer, too
+      return program + (n_cells + scene.tissue.boundary_points) * cell +
+             n * row + factors;
+    }
+
+    /** Whether anything but the clamps acts on the tissue. */
+    bool
+    is_driven(const Scene &scene)
+    {
+      const BoundaryConditionParameters &given = scene.boundary_conditions;
+      return scene.has_growth() || scene.has_proliferation() ||
+             !given.traction_where.empty() || !given.pressure_where.empty() ||
+             !Refusals::same_value(scene.body_force.force_density, "0; 0; 0") ||
+             !Refusals::same_value(given.displacement, "0; 0; 0");
+    }
+
+    /** Seconds of a step of one core with @p n_cells cells, @p n equations. */
+    template <int dim>
+    double
+    step_seconds(const Scene &scene, const double n_cells, const double n)
+    {
+      if (!is_driven(scene))
+        return 2e-6 * n_cells;
+      constexpr double newton_iterations = 4.;
+      const bool       is_projected =
+        scene.material.volumetric_form() == VolumetricStrain::projected;
+      const double n_points =
+        n_cells * std::pow(scene.grid.points_per_cell, dim);
+      const double point    = dim == 2 ? (is_projected ? 1.5e-6 : 0.6e-6) :
+                                         (is_projected ? 2.5e-6 : 0.5e-6);
+      const double equation = dim == 2 ? 4e-6 : 26e-6;
+      const double factors  = scene.solver.linear_solver != "direct" ? 0. :
+                              dim == 2 ? 2e-7 * std::pow(n, 1.5) :
+                                         6e-8 * n * n;
+      return newton_iterations * (n_points * point + n * equation + factors);
+    }
+
+    /** Equations of a compact tissue of this volume. */
+    double
+    n_equations(const Scene &scene, const double volume)
+    {
+      const double dim = scene.dimension;
+      return dim *
+             std::pow(std::pow(volume, 1. / dim) / scene.grid.spacing + 2.,
+                      dim);
+    }
+  } // namespace
+
+
+  double
+  estimated_memory(const Scene &scene, const SceneSize &size)
+  {
+    const double n = n_equations(scene, size.volume);
+    return scene.dimension == 2 ? memory<2>(scene, size.cells, n) :
+                                  memory<3>(scene, size.cells, n);
+  }
+
+
+  template <int dim>
+  SizeEstimate
+  estimated_size(const Scene         &scene,
+                 const Founders<dim> &founders,
+                 const MPI_Comm       comm,
+                 const unsigned int   n_unknowns)
+  {
+    const SceneSize last = expected_size(scene, founders.positions, comm);
+    const double    first_volume =
+      founders.n_global * std::pow(scene.tissue.cell_spacing, dim);
+
+    SizeEstimate size;
+    size.cells = last.cells;
+    size.unknowns_at_start =
+      n_unknowns > 0 ? n_unknowns : n_equations(scene, first_volume);
+    size.unknowns = size.unknowns_at_start * n_equations(scene, last.volume) /
+                    n_equations(scene, first_volume);
+    size.steps  = std::ceil(scene.time.end_time / scene.time.step - 1e-9);
+    size.memory = memory<dim>(scene, size.cells, size.unknowns);
+
+    // the means over a time in which both grow exponentially
+    const auto mean = [](const double a, const double b) {
+      return std::abs(b - a) < 1e-3 * a ? a : (b - a) / std::log(b / a);
+    };
+    size.seconds =
+      size.steps *
+      step_seconds<dim>(scene,
+                        mean(founders.n_global, size.cells),
+                        mean(size.unknowns_at_start, size.unknowns));
+    return size;
+  }
+
+
+  template SizeEstimate
+  estimated_size(const Scene &,
+                 const Founders<2> &,
+                 const MPI_Comm,
+                 const unsigned int);
+  template SizeEstimate
+  estimated_size(const Scene &,
+                 const Founders<3> &,
+                 const MPI_Comm,
+                 const unsigned int);
+} // namespace Morula

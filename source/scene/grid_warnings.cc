@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/scene/grid_warnings.h>
+#include <morula/scene/refusals.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  using Refusals::as_text;
+
+  namespace
+  {
+    /** Numbers that differ by less are equal. */
+    constexpr double slack = 1e-9;
+
+    /** Mean length of a cell, µm. */
+    template <int dim>
+    double
+    cell_length(const Founders<dim> &founders, const MPI_Comm comm)
+    {
+      double volume = 0.;
+      for (const double V : founders.volumes)
+        volume += V;
+      return std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global,
+                      1. / dim);
+    }
+
+    /** Mean length of a surface patch, µm; 0 without a surface. */
+    template <int dim>
+    double
+    patch_length(const SurfacePatches<dim> &surface, const MPI_Comm comm)
+    {
+      double area = 0.;
+      for (const double A : surface.areas)
+        area += A;
+      area = Utilities::MPI::sum(area, comm);
+      return surface.n_global == 0 ?
+               0. :
+               std::pow(area / surface.n_global, 1. / (dim - 1));
+    }
+
+    /** Smallest extent of the tissue along an axis, µm. */
+    template <int dim>
+    double
+    smallest_extent(const Scene               &scene,
+                    const Founders<dim>       &founders,
+                    const SurfacePatches<dim> &surface,
+                    const MPI_Comm             comm)
+    {
+      const TissueParameters &tissue = scene.tissue;
+      double smallest                = std::numeric_limits<double>::infinity();
+      if (tissue.shape == "sphere" || tissue.shape == "cylinder")
+        smallest = 2. * tissue.radius;
+      if (tissue.shape == "cylinder")
+        return std::min(smallest, tissue.size[2]);
+      if (tissue.shape == "sphere")
+        return smallest;
+      if (tissue.shape == "box" || tissue.shape == "ellipsoid")
+        return *std::min_element(tissue.size.begin(),
+                                 tissue.size.begin() + dim);
+
+      // from a file: as far as its points reach
+      const bool  has_surface = surface.n_global > 0;
+      const auto &points = has_surface ? surface.positions : founders.positions;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double lower = std::numeric_limits<double>::max(), upper = -lower;
+          for (const Point<dim> &X : points)
+            {
+              lower = std::min(lower, X[d]);
+              upper = std::max(upper, X[d]);
+            }
+          smallest = std::min(smallest,
+                              Utilities::MPI::max(upper, comm) -
+                                Utilities::MPI::min(lower, comm));
+        }
+      return smallest + (has_surface ? 0. : cell_length(founders, comm));
+    }
+  } // namespace
+
+
+  std::string
+  warning(const std::string &key,
+          const std::string &value,
+          const std::string &why,
+          const std::string &remedy)
+  {
+    return "Warning: " + key + " = '" + value + "': " + why + ' ' + remedy;
+  }
+
+
+  template <int dim>
+  std::vector<std::string>
+  grid_warnings(const Scene               &scene,
+                const Founders<dim>       &founders,
+                const SurfacePatches<dim> &surface,
+                const MPI_Comm             comm)
+  {
+    std::vector<std::string> warnings;
+    const double             h     = scene.grid.spacing;
+    const double             L     = cell_length(founders, comm);
+    const std::string        value = as_text(h) + " um";
+    if (h < (3. - slack) * L)
+      warnings.push_back(warning(
+        "Grid/Spacing",
+        value,
+        "that is " + as_text(h / L) + " cells of " + as_text(L) + " um; " +
+          (h < (2. - slack) * L ?
+             "below 2 energies are wrong by up to 10 %, and compressed "
+             "tissue goes unstable (doc/hard-cases.md, classification)." :
+             "fewer than 3 roughen the surface and spoil the energy, and "
+             "one run in eight of proliferating tissue has failed "
+             "(doc/accuracy-and-cost.md, advice)."),
+        "Choose 4 to 7 cells per grid spacing: raise Grid/Spacing, or "
+        "lower Tissue/Cell spacing."));
+
+    const double thickness = smallest_extent(scene, founders, surface, comm);
+    if (thickness < (1. - slack) * h)
+      warnings.push_back(
+        warning("Grid/Spacing",
+                value,
+                "the tissue is only " + as_text(thickness) +
+                  " um wide, less than a grid cell: one quadratic field goes "
+                  "through its thickness, and details within it are lost "
+                  "(doc/hard-cases.md, small_and_thin).",
+                "Lower Grid/Spacing to half the thickness if they matter, with "
+                "Tissue/Cell spacing at most a third of that."));
+
+    // fixed points keep their distances
+    const bool   slips = !scene.boundary_conditions.slip_where.empty();
+    const double patch = patch_length(surface, comm);
+    if (slips && (scene.has_growth() || scene.has_proliferation()) &&
+        !scene.tissue.refine_surface && patch > (0.5 - slack) * h)
+      warnings.push_back(
+        warning("Tissue/Boundary points",
+                std::to_string(surface.n_global),
+                "they are " + as_text(patch) +
+                  " um apart at the start, half of Grid/Spacing = " + value +
+                  " or more; where growth takes those of a slip wall farther "
+                  "apart than a grid cell, tissue leaks through "
+                  "(doc/hard-cases.md, instability).",
+                "Raise their number, or set Tissue/Refine surface = true."));
+
+    if (!scene.grid.extension)
+      warnings.push_back(warning(
+        "Grid/Extension",
+        "false",
+        "plain splines fail for a third to a half of the places that the "
+        "grid can have (doc/hard-cases.md, cuts).",
+        "Set it to true, unless that is what you want to show."));
+    return warnings;
+  }
+
+
+  template std::vector<std::string>
+  grid_warnings(const Scene &,
+                const Founders<2> &,
+                const SurfacePatches<2> &,
+                const MPI_Comm);
+  template std::vector<std::string>
+  grid_warnings(const Scene &,
+                const Founders<3> &,
+                const SurfacePatches<3> &,
+                const MPI_Comm);
+} // namespace Morula

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/scene/limits.h>
+#include <morula/scene/refusals.h>
+#include <morula/scene/size.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Morula
+{
+  using Refusals::as_text;
+
+  namespace
+  {
+    void
+    refuse_long(const std::string &key,
+                const double       length,
+                const double       value,
+                const double       h)
+    {
+      // Lengths that are negative or no numbers are refused elsewhere.
+      if (length > longest_tissue * h)
+        throw InputError(key,
+                         as_text(value),
+                         "tissue at most " + as_text(longest_tissue) +
+                           " times Grid/Spacing long, " +
+                           as_text(longest_tissue * h) + " um",
+                         "Choose a smaller tissue, or a larger Grid/Spacing.");
+    }
+
+    /** Grid cells of the box that is put around tissue of this extent. */
+    template <int dim>
+    double
+    grid_cells(const BoundingBox<dim> &box, const double h)
+    {
+      double n = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double of_tissue = std::floor(box.side_length(d) / h) + 1.;
+          n *= of_tissue + 2. * (2. + std::floor(of_tissue / 8.));
+        }
+      return n;
+    }
+
+    /** Refuses tissue that fills next to nothing of the grid around it. */
+    template <int dim>
+    void
+    check_filled(const Scene            &scene,
+                 const BoundingBox<dim> &box,
+                 const double            cells,
+                 const double            volume)
+    {
+      // Two spheroids with a gap of many diameters are far from this.
+      constexpr double most_per_cell = 1000., few_cells = 1000.;
+      const double     h = scene.grid.spacing;
+      const double     n = grid_cells(box, h);
+      if (n <= most_per_cell *
+                 std::max({few_cells, cells, volume / std::pow(h, dim)}))
+        return;
+      const bool         is_mesh = scene.tissue.shape == "mesh";
+      std::ostringstream remedy;
+      remedy << "It reaches from (" << box.get_boundary_points().first
+             << ") to (" << box.get_boundary_points().second << ") um, " << n
+             << " grid cells of " << h << " um, for some " << std::round(cells)
+             << " cells: correct the " << (is_mesh ? "vertex" : "cell")
+             << " that lies astray, or raise Grid/Spacing. If the file is in "
+                "another unit, scale it to um.";
+      throw InputError(is_mesh ? "Tissue/Surface mesh" : "Tissue/Points file",
+                       is_mesh ? scene.tissue.surface_mesh :
+                                 scene.tissue.points_file,
+                       "tissue that fills a part of the grid around it",
+                       remedy.str());
+    }
+  } // namespace
+
+
+  void
+  check_lengths(const Scene &scene)
+  {
+    const TissueParameters &tissue = scene.tissue;
+    const double            h      = scene.grid.spacing;
+    if (tissue.shape != "points" && tissue.cell_spacing > longest_cell * h)
+      throw InputError("Tissue/Cell spacing",
+                       as_text(tissue.cell_spacing),
+                       "a spacing of at most " + as_text(longest_cell) +
+                         " times Grid/Spacing, " + as_text(longest_cell * h) +
+                         " um",
+                       "Choose a smaller spacing, or a larger Grid/Spacing: a "
+                       "cell deforms as a whole.");
+    if (tissue.shape == "sphere" || tissue.shape == "cylinder")
+      refuse_long("Tissue/Radius", 2. * tissue.radius, tissue.radius, h);
+    if (tissue.shape == "box" || tissue.shape == "ellipsoid" ||
+        tissue.shape == "cylinder")
+      for (unsigned int d = tissue.shape == "cylinder" ? 2 : 0;
+           d < std::min<std::size_t>(scene.dimension, tissue.size.size());
+           ++d)
+        refuse_long("Tissue/Size", tissue.size[d], tissue.size[d], h);
+  }
+
+
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const Scene &scene, const MPI_Comm comm)
+  {
+    const double       h = scene.grid.spacing;
+    SeedingLimits<dim> limits;
+    limits.farthest     = farthest_place * h;
+    limits.extent       = longest_tissue * h;
+    limits.cell_length  = longest_cell * h;
+    limits.check_memory = [scene, h, comm](const BoundingBox<dim> &box,
+                                           const double            cells,
+                                           const double            volume) {
+      check_filled(scene, box, cells, volume);
+      check_memory(scene, {cells, volume, grid_cells(box, h)}, comm);
+    };
+    return limits;
+  }
+
+
+  template SeedingLimits<2>
+  seeding_limits(const Scene &, const MPI_Comm);
+  template SeedingLimits<3>
+  seeding_limits(const Scene &, const MPI_Comm);
+} // namespace Morula

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/scene/grid_warnings.h>
+#include <morula/scene/refusals.h>
+#include <morula/scene/unit_warnings.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  using Refusals::as_text;
+
+  namespace
+  {
+    /** Usual distances of nearest cells, in units of their length. */
+    constexpr double nearest_usual = 0.5, farthest_usual = 2.;
+
+    /** Tissue of fewer cells along its longest axis was hardly meant. */
+    constexpr double fewest_cells = 3.;
+
+    /** Some founders, equally spaced in the order of ids, the same on all
+     *  ranks: position and length of each. */
+    template <int dim>
+    std::vector<std::pair<Point<dim>, double>>
+    sample(const Founders<dim> &founders, const MPI_Comm comm)
+    {
+      constexpr std::uint64_t most  = 1000;
+      const std::uint64_t     n     = founders.n_global;
+      const std::uint64_t     every = std::max<std::uint64_t>(1, n / most);
+      std::vector<double>     mine;
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        if ((founders.first_id + i) % every == 0)
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              mine.push_back(founders.positions[i][d]);
+            mine.push_back(std::pow(founders.volumes[i], 1. / dim));
+          }
+      std::vector<std::pair<Point<dim>, double>> result;
+      for (const auto &numbers : Utilities::MPI::all_gather(comm, mine))
+        for (std::size_t k = 0; k < numbers.size(); k += dim + 1)
+          {
+            Point<dim> x;
+            for (unsigned int d = 0; d < dim; ++d)
+              x[d] = numbers[k + d];
+            result.emplace_back(x, numbers[k + dim]);
+          }
+      return result;
+    }
+
+    /** Median over a sample of the distance to the nearest other founder, of
+     *  whichever rank, in units of the founder's length. */
+    template <int dim>
+    double
+    median_distance(const Founders<dim> &founders, const MPI_Comm comm)
+    {
+      const auto          chosen = sample(founders, comm);
+      const auto          tree   = pack_rtree(founders.positions);
+      std::vector<double> distances;
+      for (const auto &[x, length] : chosen)
+        {
+          // Of two neighbours on its own rank one is the founder itself; no
+          // other stands at its place.
+          double                  shortest = std::numeric_limits<double>::max();
+          std::vector<Point<dim>> found;
+          tree.query(boost::geometry::index::nearest(x, 2),
+                     std::back_inserter(found));
+          for (const Point<dim> &y : found)
+            if (y != x)
+              shortest = std::min(shortest, x.distance(y) / length);
+          distances.push_back(shortest);
+        }
+      Utilities::MPI::min(distances, comm, distances);
+      const auto middle = distances.begin() + distances.size() / 2;
+      std::nth_element(distances.begin(), middle, distances.end());
+      return *middle;
+    }
+
+    /** Largest distance of founders along an axis, and a cell. */
+    template <int dim>
+    double
+    longest_extent(const Founders<dim> &founders,
+                   const double         cell,
+                   const MPI_Comm       comm)
+    {
+      double longest = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double lower = std::numeric_limits<double>::max(), upper = -lower;
+          for (const Point<dim> &X : founders.positions)
+            {
+              lower = std::min(lower, X[d]);
+              upper = std::max(upper, X[d]);
+            }
+          longest = std::max(longest,
+                             Utilities::MPI::max(upper, comm) -
+                               Utilities::MPI::min(lower, comm));
+        }
+      return longest + cell;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<std::string>
+  unit_warnings(const Scene         &scene,
+                const Founders<dim> &founders,
+                const MPI_Comm       comm)
+  {
+    const TissueParameters  &tissue = scene.tissue;
+    std::vector<std::string> warnings;
+    if (tissue.shape == "points" && founders.n_global > 1)
+      {
+        const double ratio = median_distance(founders, comm);
+        if (ratio < nearest_usual || ratio > farthest_usual)
+          warnings.push_back(warning(
+            "Tissue/Points file",
+            tissue.points_file,
+            "the nearest cell is, in the median, " + as_text(ratio) +
+              " of a cell's length away, where 0.5 to 2 is usual: cells " +
+              (ratio < nearest_usual ? "overlap" : "leave gaps") +
+              ". Is the file in another unit than um?",
+            "If so, scale it to um; else set Tissue/Cell spacing to the length "
+            "of the cells, or give each its volume in the file."));
+      }
+    if (tissue.shape == "mesh")
+      {
+        const double extent =
+          longest_extent(founders, tissue.cell_spacing, comm);
+        if (extent < fewest_cells * tissue.cell_spacing)
+          warnings.push_back(
+            warning("Tissue/Surface mesh",
+                    tissue.surface_mesh,
+                    "the tissue is only " +
+                      as_text(std::round(extent / tissue.cell_spacing)) +
+                      " cells long, " + as_text(extent) +
+                      " um. Is the file in another unit than um?",
+                    "If so, scale it to um, such as by 1000 from mm; else "
+                    "choose a smaller Tissue/Cell spacing."));
+      }
+    return warnings;
+  }
+
+
+  template std::vector<std::string>
+  unit_warnings(const Scene &, const Founders<2> &, const MPI_Comm);
+  template std::vector<std::string>
+  unit_warnings(const Scene &, const Founders<3> &, const MPI_Comm);
+} // namespace Morula

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/mesh_patches.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    using Triangle = std::array<Point<3>, 3>;
+
+    Point<3>
+    centroid(const Triangle &triangle)
+    {
+      return Point<3>(
+        (triangle[0] + Tensor<1, 3>(triangle[1]) + Tensor<1, 3>(triangle[2])) /
+        3.);
+    }
+
+    /** Triangles of the surface, cut or merged or as they are. */
+    struct Piece
+    {
+      std::vector<Triangle> triangles;
+      double                area = 0.;
+      Tensor<1, 3>          moment; // area times centroid
+      Tensor<1, 3>          vector; // sum of the area vectors
+      // pieces next to this one; merged ones stand for what they went into
+      std::vector<std::size_t> neighbors;
+      std::size_t              merged_into;
+
+      Point<3>
+      center() const
+      {
+        return Point<3>(moment / area);
+      }
+    };
+
+    Piece
+    make_piece(const Triangle &triangle, const std::size_t number)
+    {
+      Piece piece;
+      piece.triangles   = {triangle};
+      piece.vector      = area_vector(triangle);
+      piece.area        = piece.vector.norm();
+      piece.moment      = piece.area * centroid(triangle);
+      piece.merged_into = number;
+      return piece;
+    }
+
+    /**
+     * How many pieces to cut each triangle into. Those at least as large as the
+     * mean patch get their share, rounded such that the rounding errors do not
+     * add up; the others stay whole.
+     */
+    std::vector<std::uint64_t>
+    count_pieces(const std::vector<SurfaceTriangle> &triangles,
+                 const std::uint64_t                 n_wished)
+    {
+      double total = 0.;
+      for (const SurfaceTriangle &triangle : triangles)
+        total += area_vector(triangle.vertices).norm();
+
+      std::vector<std::uint64_t> counts;
+      double                     share_so_far = 0.;
+      for (const SurfaceTriangle &triangle : triangles)
+        {
+          const double share = area_vector(triangle.vertices).norm() / total *
+                               static_cast<double>(n_wished);
+          counts.push_back(1);
+          if (share < 1.)
+            continue;
+          const double before = std::round(share_so_far);
+          share_so_far += share;
+          counts.back() = static_cast<std::uint64_t>(
+            std::max(1., std::round(share_so_far) - before));
+        }
+      return counts;
+    }
+
+    /** Pieces of all triangles; whole ones know the pieces next to them. */
+    std::vector<Piece>
+    cut(const std::vector<SurfaceTriangle> &triangles,
+        const std::vector<std::uint64_t>   &counts)
+    {
+      std::vector<Piece>       pieces;
+      std::vector<std::size_t> first;
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        {
+          std::vector<Triangle> parts;
+          cut_triangle(triangles[t].vertices, counts[t], parts);
+          first.push_back(pieces.size());
+          for (const Triangle &part : parts)
+            pieces.push_back(make_piece(part, pieces.size()));
+        }
+
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (counts[t] == 1)
+          for (const unsigned int neighbor : triangles[t].neighbors)
+            {
+              // of a cut neighbour, the piece nearest to this triangle
+              Piece     &own   = pieces[first[t]];
+              const auto begin = pieces.begin() + first[neighbor];
+              const auto nearest =
+                std::min_element(begin,
+                                 begin + counts[neighbor],
+                                 [center = own.center()](const Piece &a,
+                                                         const Piece &b) {
+                                   return a.center().distance_square(center) <
+                                          b.center().distance_square(center);
+                                 });
+              own.neighbors.push_back(nearest - pieces.begin());
+              nearest->neighbors.push_back(first[t]);
+            }
+      return pieces;
+    }
+
+    /** Follows a merged piece to the one that it is part of now. */
+    std::size_t
+    current(std::vector<Piece> &pieces, std::size_t number)
+    {
+      while (pieces[number].merged_into != number)
+        {
+          pieces[number].merged_into =
+            pieces[pieces[number].merged_into].merged_into;
+          number = pieces[number].merged_into;
+        }
+      return number;
+    }
+
+    /**
+     * The neighbour that @p number is best merged with, or @p number itself if
+     * there are sharp edges all around.
+     */
+    std::size_t
+    partner(std::vector<Piece> &pieces, const std::size_t number)
+    {
+      constexpr double cosine_of_sharp_edge = 0.86602540378443865; // 30 degrees
+
+      std::vector<std::size_t> &neighbors = pieces[number].neighbors;
+      for (std::size_t &neighbor : neighbors)
+        neighbor = current(pieces, neighbor);
+      std::sort(neighbors.begin(), neighbors.end());
+      neighbors.erase(std::unique(neighbors.begin(), neighbors.end()),
+                      neighbors.end());
+
+      const Piece &piece    = pieces[number];
+      std::size_t  best     = number;
+      double       distance = std::numeric_limits<double>::max();
+      for (const std::size_t neighbor : neighbors)
+        {
+          const Piece &other = pieces[neighbor];
+          const double to_other =
+            piece.center().distance_square(other.center());
+          if (neighbor != number && to_other < distance &&
+              piece.vector * other.vector >= cosine_of_sharp_edge *
+                                               piece.vector.norm() *
+                                               other.vector.norm())
+            {
+              best     = neighbor;
+              distance = to_other;
+            }
+        }
+      return best;
+    }
+
+    void
+    merge(std::vector<Piece> &pieces,
+          const std::size_t   to,
+          const std::size_t   from)
+    {
+      Piece &kept = pieces[to];
+      Piece &gone = pieces[from];
+      kept.area += gone.area;
+      kept.moment += gone.moment;
+      kept.vector += gone.vector;
+      const auto move_all = [](auto &into, auto &out_of) {
+        if (into.size() < out_of.size())
+          std::swap(into, out_of);
+        into.insert(into.end(), out_of.begin(), out_of.end());
+        out_of = {};
+      };
+      move_all(kept.triangles, gone.triangles);
+      move_all(kept.neighbors, gone.neighbors);
+      gone.merged_into = to;
+    }
+
+    /** Merges the smallest pieces until so many are left, or none can be. */
+    void
+    merge_smallest(std::vector<Piece> &pieces, const std::uint64_t n_wished)
+    {
+      using Entry = std::pair<double, std::size_t>; // area, number
+      std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+        queue.emplace(pieces[i].area, i);
+
+      std::uint64_t n = pieces.size();
+      while (n > n_wished && !queue.empty())
+        {
+          const auto [area, number] = queue.top();
+          queue.pop();
+          if (current(pieces, number) != number || pieces[number].area != area)
+            continue; // merged since it was queued
+          const std::size_t other = partner(pieces, number);
+          if (other == number)
+            continue;
+          const std::size_t kept = std::min(number, other);
+          merge(pieces, kept, std::max(number, other));
+          queue.emplace(pieces[kept].area, kept);
+          --n;
+        }
+    }
+
+    /**
+     * The point of the triangle's plane nearest to @p x, kept inside the
+     * triangle and off its edges.
+     */
+    Point<3>
+    move_into(const Triangle &triangle, const Point<3> &x)
+    {
+      constexpr double   least  = 0.1; // of a barycentric coordinate
+      const Tensor<1, 3> normal = area_vector(triangle);
+      double             weights[3], sum = 0.;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const Tensor<1, 3> part =
+            area_vector({{x, triangle[(i + 1) % 3], triangle[(i + 2) % 3]}});
+          weights[i] = std::max(least, part * normal / normal.norm_square());
+          sum += weights[i];
+        }
+      Point<3> moved;
+      for (unsigned int i = 0; i < 3; ++i)
+        moved += (weights[i] / sum) * triangle[i];
+      return moved;
+    }
+
+    SurfacePatch<3>
+    make_patch(const Piece &piece)
+    {
+      SurfacePatch<3> patch;
+      patch.area     = piece.area;
+      patch.normal   = piece.vector / piece.vector.norm();
+      patch.position = piece.center();
+      if (piece.triangles.size() == 1)
+        return patch;
+
+      double distance = std::numeric_limits<double>::max();
+      for (const Triangle &triangle : piece.triangles)
+        {
+          const Point<3> moved = move_into(triangle, piece.center());
+          if (moved.distance(piece.center()) < distance)
+            {
+              patch.position = moved;
+              distance       = moved.distance(piece.center());
+            }
+        }
+      return patch;
+    }
+  } // namespace
+
+  Tensor<1, 3>
+  area_vector(const std::array<Point<3>, 3> &triangle)
+  {
+    return 0.5 * cross_product_3d(triangle[1] - triangle[0],
+                                  triangle[2] - triangle[0]);
+  }
+
+  void
+  cut_triangle(const std::array<Point<3>, 3>        &triangle,
+               const std::uint64_t                   n_pieces,
+               std::vector<std::array<Point<3>, 3>> &pieces)
+  {
+    if (n_pieces == 1)
+      {
+        pieces.push_back(triangle);
+        return;
+      }
+    unsigned int longest = 0;
+    for (unsigned int i = 1; i < 3; ++i)
+      if (triangle[i].distance(triangle[(i + 1) % 3]) >
+          triangle[longest].distance(triangle[(longest + 1) % 3]))
+        longest = i;
+    const Point<3> a = triangle[longest];
+    const Point<3> b = triangle[(longest + 1) % 3];
+    const Point<3> c = triangle[(longest + 2) % 3];
+
+    const std::uint64_t half    = n_pieces / 2;
+    const double        ratio   = static_cast<double>(half) / n_pieces;
+    const Point<3>      on_edge = a + ratio * (b - a);
+    cut_triangle({{a, on_edge, c}}, half, pieces);
+    cut_triangle({{on_edge, b, c}}, n_pieces - half, pieces);
+  }
+
+  std::vector<SurfacePatch<3>>
+  cut_into_patches(const std::vector<SurfaceTriangle> &triangles,
+                   const std::uint64_t                 n_wished)
+  {
+    std::vector<Piece> pieces =
+      cut(triangles, count_pieces(triangles, n_wished));
+    merge_smallest(pieces, n_wished);
+
+    std::vector<SurfacePatch<3>> patches;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (pieces[i].merged_into == i)
+        patches.push_back(make_patch(pieces[i]));
+    return patches;
+  }
+} // namespace Morula

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/point_rows.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Characters; four numbers and their names are far shorter, and the parts
+     *  of a file without line ends would fill the memory. */
+    constexpr std::size_t longest_line = 10000;
+
+    std::string
+    trimmed(const std::string &text)
+    {
+      const char *const blanks = " \t\r\"";
+      const auto        begin  = text.find_first_not_of(blanks);
+      return begin == std::string::npos ?
+               "" :
+               text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+    }
+
+    std::vector<std::string>
+    fields(const std::string &line)
+    {
+      std::vector<std::string> result;
+      std::size_t              begin = 0;
+      for (std::size_t comma; begin != std::string::npos;
+           begin = comma == std::string::npos ? comma : comma + 1)
+        {
+          comma = line.find(',', begin);
+          result.push_back(trimmed(line.substr(begin, comma - begin)));
+        }
+      return result;
+    }
+
+    std::optional<double>
+    number(const std::string &text)
+    {
+      double            value = 0.;
+      const char *const end   = text.data() + text.size();
+      const auto [rest, error] =
+        std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
+      if (error != std::errc() || rest != end || !std::isfinite(value))
+        return {};
+      return value;
+    }
+  } // namespace
+
+  bool
+  is_remark(const std::string &line)
+  {
+    const std::string text = trimmed(line);
+    return text.empty() || text[0] == '#';
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  read_columns(const std::string &text, LineProblem &problem)
+  {
+    std::vector<unsigned int>        columns;
+    const std::array<std::string, 4> names = {{"x", "y", "z", "volume"}};
+    std::array<unsigned int, 4>      found{};
+    bool                             known = true;
+    for (std::string name : text.size() > longest_line ?
+                              std::vector<std::string>{""} :
+                              fields(text))
+      {
+        std::transform(name.begin(),
+                       name.end(),
+                       name.begin(),
+                       [](const char c) {
+                         return static_cast<char>(
+                           std::tolower(static_cast<unsigned char>(c)));
+                       });
+        const auto column = static_cast<unsigned int>(
+          std::find(names.begin(), names.end(), name) - names.begin());
+        columns.push_back(column);
+        known = known && column < names.size() && ++found[column] == 1;
+      }
+    if (!known || found[0] == 0 || found[1] == 0 || (dim == 3 && found[2] == 0))
+      {
+        problem.value = trimmed(text.substr(0, longest_line));
+        problem.allowed =
+          dim == 3 ?
+            "a header line that names the columns x, y, z and, if there, "
+            "volume, each once" :
+            "a header line that names the columns x, y and, if there, z and "
+            "volume, each once";
+        problem.remedy = "Name the columns in the file's first line.";
+      }
+    return columns;
+  }
+
+  template <int dim>
+  void
+  read_row(const std::string               &text,
+           const std::vector<unsigned int> &columns,
+           const double                     default_volume,
+           PointRows<dim>                  &rows)
+  {
+    const bool                     too_long = text.size() > longest_line;
+    const std::vector<std::string> entries =
+      too_long ? std::vector<std::string>() : fields(text);
+    if (entries.size() != columns.size())
+      {
+        rows.problem = {rows.n_lines,
+                        trimmed(text.substr(0, longest_line)),
+                        std::to_string(columns.size()) +
+                          " numbers separated by commas, as in the header",
+                        "Correct the line."};
+        return;
+      }
+    std::array<double, 4> values = {{0., 0., 0., default_volume}};
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      {
+        const std::optional<double> value = number(entries[i]);
+        if (!value)
+          {
+            rows.problem = {rows.n_lines,
+                            entries[i],
+                            "a finite number with a decimal point, in um "
+                            "(volumes: um^3, 2-D: um^2)",
+                            "Correct the line."};
+            return;
+          }
+        values[columns[i]] = *value;
+      }
+    if (!(values[3] > 0.))
+      rows.problem = {rows.n_lines,
+                      trimmed(text),
+                      "a volume above 0 um^3 (2-D: um^2)",
+                      "Correct the volume or drop the cell."};
+    if (dim == 2 && values[2] != 0.)
+      rows.problem = {
+        rows.n_lines,
+        trimmed(text),
+        "z = 0 um in 2-D",
+        "Project the cells into the plane, or set Dimension = 3."};
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = values[d] + 0.; // -0 becomes 0
+    rows.positions.push_back(x);
+    rows.volumes.push_back(values[3]);
+    rows.lines.push_back(rows.n_lines);
+  }
+
+
+  template std::vector<unsigned int>
+  read_columns<2>(const std::string &, LineProblem &);
+  template std::vector<unsigned int>
+  read_columns<3>(const std::string &, LineProblem &);
+  template void
+  read_row<2>(const std::string &,
+              const std::vector<unsigned int> &,
+              const double,
+              PointRows<2> &);
+  template void
+  read_row<3>(const std::string &,
+              const std::vector<unsigned int> &,
+              const double,
+              PointRows<3> &);
+} // namespace Morula

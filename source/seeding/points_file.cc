@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/seeding/outliers.h>
+#include <morula/seeding/point_rows.h>
+#include <morula/seeding/points_file.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/array.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace Morula
+{
+  namespace
+  {
+    /** All ranks throw the problem of the first bad line, whoever read it. */
+    void
+    throw_first(const LineProblem &mine,
+                const std::string &file,
+                const MPI_Comm     comm)
+    {
+      const std::uint64_t first = Utilities::MPI::min(mine.line, comm);
+      if (first == LineProblem::no_line)
+        return;
+      const unsigned int my_rank = Utilities::MPI::this_mpi_process(comm);
+      const unsigned int rank    = Utilities::MPI::min(
+        mine.line == first ? my_rank : numbers::invalid_unsigned_int, comm);
+      const std::vector<std::string> text = Utilities::MPI::broadcast(
+        comm,
+        std::vector<std::string>{mine.value, mine.allowed, mine.remedy},
+        rank);
+      throw InputError("Tissue/Points file (" + file + ", line " +
+                         std::to_string(first) + ")",
+                       text[0],
+                       text[1],
+                       text[2]);
+    }
+
+    /** The header line and what it says. */
+    struct Header
+    {
+      std::uint64_t             line       = 0; // its number, from 1
+      std::uint64_t             data_begin = 0; // byte after it
+      std::uint64_t             file_size  = 0;
+      std::vector<unsigned int> columns; // see read_columns()
+      LineProblem               problem;
+    };
+
+    template <int dim>
+    Header
+    read_header(std::ifstream &stream)
+    {
+      Header header;
+      stream.seekg(0, std::ios::end);
+      header.file_size =
+        static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
+      stream.seekg(0);
+      for (std::string text; std::getline(stream, text);)
+        {
+          ++header.line;
+          header.data_begin += text.size() + 1;
+          if (header.line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0)
+            text.erase(0, 3); // the byte order mark of spreadsheets
+          if (is_remark(text))
+            continue;
+          header.columns = read_columns<dim>(text, header.problem);
+          if (!header.problem.allowed.empty())
+            header.problem.line = header.line;
+          return header;
+        }
+      header.problem = {std::max<std::uint64_t>(header.line, 1),
+                        "",
+                        "a header line and one line per cell",
+                        "The file is empty: give another one."};
+      return header;
+    }
+
+    /** The lines that begin in this rank's equal share of the file's bytes. */
+    template <int dim>
+    PointRows<dim>
+    read_share(std::ifstream &stream,
+               const Header  &header,
+               const double   default_volume,
+               const MPI_Comm comm)
+    {
+      const std::uint64_t rank  = Utilities::MPI::this_mpi_process(comm);
+      const std::uint64_t ranks = Utilities::MPI::n_mpi_processes(comm);
+      const std::uint64_t bytes =
+        std::max(header.file_size, header.data_begin) - header.data_begin;
+      std::uint64_t       at  = header.data_begin + bytes * rank / ranks;
+      const std::uint64_t end = header.data_begin + bytes * (rank + 1) / ranks;
+
+      PointRows<dim> rows;
+      std::string    text;
+      stream.clear();
+      stream.seekg(static_cast<std::streamoff>(at - 1));
+      // the rest of the line before, at least its end
+      if (!std::getline(stream, text))
+        return rows;
+      at += text.size();
+      while (at < end && rows.problem.line == LineProblem::no_line &&
+             std::getline(stream, text))
+        {
+          at += text.size() + 1;
+          ++rows.n_lines;
+          if (!is_remark(text))
+            read_row(text, header.columns, default_volume, rows);
+        }
+      return rows;
+    }
+
+    double
+    sum_of(const std::vector<double> &values)
+    {
+      return std::accumulate(values.begin(), values.end(), 0.);
+    }
+
+    /** Sum of @p mine over the lower ranks. */
+    std::uint64_t
+    sum_below(const std::uint64_t mine, const MPI_Comm comm)
+    {
+      std::uint64_t below = 0;
+      const int     error =
+        MPI_Exscan(&mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
+      AssertThrowMPI(error);
+      return Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : below;
+    }
+
+    /** Cells nearer than this fraction of their length coincide: division
+     *  could not tell their regions apart (daughter_distances()). */
+    constexpr double contact = 1e-3;
+
+    /** A cell of the file in a bin of space. */
+    template <int dim>
+    struct BinEntry
+    {
+      std::array<double, dim> bin, position;
+      std::uint64_t           line;
+      double                  length; // V^(1/dim), µm
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive & bin & position & line & length;
+      }
+    };
+
+    /**
+     * This rank's bins of space with the cells in them, each sorted by line.
+     * Bins are spread over the ranks by their hash; a cell near the rim of a
+     * bin is in those beside it as well.
+     */
+    template <int dim>
+    std::vector<BinEntry<dim>>
+    bins(const PointRows<dim> &rows, const MPI_Comm comm)
+    {
+      double longest = 0.;
+      for (const double volume : rows.volumes)
+        longest = std::max(longest, std::pow(volume, 1. / dim));
+      const double reach = contact * Utilities::MPI::max(longest, comm);
+      const double width = 4. * reach;
+
+      std::map<unsigned int, std::vector<BinEntry<dim>>> outgoing;
+      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      for (std::size_t i = 0; i < rows.positions.size(); ++i)
+        {
+          std::set<std::array<double, dim>> around;
+          for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+            {
+              std::array<double, dim> bin;
+              for (unsigned int d = 0; d < dim; ++d)
+                bin[d] = std::floor((rows.positions[i][d] +
+                                     ((corner >> d) & 1 ? reach : -reach)) /
+                                    width);
+              around.insert(bin);
+            }
+          BinEntry<dim> entry;
+          entry.line   = rows.lines[i];
+          entry.length = std::pow(rows.volumes[i], 1. / dim);
+          for (unsigned int d = 0; d < dim; ++d)
+            entry.position[d] = rows.positions[i][d];
+          for (const auto &bin : around)
+            {
+              std::size_t hash = 0;
+              for (const double index : bin)
+                hash = hash * 1000003 + std::hash<double>()(index);
+              entry.bin = bin;
+              outgoing[(hash >> 8) % n_ranks].push_back(entry);
+            }
+        }
+      std::vector<BinEntry<dim>> mine;
+      for (const auto &from : Utilities::MPI::some_to_some(comm, outgoing))
+        mine.insert(mine.end(), from.second.begin(), from.second.end());
+      std::sort(mine.begin(), mine.end(), [](const auto &a, const auto &b) {
+        return std::tie(a.bin, a.line) < std::tie(b.bin, b.line);
+      });
+      return mine;
+    }
+
+    /**
+     * The first line whose cell coincides with that of a line before it.
+     * @p rows has global line numbers.
+     */
+    template <int dim>
+    LineProblem
+    find_repeated(const PointRows<dim> &rows, const MPI_Comm comm)
+    {
+      const std::vector<BinEntry<dim>> entries = bins(rows, comm);
+      const auto coincide = [](const auto &a, const auto &b) {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += Utilities::fixed_power<2>(a.position[d] - b.position[d]);
+        return std::sqrt(square) < contact * std::min(a.length, b.length);
+      };
+      LineProblem problem;
+      for (std::size_t begin = 0, i = 0; i < entries.size(); ++i)
+        {
+          if (entries[i].bin != entries[begin].bin)
+            begin = i;
+          if (entries[i].line >= problem.line)
+            continue;
+          for (std::size_t k = begin; k < i; ++k)
+            if (coincide(entries[k], entries[i]))
+              {
+                problem = {entries[i].line,
+                           Patterns::Tools::to_string(entries[i].position),
+                           "one cell at each place, in um, and line " +
+                             std::to_string(entries[k].line) +
+                             " has one there already, nearer than 1e-3 of a "
+                             "cell's length",
+                           "Drop one of the two cells. If all lie so near, "
+                           "scale the file to um."};
+                break;
+              }
+        }
+      return problem;
+    }
+  } // namespace
+
+  template <int dim>
+  Founders<dim>
+  read_points(const std::string        &file,
+              const double              default_volume,
+              const MPI_Comm            comm,
+              const SeedingLimits<dim> &limits)
+  {
+    std::ifstream stream(file, std::ios::binary);
+    if (Utilities::MPI::max(stream.good() ? 0 : 1, comm) != 0)
+      throw InputError("Tissue/Points file",
+                       file,
+                       "a file that every process can read",
+                       "Correct the name.");
+    const Header header = read_header<dim>(stream);
+    throw_first(header.problem, file, comm);
+
+    PointRows<dim> rows = read_share<dim>(stream, header, default_volume, comm);
+    const std::uint64_t lines_before =
+      header.line + sum_below(rows.n_lines, comm);
+    for (std::uint64_t &line : rows.lines)
+      line += lines_before;
+    if (rows.problem.line != LineProblem::no_line)
+      rows.problem.line += lines_before;
+    throw_first(rows.problem, file, comm);
+    const std::uint64_t n_mine = rows.positions.size();
+    const std::uint64_t n      = Utilities::MPI::sum(n_mine, comm);
+    throw_first(find_beyond(rows, limits), file, comm);
+    throw_first(find_outlier(rows, limits.extent, n, comm), file, comm);
+    if (limits.check_memory && n > 0)
+      limits.check_memory(bounding_box(rows, comm),
+                          n,
+                          Utilities::MPI::sum(sum_of(rows.volumes), comm));
+    throw_first(find_repeated(rows, comm), file, comm);
+    if (n == 0 || n >= std::numeric_limits<types::particle_index>::max())
+      throw InputError("Tissue/Points file",
+                       file,
+                       "a file with 1 to 4e9 cells",
+                       "It has " + std::to_string(n) + ".");
+    Founders<dim> founders;
+    founders.first_id =
+      static_cast<types::particle_index>(sum_below(n_mine, comm));
+    founders.n_global  = static_cast<types::particle_index>(n);
+    founders.positions = std::move(rows.positions);
+    founders.volumes   = std::move(rows.volumes);
+    return founders;
+  }
+
+  template Founders<2>
+  read_points<2>(const std::string &,
+                 const double,
+                 const MPI_Comm,
+                 const SeedingLimits<2> &);
+  template Founders<3>
+  read_points<3>(const std::string &,
+                 const double,
+                 const MPI_Comm,
+                 const SeedingLimits<3> &);
+} // namespace Morula

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/seeding/lattice.h>
+#include <morula/seeding/points_file.h>
+#include <morula/seeding/seeding.h>
+#include <morula/seeding/shape.h>
+#include <morula/seeding/trimming.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr std::uint64_t most_ids =
+      std::numeric_limits<types::particle_index>::max() - 1;
+
+    /** This rank's share [begin, end) of n things in order. */
+    std::pair<std::uint64_t, std::uint64_t>
+    share(const std::uint64_t n, const MPI_Comm comm)
+    {
+      const std::uint64_t rank    = Utilities::MPI::this_mpi_process(comm);
+      const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      const auto          begin   = [=](const std::uint64_t r) {
+        return n / n_ranks * r + n % n_ranks * r / n_ranks;
+      };
+      return {begin(rank), begin(rank + 1)};
+    }
+
+    /**
+     * make_shape() on all ranks, each of which reads a mesh's file; if that
+     * fails on one, for instance on a node without the file, all ranks throw.
+     */
+    template <int dim>
+    std::unique_ptr<Shape<dim>>
+    make_shape_everywhere(const TissueParameters &parameters,
+                          const MPI_Comm          comm)
+    {
+      std::unique_ptr<Shape<dim>> shape;
+      std::optional<InputError>   own_error;
+      try
+        {
+          shape = make_shape<dim>(parameters);
+        }
+      catch (const InputError &error)
+        {
+          own_error = error;
+        }
+      const bool failed = Utilities::MPI::max(own_error ? 1 : 0, comm) != 0;
+      if (own_error)
+        throw *own_error;
+      if (failed)
+        throw InputError("Tissue/Surface mesh",
+                         parameters.surface_mesh,
+                         "a file that all processes can read",
+                         "Copy it to where all of them see it.");
+      return shape;
+    }
+
+    std::string
+    length(const double value)
+    {
+      std::ostringstream text;
+      text << value << " um";
+      return text.str();
+    }
+
+    /** "It reaches from ... to ... um" */
+    template <int dim>
+    std::string
+    reach(const BoundingBox<dim> &box)
+    {
+      std::ostringstream text;
+      text << "It reaches from (" << box.get_boundary_points().first << ") to ("
+           << box.get_boundary_points().second << ") um";
+      return text.str();
+    }
+
+    /** Refuses a surface of which a vertex lies far away from the others. */
+    template <int dim>
+    [[noreturn]] void
+    throw_too_long(const TissueParameters &parameters,
+                   const BoundingBox<dim> &box,
+                   const double            limit)
+    {
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       "a surface in um that is at most " + length(limit) +
+                         " long (a number of times Grid/Spacing)",
+                       reach(box) +
+                         ": correct the vertex that lies astray. If the file "
+                         "is in another unit, scale it to um.");
+    }
+
+    template <int dim>
+    [[noreturn]] void
+    throw_far_away(const TissueParameters &parameters,
+                   const BoundingBox<dim> &box,
+                   const double            limit)
+    {
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       "a surface at most " + length(limit) +
+                         " from the origin (a number of times Grid/Spacing)",
+                       reach(box) + ": move the scene nearer to the origin.");
+    }
+
+    /** Refuses a surface that holds no cell or too many, whose file then most
+     *  likely has another unit of length. */
+    template <int dim>
+    [[noreturn]] void
+    throw_wrong_size(const TissueParameters &parameters,
+                     const BoundingBox<dim> &box,
+                     const bool              too_large)
+    {
+      std::ostringstream remedy;
+      remedy << reach(box) << ", and a cell takes " << parameters.cell_spacing
+             << " um (Tissue/Cell spacing). If the file is in another unit, "
+             << "scale it to um"
+             << (too_large ? "" : ", such as by 1000 from mm or 1e6 from m")
+             << "; else choose another Cell spacing or Lattice offset.";
+      throw InputError("Tissue/Surface mesh",
+                       parameters.surface_mesh,
+                       too_large ? "a surface in um with fewer than 4e9 cells" :
+                                   "a surface in um with at least one cell's "
+                                   "centre inside",
+                       remedy.str());
+    }
+
+    /** Refuses a mesh that exceeds the limits, or whose bounding box has too
+     *  many places for cells. */
+    template <int dim>
+    void
+    check_extent(const TissueParameters   &parameters,
+                 const Shape<dim>         &shape,
+                 const SeedingLimits<dim> &limits)
+    {
+      const BoundingBox<dim> box = shape.bounding_box();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          if (!(box.side_length(d) <= limits.extent))
+            throw_too_long(parameters, box, limits.extent);
+          if (!(std::max(std::abs(box.lower_bound(d)),
+                         std::abs(box.upper_bound(d))) <= limits.farthest))
+            throw_far_away(parameters, box, limits.farthest);
+        }
+      double n = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        n *= box.side_length(d) / parameters.cell_spacing + 1.;
+      if (!(n < most_ids))
+        throw_wrong_size(parameters, box, true);
+      if (limits.check_memory)
+        limits.check_memory(box,
+                            shape.volume() /
+                              std::pow(parameters.cell_spacing, dim),
+                            shape.volume());
+    }
+
+    /** Numbers this rank's founders after those of the lower ranks. */
+    template <int dim>
+    void
+    number_founders(Founders<dim>          &founders,
+                    const TissueParameters &parameters,
+                    const BoundingBox<dim> &box,
+                    const MPI_Comm          comm)
+    {
+      const std::uint64_t n_mine = founders.positions.size();
+      std::uint64_t       below  = 0;
+      const int           error =
+        MPI_Exscan(&n_mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
+      AssertThrowMPI(error);
+      if (Utilities::MPI::this_mpi_process(comm) == 0)
+        below = 0; // left undefined by MPI
+
+      const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
+      if (n == 0 && parameters.shape == "mesh")
+        throw_wrong_size(parameters, box, false);
+      if (n == 0)
+        throw_no_cell_fits(parameters);
+      founders.first_id = static_cast<types::particle_index>(below);
+      founders.n_global = static_cast<types::particle_index>(n);
+    }
+  } // namespace
+
+  template <int dim>
+  Founders<dim>
+  seed_founders(const TissueParameters   &parameters,
+                const MPI_Comm            comm,
+                const SeedingLimits<dim> &limits)
+  {
+    const double volume = std::pow(parameters.cell_spacing, dim);
+    if (parameters.shape == "points")
+      return read_points<dim>(parameters.points_file, volume, comm, limits);
+
+    const std::unique_ptr<Shape<dim>> shape =
+      make_shape_everywhere<dim>(parameters, comm);
+    if (parameters.shape == "mesh")
+      check_extent(parameters, *shape, limits);
+    const Lattice<dim> lattice(parameters, shape->bounding_box());
+    const auto [begin, end] = share(lattice.n_sites(), comm);
+
+    Founders<dim>              founders;
+    std::vector<std::uint64_t> sites;
+    for (std::uint64_t site = begin; site < end; ++site)
+      {
+        const Point<dim> x = lattice.position(site);
+        if (!lattice.is_occupied(*shape, x))
+          continue;
+        founders.positions.push_back(x);
+        sites.push_back(site);
+      }
+    founders.volumes.assign(founders.positions.size(), volume);
+    const bool seeded = parameters.surface_cells == "whole" ||
+                        trim(lattice, *shape, sites, founders);
+    if (Utilities::MPI::min(seeded ? 1 : 0, comm) == 0)
+      throw InputError("Tissue/Surface cells",
+                       parameters.surface_cells,
+                       "'whole' where the tissue is much thinner than a cell",
+                       "Choose 'whole' or a smaller Cell spacing.");
+    number_founders(founders, parameters, shape->bounding_box(), comm);
+    return founders;
+  }
+
+  template <int dim>
+  SurfacePatches<dim>
+  seed_surface(const TissueParameters &parameters, const MPI_Comm comm)
+  {
+    SurfacePatches<dim> patches;
+    if (parameters.shape == "points")
+      return patches;
+
+    const std::unique_ptr<Shape<dim>> shape =
+      make_shape_everywhere<dim>(parameters, comm);
+    const double n_by_spacing =
+      std::max(1.,
+               std::round(shape->surface_area() /
+                          std::pow(parameters.cell_spacing, dim - 1)));
+    const bool chosen = parameters.boundary_points > 0;
+    if (!chosen && !(n_by_spacing < most_ids))
+      throw InputError("Tissue/Cell spacing",
+                       Patterns::Tools::to_string(parameters.cell_spacing),
+                       "a spacing in um that gives fewer than 4e9 boundary "
+                       "points",
+                       "Choose a larger spacing, or set Boundary points.");
+    const SurfaceTiling<dim> tiling =
+      shape->tile(chosen ? parameters.boundary_points :
+                           static_cast<std::uint64_t>(n_by_spacing));
+
+    const auto [begin, end] = share(tiling.n_patches, comm);
+    patches.first_id        = static_cast<types::particle_index>(begin);
+    patches.n_global = static_cast<types::particle_index>(tiling.n_patches);
+    for (std::uint64_t i = begin; i < end; ++i)
+      {
+        const SurfacePatch<dim> patch = tiling.patch(i);
+        patches.positions.push_back(patch.position);
+        patches.normals.push_back(patch.normal);
+        patches.areas.push_back(patch.area);
+      }
+    return patches;
+  }
+
+  template Founders<2>
+  seed_founders<2>(const TissueParameters &,
+                   const MPI_Comm,
+                   const SeedingLimits<2> &);
+  template Founders<3>
+  seed_founders<3>(const TissueParameters &,
+                   const MPI_Comm,
+                   const SeedingLimits<3> &);
+  template SurfacePatches<2>
+  seed_surface<2>(const TissueParameters &, const MPI_Comm);
+  template SurfacePatches<3>
+  seed_surface<3>(const TissueParameters &, const MPI_Comm);
+} // namespace Morula

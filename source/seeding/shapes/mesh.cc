@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/mesh_patches.h>
+#include <morula/seeding/shapes/mesh.h>
+
+#include <utility>
+
+namespace Morula
+{
+  MeshShape::MeshShape(const std::string &file)
+    : mesh(file)
+  {}
+
+  BoundingBox<3>
+  MeshShape::bounding_box() const
+  {
+    return mesh.bounding_box();
+  }
+
+  bool
+  MeshShape::contains(const Point<3> &x, const double clearance) const
+  {
+    return mesh.contains(x, clearance);
+  }
+
+  double
+  MeshShape::volume() const
+  {
+    // From a point of the surface, so that no digits are lost far from the
+    // origin.
+    const Point<3> apex   = mesh.triangles().front().vertices[0];
+    double         volume = 0.;
+    for (const SurfaceTriangle &triangle : mesh.triangles())
+      volume += (triangle.vertices[0] - apex) * area_vector(triangle.vertices);
+    return volume / 3.;
+  }
+
+  double
+  MeshShape::surface_area() const
+  {
+    double area = 0.;
+    for (const SurfaceTriangle &triangle : mesh.triangles())
+      area += area_vector(triangle.vertices).norm();
+    return area;
+  }
+
+  SurfaceTiling<3>
+  MeshShape::tile(const std::uint64_t n_wished) const
+  {
+    SurfaceTiling<3>             tiling;
+    std::vector<SurfacePatch<3>> patches =
+      cut_into_patches(mesh.triangles(), n_wished);
+    tiling.n_patches = patches.size();
+    tiling.patch     = [patches = std::move(patches)](const std::uint64_t i) {
+      return patches[i];
+    };
+    return tiling;
+  }
+} // namespace Morula

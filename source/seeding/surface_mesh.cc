@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/seeding/surface_mesh.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    namespace Processing = CGAL::Polygon_mesh_processing;
+
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
+    using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
+    using Tree   = Inside::AABB_tree;
+
+    template <typename Position>
+    std::string
+    place(const Position &p)
+    {
+      std::ostringstream text;
+      text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
+      return text.str();
+    }
+
+    /** Polygons as files have them: with no order among each other. */
+    struct Soup
+    {
+      std::vector<Kernel::Point_3>          points;
+      std::vector<std::vector<std::size_t>> polygons;
+    };
+
+    [[noreturn]] void
+    refuse(const std::string &file, const std::string &remedy)
+    {
+      throw InputError("Tissue/Surface mesh",
+                       file,
+                       "a closed surface that does not intersect itself, as an "
+                       "STL, OFF, PLY or OBJ file",
+                       remedy);
+    }
+
+    /** Refuses an empty file, and an STL file that ends before its last
+     *  triangle. What is not there is left to the reader. */
+    void
+    check_whole(const std::string &file)
+    {
+      const std::string ending =
+        file.substr(std::min(file.rfind('.'), file.size()));
+      std::ifstream stream(file, std::ios::binary);
+      if (!stream)
+        return;
+      if (stream.peek() == std::ifstream::traits_type::eof())
+        refuse(file, "The file is empty: copy or export it again.");
+      if (!boost::algorithm::iequals(ending, ".stl"))
+        return;
+      const std::string text((std::istreambuf_iterator<char>(stream)),
+                             std::istreambuf_iterator<char>());
+      // 80 bytes of header, the number of triangles, 50 bytes each
+      std::uint32_t n = 0;
+      if (text.size() >= 84)
+        std::memcpy(&n, text.data() + 80, sizeof(n));
+      const std::size_t there = text.size() < 84 ? 0 : (text.size() - 84) / 50;
+      if (text.rfind("solid", 0) == 0 &&
+          (text.size() < 84 || text.size() != 84 + 50 * std::size_t(n)) &&
+          text.find("facet") != std::string::npos)
+        {
+          if (text.find("endsolid") == std::string::npos)
+            refuse(file,
+                   "The file is cut off: it has no 'endsolid'. Copy or export "
+                   "it again.");
+          return;
+        }
+      if (text.size() < 84 || there < n)
+        refuse(file,
+               "The file is cut off: it has " + std::to_string(there) +
+                 " whole triangles" +
+                 (text.size() < 84 ?
+                    "" :
+                    ", and says that it has " + std::to_string(n)) +
+                 ". Copy or export it again.");
+    }
+
+    /** Refuses coordinates that are no numbers, or too large for areas and
+     *  volumes to be. */
+    void
+    check_finite(const Soup &soup, const std::string &file)
+    {
+      for (std::size_t i = 0; i < soup.points.size(); ++i)
+        {
+          const Kernel::Point_3 &p = soup.points[i];
+          const double           largest =
+            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+          if (std::isnan(p.x() + p.y() + p.z()) || !(largest < 1e100))
+            refuse(file,
+                   "Vertex " + std::to_string(i) + " (counted from 0) is at " +
+                     place(p) + " um: export the surface again, in um.");
+        }
+    }
+
+    Soup
+    read_soup(const std::string &file)
+    {
+      check_whole(file);
+      Soup soup;
+      bool good = false;
+      try
+        {
+          good = CGAL::IO::read_polygon_soup(file, soup.points, soup.polygons);
+        }
+      catch (const std::exception &)
+        {
+          // what it could not parse is reported below
+        }
+      const auto in_range = [&](const std::vector<std::size_t> &polygon) {
+        return std::all_of(polygon.begin(),
+                           polygon.end(),
+                           [&](const std::size_t i) {
+                             return i < soup.points.size();
+                           });
+      };
+      if (!good ||
+          !std::all_of(soup.polygons.begin(), soup.polygons.end(), in_range))
+        refuse(file,
+               "The file cannot be read: check that it exists, that its name "
+               "ends with .stl, .off, .ply or .obj, that it is whole, and that "
+               "it holds numbers only.");
+      check_finite(soup, file);
+      Processing::repair_polygon_soup(soup.points, soup.polygons);
+      if (soup.polygons.empty())
+        refuse(file, "The file has no polygons: export the surface again.");
+      return soup;
+    }
+
+    /** Refuses edges that do not have two polygons each. */
+    void
+    check_edges(const Soup &soup, const std::string &file)
+    {
+      std::map<std::pair<std::size_t, std::size_t>, unsigned int> edges;
+      for (const std::vector<std::size_t> &polygon : soup.polygons)
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+          ++edges[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
+
+      std::size_t n_many = 0, n_open = 0;
+      std::string first_many, first_open;
+      for (const auto &[edge, n_polygons] : edges)
+        if (n_polygons != 2)
+          {
+            ++(n_polygons > 2 ? n_many : n_open);
+            std::string &first = n_polygons > 2 ? first_many : first_open;
+            if (first.empty())
+              first = place(soup.points[edge.first]) + " to " +
+                      place(soup.points[edge.second]) + " um";
+          }
+      if (n_many > 0)
+        refuse(file,
+               "The surface is non-manifold: " + std::to_string(n_many) +
+                 " edges belong to more than two polygons, such as that from " +
+                 first_many +
+                 ". Remove inner walls and fins, and separate bodies that "
+                 "touch.");
+      if (n_open > 0)
+        refuse(file,
+               "The surface is open: " + std::to_string(n_open) +
+                 " edges belong to one polygon only, such as that from " +
+                 first_open +
+                 ". Close the holes, or merge the vertices that should "
+                 "coincide.");
+    }
+
+    std::string
+    corners(const Mesh &mesh, const Mesh::Face_index face)
+    {
+      std::string text;
+      for (const Mesh::Vertex_index v :
+           CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+        text += (text.empty() ? "" : ", ") + place(mesh.point(v));
+      return text + " um";
+    }
+
+    /** Refuses triangles whose normal would be lost in rounding. */
+    void
+    check_areas(const Mesh &mesh, const std::string &file)
+    {
+      constexpr double smallest = 1e-14; // of the longest edge's square
+      for (const Mesh::Face_index face : mesh.faces())
+        {
+          double longest = 0.;
+          for (const Mesh::Halfedge_index edge :
+               CGAL::halfedges_around_face(mesh.halfedge(face), mesh))
+            longest = std::max(longest,
+                               CGAL::to_double(CGAL::squared_distance(
+                                 mesh.point(mesh.source(edge)),
+                                 mesh.point(mesh.target(edge)))));
+          if (!(Processing::face_area(face, mesh) > smallest * longest))
+            refuse(file,
+                   "The triangle with the corners " + corners(mesh, face) +
+                     " has no area: remove such triangles with a mesh editor, "
+                     "or export the surface again.");
+        }
+    }
+
+    /** Refuses triangles that cross or touch others which are no neighbours. */
+    void
+    check_intersections(const Mesh &mesh, const std::string &file)
+    {
+      std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+      Processing::self_intersections(mesh, std::back_inserter(pairs));
+      if (pairs.empty())
+        return;
+      const auto [one, other] = *std::min_element(pairs.begin(), pairs.end());
+      refuse(file,
+             "The surface intersects or touches itself: " +
+               std::to_string(pairs.size()) +
+               " pairs of triangles meet, such as those with the corners " +
+               corners(mesh, one) + " and " + corners(mesh, other) +
+               ". Repair it with a mesh editor.");
+    }
+
+    Mesh
+    read_mesh(const std::string &file)
+    {
+      Soup soup = read_soup(file);
+      check_edges(soup, file);
+      Processing::orient_polygon_soup(soup.points, soup.polygons);
+      if (!Processing::is_polygon_soup_a_polygon_mesh(soup.polygons))
+        refuse(file, "The surface is non-manifold: repair it.");
+
+      Mesh mesh;
+      Processing::polygon_soup_to_polygon_mesh(soup.points,
+                                               soup.polygons,
+                                               mesh);
+      if (!CGAL::is_closed(mesh))
+        refuse(file, "The surface has no inside: repair its orientation.");
+      if (!Processing::triangulate_faces(mesh))
+        refuse(file,
+               "Some polygons cannot be cut into triangles: export the surface "
+               "as triangles.");
+      check_areas(mesh, file);
+      check_intersections(mesh, file);
+      Processing::orient_to_bound_a_volume(mesh);
+      mesh.collect_garbage();
+      return mesh;
+    }
+
+    Point<3>
+    point(const Kernel::Point_3 &p)
+    {
+      return {p.x(), p.y(), p.z()};
+    }
+  } // namespace
+
+  struct SurfaceMesh::Implementation
+  {
+    explicit Implementation(const std::string &file)
+      : mesh(read_mesh(file))
+      , tree(mesh.faces().begin(), mesh.faces().end(), mesh)
+      , inside(tree)
+    {}
+
+    const Mesh   mesh;
+    const Tree   tree;
+    const Inside inside;
+  };
+
+  SurfaceMesh::SurfaceMesh(const std::string &file)
+    : implementation(std::make_unique<Implementation>(file))
+  {
+    const Mesh &mesh = implementation->mesh;
+    all_triangles.reserve(mesh.number_of_faces());
+    for (const Mesh::Face_index face : mesh.faces())
+      {
+        SurfaceTriangle      triangle;
+        Mesh::Halfedge_index edge = mesh.halfedge(face);
+        for (unsigned int i = 0; i < 3; ++i, edge = mesh.next(edge))
+          {
+            triangle.vertices[i]  = point(mesh.point(mesh.source(edge)));
+            triangle.neighbors[i] = mesh.face(mesh.opposite(edge));
+          }
+        all_triangles.push_back(triangle);
+      }
+  }
+
+  SurfaceMesh::~SurfaceMesh() = default;
+
+  const std::vector<SurfaceTriangle> &
+  SurfaceMesh::triangles() const
+  {
+    return all_triangles;
+  }
+
+  BoundingBox<3>
+  SurfaceMesh::bounding_box() const
+  {
+    const CGAL::Bbox_3 box = implementation->tree.bbox();
+    return BoundingBox<3>({Point<3>(box.xmin(), box.ymin(), box.zmin()),
+                           Point<3>(box.xmax(), box.ymax(), box.zmax())});
+  }
+
+  bool
+  SurfaceMesh::contains(const Point<3> &x, const double clearance) const
+  {
+    const Kernel::Point_3 p(x[0], x[1], x[2]);
+    return implementation->inside(p) == CGAL::ON_BOUNDED_SIDE &&
+           !implementation->tree.do_intersect(
+             Kernel::Sphere_3(p, clearance * clearance));
+  }
+} // namespace Morula

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/trimming.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Samples in a lattice box that the surface may cut, per direction: about
+     *  as many a box in 2-D as in 3-D. */
+    template <int dim>
+    constexpr unsigned int n_samples = dim == 2 ? 32 : 8;
+
+    /** Volume and first moment of a part of the shape. */
+    template <int dim>
+    struct Part
+    {
+      double         volume = 0.;
+      Tensor<1, dim> moment;
+
+      void
+      add(const Point<dim> &x, const double v)
+      {
+        volume += v;
+        moment += v * x;
+      }
+    };
+
+    /** Calls @p visit(point) for the samples of a box that lie in the shape. */
+    template <int dim, typename Visitor>
+    void
+    for_samples_inside(const Shape<dim> &shape,
+                       const Point<dim> &center,
+                       const double      side,
+                       const Visitor    &visit)
+    {
+      constexpr unsigned int n = n_samples<dim>;
+      for (unsigned int s = 0; s < (dim == 2 ? n * n : n * n * n); ++s)
+        {
+          Point<dim>   x    = center;
+          unsigned int rest = s;
+          for (unsigned int d = 0; d < dim; ++d, rest /= n)
+            x[d] += side * ((rest % n + 0.5) / n - 0.5);
+          if (shape.contains(x, 0.))
+            visit(x);
+        }
+    }
+
+    /** The occupied ones of @p sites, ascending. */
+    template <int dim>
+    std::vector<std::uint64_t>
+    occupied(const Lattice<dim>        &lattice,
+             const Shape<dim>          &shape,
+             std::vector<std::uint64_t> sites)
+    {
+      sites.erase(std::remove_if(sites.begin(),
+                                 sites.end(),
+                                 [&](const std::uint64_t site) {
+                                   return !lattice.is_occupied(
+                                     shape, lattice.position(site));
+                                 }),
+                  sites.end());
+      return sites;
+    }
+
+    template <int dim>
+    std::uint64_t
+    nearest(const Lattice<dim>               &lattice,
+            const std::vector<std::uint64_t> &sites,
+            const Point<dim>                 &x)
+    {
+      return *std::min_element(sites.begin(),
+                               sites.end(),
+                               [&](const std::uint64_t a,
+                                   const std::uint64_t b) {
+                                 return lattice.position(a).distance_square(x) <
+                                        lattice.position(b).distance_square(x);
+                               });
+    }
+  } // namespace
+
+  template <int dim>
+  bool
+  trim(const Lattice<dim>               &lattice,
+       const Shape<dim>                 &shape,
+       const std::vector<std::uint64_t> &sites,
+       Founders<dim>                    &founders)
+  {
+    const double side          = lattice.site_spacing();
+    const double half_diagonal = 0.5 * side * std::sqrt(double(dim));
+    const double sample        = std::pow(side / n_samples<dim>, dim);
+
+    std::vector<Part<dim>> parts(sites.size());
+    const auto             add =
+      [&](const std::uint64_t site, const Point<dim> &x, const double volume) {
+        const auto mine = std::lower_bound(sites.begin(), sites.end(), site);
+        if (mine != sites.end() && *mine == site)
+          parts[mine - sites.begin()].add(x, volume);
+      };
+
+    std::vector<std::uint64_t> empty; // boxes beside mine without a cell
+    for (const std::uint64_t site : sites)
+      {
+        const Point<dim> x = lattice.position(site);
+        if (shape.contains(x, 3. * half_diagonal))
+          {
+            add(site, x, std::pow(side, dim)); // all around it is inside
+            continue;
+          }
+        for_samples_inside(shape, x, side, [&](const Point<dim> &y) {
+          add(site, y, sample);
+        });
+        for (const std::uint64_t other : lattice.neighbors(site))
+          if (!lattice.is_occupied(shape, lattice.position(other)))
+            empty.push_back(other);
+      }
+    std::sort(empty.begin(), empty.end());
+    empty.erase(std::unique(empty.begin(), empty.end()), empty.end());
+
+    for (const std::uint64_t box : empty)
+      {
+        const auto owners = occupied(lattice, shape, lattice.neighbors(box));
+        for_samples_inside(shape,
+                           lattice.position(box),
+                           side,
+                           [&](const Point<dim> &y) {
+                             add(nearest(lattice, owners, y), y, sample);
+                           });
+      }
+
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      {
+        if (!(parts[i].volume > 0.))
+          return false;
+        founders.volumes[i]   = parts[i].volume;
+        founders.positions[i] = Point<dim>(parts[i].moment / parts[i].volume);
+      }
+    return true;
+  }
+
+  template bool
+  trim(const Lattice<2> &,
+       const Shape<2> &,
+       const std::vector<std::uint64_t> &,
+       Founders<2> &);
+  template bool
+  trim(const Lattice<3> &,
+       const Shape<3> &,
+       const std::vector<std::uint64_t> &,
+       Founders<3> &);
+} // namespace Morula

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/csv.h>
+#include <morula/output/vtu.h>
+#include <morula/simulation/run_files.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    double
+    number_or(const std::optional<SnapshotData<dim>> &data,
+              const std::string                      &name,
+              const double                            otherwise)
+    {
+      return data ? data->number(name) : otherwise;
+    }
+
+    /** Number of the first multiple of @p interval that is due after @p time;
+     *  it follows from the time, as the interval may change on resume. */
+    unsigned int
+    next_multiple(const double time, const double interval, const double step)
+    {
+      return interval > 0. ? static_cast<unsigned int>(
+                               std::floor((time + 1e-9 * step) / interval)) +
+                               1 :
+                             0;
+    }
+
+    /** What a snapshot says of a table that the run appends to. */
+    template <int dim>
+    TableExtent
+    extent_of(const std::string &table, const SnapshotData<dim> &data)
+    {
+      return {static_cast<std::uint64_t>(data.number(table + "_rows")),
+              digest_of_integers(data.integer_table(table + "_digest", 2))};
+    }
+
+    template <int dim>
+    void
+    store_extent(const std::string &table,
+                 const TableExtent &extent,
+                 SnapshotData<dim> &data)
+    {
+      data.numbers[table + "_rows"]          = extent.n_rows;
+      data.integer_tables[table + "_digest"] = as_integers(extent.digest);
+    }
+
+    /** Prefix of a section's numbers in a snapshot. */
+    const std::string section_prefix = "seconds in ";
+    const std::string calls_prefix   = "calls of ";
+  } // namespace
+
+  template <int dim>
+  RunFiles<dim>::RunFiles(const Scene                            &scene,
+                          const std::optional<SnapshotData<dim>> &resumed_from,
+                          const Timer                            &clock,
+                          const MPI_Comm                          comm)
+    : scene(scene)
+    , comm(comm)
+    , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
+    , clock(clock)
+    , next_output(resumed_from ? next_multiple(resumed_from->time,
+                                               scene.output.interval,
+                                               scene.time.step) :
+                                 0)
+    , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
+                                  scene.output.snapshot_interval,
+                                  scene.time.step))
+  {
+    lock.emplace(scene.output_directory, comm);
+    if (resumed_from)
+      {
+        output_times = resumed_from->table("output_times");
+        for (const auto &[name, seconds] : resumed_from->numbers)
+          if (name.rfind(section_prefix, 0) == 0)
+            {
+              const std::string section = name.substr(section_prefix.size());
+              sections_before[section]  = {resumed_from->number(calls_prefix +
+                                                               section),
+                                           seconds};
+            }
+        const TableExtent rows   = extent_of("statistics", *resumed_from);
+        const TableExtent births = extent_of("lineage", *resumed_from);
+        // All are looked at before the first of them is cut.
+        StatisticsFile::check(path("statistics.csv"), rows, comm);
+        LineageFile<dim>::check(path("lineage.csv"), births, comm);
+        if (continues_conditions(resumed_from))
+          ConditionFile::check(path("condition.csv"),
+                               extent_of("condition", *resumed_from),
+                               comm);
+        statistics.emplace(path("statistics.csv"), rows, comm);
+        lineage.emplace(path("lineage.csv"), births, comm);
+        prepare_resume(scene.output_directory,
+                       coming_run(),
+                       output_times.size(),
+                       comm);
+      }
+    else
+      {
+        prepare_directory(scene.output_directory, coming_run(), comm);
+        statistics.emplace(path("statistics.csv"), comm);
+        lineage.emplace(path("lineage.csv"), comm);
+      }
+    if (scene.output.condition_estimate)
+      open_conditions(resumed_from);
+    progress.emplace(path("log.txt"),
+                     resumed_from.has_value(),
+                     resumed_from ? resumed_from->time : 0.,
+                     scene.time.end_time,
+                     comm);
+    if (!lock->complaint().empty())
+      message(lock->complaint());
+    if (resumed_from)
+      tell_of_missing_states();
+  }
+
+  template <int dim>
+  ComingRun
+  RunFiles<dim>::coming_run() const
+  {
+    return {scene.file,
+            scene.parameters(),
+            {scene.tissue.surface_mesh, scene.tissue.points_file},
+            scene.replace};
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::tell_of_missing_states()
+  {
+    for (const std::string format : {"vtu", "csv"})
+      {
+        if (!has_format(format))
+          continue;
+        unsigned int n_missing = 0;
+        for (unsigned int n = 0; n < output_times.size(); ++n)
+          n_missing +=
+            !std::filesystem::exists(path(numbered_file("cells", n, format)));
+        if (n_missing > 0)
+          message(std::to_string(n_missing) + " of the " +
+                  std::to_string(output_times.size()) +
+                  " states so far are not there as " + format +
+                  (format == "vtu" ? "; cells.pvd and surface.pvd are without "
+                                     "them." :
+                                     "."));
+      }
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::continues_conditions(
+    const std::optional<SnapshotData<dim>> &resumed_from) const
+  {
+    return scene.output.condition_estimate && resumed_from &&
+           resumed_from->numbers.count("condition_rows") > 0;
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::open_conditions(
+    const std::optional<SnapshotData<dim>> &resumed_from)
+  {
+    // A run may be resumed with estimates that was begun without.
+    if (continues_conditions(resumed_from))
+      conditions.emplace(path("condition.csv"),
+                         extent_of("condition", *resumed_from),
+                         comm);
+    else
+      conditions.emplace(path("condition.csv"), comm);
+  }
+
+  template <int dim>
+  std::string
+  RunFiles<dim>::path(const std::string &file) const
+  {
+    return scene.output_directory + "/" + file;
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::has_format(const std::string &format) const
+  {
+    return std::find(scene.output.formats.begin(),
+                     scene.output.formats.end(),
+                     format) != scene.output.formats.end();
+  }
+
+  template <int dim>
+  double
+  RunFiles<dim>::wall_seconds() const
+  {
+    return wall_seconds_before + clock.wall_time();
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::step(StatisticsRow &row, const std::vector<Birth<dim>> &births)
+  {
+    row.wall_seconds = wall_seconds();
+    statistics->append(row);
+    lineage->append(births);
+    progress->step({row.step,
+                    row.time,
+                    row.dt,
+                    row.cells,
+                    row.newton_iterations,
+                    clock.wall_time()});
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::message(const std::string &text)
+  {
+    progress->message(text);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::condition(const unsigned int       step,
+                           const double             time,
+                           const ConditionEstimate &estimate)
+  {
+    conditions->append(step, time, estimate);
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::writes_points() const
+  {
+    return has_format("vtu") || has_format("csv");
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::output_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.interval;
+    return last || output_times.empty() ||
+           (interval > 0. &&
+            time >= next_output * interval - 1e-9 * scene.time.step);
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::snapshot_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.snapshot_interval;
+    return last || (interval > 0. &&
+                    time >= next_snapshot * interval - 1e-9 * scene.time.step);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_series(const std::string      &stem,
+                              const PointFields<dim> &fields,
+                              const double            time)
+  {
+    const unsigned int number = output_times.size() - 1;
+    if (has_format("csv"))
+      write_csv(path(numbered_file(stem, number, "csv")), fields, comm);
+    if (!has_format("vtu"))
+      return;
+    write_vtu(
+      path(numbered_file(stem, number, "vtu")), fields, time, number, comm);
+    std::vector<std::pair<double, std::string>> names;
+    for (unsigned int n = 0; n < output_times.size(); ++n)
+      names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
+    write_pvd(path(stem + ".pvd"), names, comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_points(const PointFields<dim> &cells,
+                              const PointFields<dim> &surface,
+                              const double            time)
+  {
+    output_times.push_back(time);
+    next_output = next_multiple(time, scene.output.interval, scene.time.step);
+    write_series("cells", cells, time);
+    write_series("surface", surface, time);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_snapshot(SnapshotData<dim> data, TimerOutput &timer)
+  {
+    // Before the section begins: deal.II sums up no timer with one open.
+    const SectionTimes       sections = section_times(timer, sections_before);
+    const TimerOutput::Scope section(timer, "snapshot");
+    next_snapshot =
+      next_multiple(data.time, scene.output.snapshot_interval, scene.time.step);
+    // What the snapshot counts must be on the disk before it.
+    statistics->sync();
+    lineage->sync();
+    if (conditions)
+      {
+        conditions->sync();
+        store_extent("condition", conditions->extent(), data);
+      }
+    store_extent("statistics", statistics->extent(), data);
+    store_extent("lineage", lineage->extent(), data);
+    data.parameters              = scene.parameters();
+    data.numbers["wall_seconds"] = wall_seconds();
+    data.tables["output_times"]  = output_times;
+    for (const auto &[name, times] : sections)
+      {
+        data.numbers[section_prefix + name] = times.wall_seconds;
+        data.numbers[calls_prefix + name]   = times.calls;
+      }
+    Morula::write_snapshot(path("snapshot.h5"), data, comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::write_timings(const TimerOutput &timer)
+  {
+    Morula::write_timings(path("timings.csv"),
+                          section_times(timer, sections_before),
+                          wall_seconds(),
+                          comm);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::fail(const std::string &text) noexcept
+  {
+    progress->fail(text);
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::finish(const std::string   &outcome,
+                        const StatisticsRow &row,
+                        const unsigned int   rejected_steps,
+                        const TimerOutput   &timer)
+  {
+    progress->finish({outcome,
+                      dim,
+                      row.time,
+                      row.cells,
+                      row.tissue.total_volume,
+                      row.step,
+                      rejected_steps,
+                      wall_seconds(),
+                      section_times(timer, sections_before),
+                      scene.output_directory});
+    note_finished(scene.output_directory, coming_run(), wall_seconds(), comm);
+    lock.reset();
+  }
+
+  template class RunFiles<2>;
+  template class RunFiles<3>;
+} // namespace Morula

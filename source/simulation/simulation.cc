@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/division/divide.h>
+#include <morula/base/input_error.h>
+#include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/base/agreement.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/strays.h>
+#include <morula/particles/surface_refinement.h>
+#include <morula/simulation/simulation.h>
+#include <morula/simulation/step_checks.h>
+#include <morula/simulation/step_points.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <new>
+#include <sstream>
+
+namespace Morula
+{
+  template <int dim>
+  void
+  Simulation<dim>::run(const std::function<void()> &observe)
+  {
+    if (resumed_from && must_stop())
+      {
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          std::cout << "Already finished at t = " << time_steps.time()
+                    << " day: nothing to resume.\n";
+        if (observe)
+          observe();
+        return;
+      }
+    begin();
+    const StopSignals signals(comm);
+    record_failure([&]() {
+      if (observe)
+        observe();
+      while (!must_stop())
+        {
+          stop_if_asked(signals);
+          step();
+          write_rows();
+          write_condition();
+          output(must_stop());
+          if (observe)
+            observe();
+        }
+    });
+    finish();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::begin()
+  {
+    files.emplace(scene, resumed_from, clock, comm);
+    if (!resumed_from)
+      {
+        for (const std::string &warning : warnings)
+          files->message(warning);
+        begin_rows();
+        write_rows();
+        output(must_stop());
+      }
+    resumed_from.reset();
+    warned_of_long_cells = row.lengths.n_too_long > 0;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::record_failure(const std::function<void()> &steps)
+  {
+    try
+      {
+        steps();
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw;
+      }
+    catch (const RunStopped &stop)
+      {
+        files->fail(stop.what());
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        // Also an expression without a value at some later time: the scene had
+        // been accepted, so this is no longer bad input but a run that failed.
+        std::ostringstream text;
+        text << "At t = " << time_steps.time() << " day: " << error.what();
+        files->fail(text.str());
+        throw std::runtime_error(text.str());
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::finish()
+  {
+    files->write_timings(timer);
+    files->finish(time_steps.finished() ? "Finished: End time reached" :
+                                          "Finished: Stop at cells reached",
+                  row,
+                  n_rejected,
+                  timer);
+  }
+
+  template <int dim>
+  const Tissue<dim> &
+  Simulation<dim>::state() const
+  {
+    return tissue;
+  }
+
+  template <int dim>
+  const StatisticsRow &
+  Simulation<dim>::last_row() const
+  {
+    return row;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::must_stop() const
+  {
+    if (time_steps.finished())
+      return true;
+    return scene.time.stop_at_cells > 0 &&
+           Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(),
+                                              comm) >= scene.time.stop_at_cells;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::step()
+  {
+    row           = StatisticsRow();
+    newton_report = NewtonReport();
+    births        = {};
+    condition.reset();
+    ++n_steps;
+
+    const SplineSpace<dim> space = splines();
+    tell_of_joined_pieces(space);
+    const RigidModes<dim> modes = rigid_modes(space);
+    Equilibrium::Vector   u;
+    solve_step(space, modes, u);
+    commit(space, u);
+    {
+      const TimerOutput::Scope section(timer, "strays");
+      take_back_strays(tissue);
+    }
+
+    row.dt = time_steps.next() - time_steps.time();
+    time_steps.accept();
+    divide();
+    refine_stretched_surface(space);
+    complete_row(space);
+  }
+
+  template <int dim>
+  SplineSpace<dim>
+  Simulation<dim>::splines()
+  {
+    if (first_splines)
+      {
+        // The cells are where they were when the first row was written.
+        SplineSpace<dim> space = std::move(*first_splines);
+        first_splines.reset();
+        return space;
+      }
+    const TimerOutput::Scope section(timer, "grid");
+    tissue.defragment(); // here, where a step holds least memory
+    return tissue.splines(material.volumetric_form() ==
+                          VolumetricStrain::projected);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::tell_of_joined_pieces(const SplineSpace<dim> &space)
+  {
+    const std::optional<Point<dim>> place = piece_watch.joined(space);
+    if (!place || pieces_have_joined)
+      return;
+    pieces_have_joined = true;
+    std::ostringstream text;
+    text << "Warning: at t = " << time_steps.time()
+         << " day two parts of the tissue have come within a grid spacing of "
+         << "each other near (" << *place << ") um. From now on they stick "
+         << "together there, though their cells may not touch yet "
+         << "(doc/faq.md, bodies that stick). A smaller Grid/Spacing lets them "
+         << "come closer. Later ones are not told of.";
+    files->message(text.str());
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::solve_step(const SplineSpace<dim> &space,
+                              const RigidModes<dim>  &rigid_modes,
+                              Equilibrium::Vector    &u)
+  {
+    while (true)
+      try
+        {
+          try_step(space, rigid_modes, u);
+          return;
+        }
+      catch (const StepFailed &failure)
+        {
+          ++row.rejected_steps;
+          ++n_rejected;
+          if (!time_steps.reject())
+            give_up_step(failure.what());
+        }
+      catch (const InputError &error)
+        {
+          // an expression without a value at this time
+          give_up(scene.located(error.what()));
+        }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::try_step(const SplineSpace<dim> &space,
+                            const RigidModes<dim>  &rigid_modes,
+                            Equilibrium::Vector    &u)
+  {
+    if (growth.present())
+      {
+        const TimerOutput::Scope section(timer, "growth");
+        everywhere(comm, [&]() {
+          growth_of_step =
+            growth.of_step(tissue, time_steps.time(), time_steps.next());
+        });
+      }
+    MaterialPoints<dim> points;
+    {
+      const TimerOutput::Scope section(timer, "points");
+      points = material_points(tissue, space, growth_of_step, material);
+    }
+    const auto           list = terms(points, space);
+    MomentumBalance<dim> balance(
+      space, list, typical_stiffness, inertia(space, rigid_modes), timer, comm);
+    estimate_condition(balance);
+    solve(balance,
+          scene.solver,
+          timer,
+          u,
+          newton_report,
+          start_of_step(space, rigid_modes));
+    if (boundary_conditions.has_dirichlet())
+      check_gap(balance.extremes());
+
+    // A large cell is several quadrature points, but deforms as the field does
+    // at its own position: no energy has kept that from turning inside out.
+    if (points.subdivided &&
+        inverts(DisplacementField<dim>(space, u, comm), tissue.cells(), comm))
+      throw StepFailed("a cell is turned inside out");
+  }
+
+  template <int dim>
+  std::optional<Equilibrium::Vector>
+  Simulation<dim>::start_of_step(const SplineSpace<dim> &space,
+                                 const RigidModes<dim>  &modes) const
+  {
+    if (!boundary_conditions.has_dirichlet())
+      return {};
+    std::vector<HeldPoint<dim>> points;
+    everywhere(comm, [&]() {
+      points = held_points(boundary_conditions,
+                           tissue,
+                           time_steps.time(),
+                           time_steps.next());
+    });
+    return rigid_start(space, modes, points, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance)
+  {
+    // Once a step, in its first attempt.
+    if (!scene.output.condition_estimate || condition)
+      return;
+    const TimerOutput::Scope section(timer, "condition estimate");
+    condition = Morula::estimate_condition(balance);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_rows()
+  {
+    const TimerOutput::Scope section(timer, "rows");
+    files->step(row, births);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_condition()
+  {
+    if (condition)
+      files->condition(n_steps, row.time - row.dt, *condition);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_gap(const Extremes<dim> &extremes) const
+  {
+    const double limit = scene.solver.largest_gap * scene.grid.spacing;
+    if (limit == 0. || extremes.largest_gap <= limit)
+      return;
+    std::ostringstream text;
+    text << "The tissue slips through its clamp: a held point at ("
+         << extremes.place_of_gap << ") um is " << extremes.largest_gap
+         << " um from where it is held, more than Solver/Largest gap = "
+         << scene.solver.largest_gap << " grid spacings. A higher Boundary "
+         << "conditions/Nitsche penalty holds it";
+    throw StepFailed(text.str());
+  }
+
+  template <int dim>
+  typename MomentumBalance<dim>::TermList
+  Simulation<dim>::terms(const MaterialPoints<dim> &points,
+                         const SplineSpace<dim>    &space)
+  {
+    const double                            t = time_steps.next();
+    typename MomentumBalance<dim>::TermList list;
+    list.push_back(
+      internal_force(points, material.volumetric_form(), scene.solver.kernel));
+    // Expressions may have no value at this time: then all ranks must know.
+    const auto add = [&](const std::string &name, const auto &make) {
+      const TimerOutput::Scope section(timer, name);
+      everywhere(comm, [&]() { list.push_back(make()); });
+    };
+    if (body_force)
+      add("body force", [&]() {
+        std::vector<Tensor<1, dim>> forces;
+        for (const auto &particle : tissue.cells().order())
+          {
+            const auto cell = tissue.cell(particle);
+            forces.push_back(cell.initial_volume() *
+                             body_force->vector(cell.founder_position(), t));
+          }
+        return std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
+                                               std::move(forces));
+      });
+    if (boundary_conditions.has_dirichlet())
+      add("nitsche", [&]() {
+        return nitsche_term(
+          boundary_conditions, material, tissue, space, growth_of_step, t);
+      });
+    if (boundary_conditions.has_traction())
+      add("traction", [&]() {
+        return traction_term(boundary_conditions, tissue, space, t);
+      });
+    if (boundary_conditions.has_pressure())
+      add("pressure", [&]() {
+        return pressure_term(boundary_conditions, tissue, space, t);
+      });
+    return list;
+  }
+
+  template <int dim>
+  std::vector<typename RigidModes<dim>::Mass>
+  Simulation<dim>::masses(const SplineSpace<dim> &space) const
+  {
+    std::vector<typename RigidModes<dim>::Mass> list;
+    for (const auto &cell : tissue.cells().cells())
+      for (unsigned int p = cell.begin; p < cell.end; ++p)
+        {
+          const auto &particle = tissue.cells().order()[p];
+          list.push_back({space.piece(cell.number),
+                          particle->get_location(),
+                          tissue.cell(particle).initial_volume()});
+        }
+    return list;
+  }
+
+  template <int dim>
+  RigidModes<dim>
+  Simulation<dim>::rigid_modes(const SplineSpace<dim> &space) const
+  {
+    return RigidModes<dim>(space,
+                           masses(space),
+                           supports(boundary_conditions, tissue, space),
+                           comm);
+  }
+
+  template <int dim>
+  std::vector<Equilibrium::Vector>
+  Simulation<dim>::inertia(const SplineSpace<dim> &space,
+                           const RigidModes<dim>  &modes)
+  {
+    if (!modes.any())
+      return {};
+    const TimerOutput::Scope section(timer, "rigid motion");
+    return modes.inertia(masses(space));
+  }
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::elastic_volumes(
+    const SplineSpace<dim>       &space,
+    const DisplacementField<dim> &displacement) const
+  {
+    std::vector<double> ratios;
+    if (material.volumetric_form() == VolumetricStrain::pointwise)
+      return ratios;
+    // From then on the cells have the volume that counted in the step.
+    const MaterialPoints<dim> points =
+      material_points(tissue, space, growth_of_step, material);
+    const InternalForce<dim> force(points, material.volumetric_form());
+    // On all ranks: a cell on a grid line has part in several grid cells.
+    const GridBox<dim> &box = space.box();
+    std::vector<double> theta(box.size(), 0.);
+    for (unsigned int c = 0; c < space.cells().size(); ++c)
+      theta[space.cells()[c].number] =
+        force.mean_log_volume_ratio(c, displacement.on_cell(c));
+    Utilities::MPI::sum(theta, comm, theta);
+    for (const auto &particle : tissue.cells().order())
+      {
+        double mean = 0.;
+        space.occupancy().for_each_share(
+          particle->get_location(),
+          [&](const Point<dim> &share, const unsigned int n) {
+            mean += theta[box.number(box.locate(share))] / n;
+          });
+        ratios.push_back(std::exp(mean));
+      }
+    return ratios;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::refine_surface(
+    const std::function<bool(const Point<dim> &)> &crowded)
+  {
+    if (!scene.tissue.refine_surface)
+      return;
+    const TimerOutput::Scope section(timer, "surface refinement");
+    PointList<dim>           points = tissue.boundary_points().copy();
+    if (Morula::refine_surface(
+          points, 0.5 * scene.grid.spacing, crowded, next_boundary_id, comm))
+      tissue.replace_surface(points);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::refine_stretched_surface(const SplineSpace<dim> &space)
+  {
+    try
+      {
+        refine_surface([&space](const Point<dim> &x) {
+          return space.occupancy().crowded(x);
+        });
+      }
+    catch (const SurfaceTorn &error)
+      {
+        // This step is done; the next one could not be.
+        complete_row(space);
+        write_rows();
+        ++n_steps;
+        give_up(error.what() + std::string("."));
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::divide()
+  {
+    if (growth.cycle() == nullptr)
+      return;
+    const TimerOutput::Scope        section(timer, "division");
+    const std::vector<unsigned int> due =
+      cells_due(tissue, *growth.cycle(), time_steps.time());
+    row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
+    if (row.dividing > 0)
+      births = Morula::divide(tissue, *growth.cycle(), due, next_id);
+  }
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::n_unknowns()
+  {
+    return splines().n_unknowns();
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/displacement_field.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/simulation/simulation.h>
+#include <morula/simulation/step_checks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The largest displacement (µm) and step deformation |f| of points. */
+    struct Motion
+    {
+      double u = std::numeric_limits<double>::infinity();
+      double f = std::numeric_limits<double>::infinity();
+    };
+
+    /** Where points go, and how their surroundings deform, in order. */
+    template <int dim>
+    struct Moved
+    {
+      std::vector<Point<dim>>     positions; // µm
+      std::vector<Tensor<2, dim>> deformations;
+      Motion                      largest; // over all ranks
+    };
+
+    /** The points of a store, moved with the field: none farther than the
+     *  limit. Collective. */
+    template <int dim>
+    Moved<dim>
+    moved(const PointStore<dim>        &store,
+          const DisplacementField<dim> &displacement,
+          const Motion                 &limit,
+          const MPI_Comm                comm)
+    {
+      Moved<dim> result;
+      result.positions.reserve(store.order().size());
+      result.deformations.reserve(store.order().size());
+      Motion largest{0., 0.};
+      displacement.at_points(store,
+                             [&](const unsigned int       p,
+                                 const LocalField<dim>   &field,
+                                 const SplineValues<dim> &splines) {
+                               const Tensor<2, dim> f =
+                                 field.step_deformation(splines);
+                               const Tensor<1, dim> u    = field.value(splines);
+                               const double         size = u.norm();
+                               result.positions.push_back(
+                                 store.order()[p]->get_location() +
+                                 (size > limit.u ? limit.u / size * u : u));
+                               result.deformations.push_back(f);
+                               largest.u = std::max(largest.u, size);
+                               largest.f = std::max(largest.f, f.norm());
+                             });
+      result.largest = {Utilities::MPI::max(largest.u, comm),
+                        Utilities::MPI::max(largest.f, comm)};
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Simulation<dim>::commit(const SplineSpace<dim>    &space,
+                          const Equilibrium::Vector &u)
+  {
+    const TimerOutput::Scope     section(timer, "commit");
+    const DisplacementField<dim> displacement(space, u, comm);
+    const std::vector<double>    volumes = elastic_volumes(space, displacement);
+    const Moved<dim>             cells =
+      moved(tissue.cells(), displacement, Motion(), comm);
+    // Where the surface stands off from the cells the field is extrapolated: no
+    // reason to move farther, or to deform more, than the cells do. See also
+    // take_back_strays().
+    const Motion     limit{2. * cells.largest.u + space.box().spacing(),
+                       2. * cells.largest.f};
+    const Moved<dim> surface =
+      moved(tissue.boundary_points(), displacement, limit, comm);
+    const std::string reason =
+      why_torn(cells.positions, surface.positions, tissue.grid().box(), comm);
+    if (!reason.empty())
+      give_up(reason + ".");
+
+    for (unsigned int p = 0; p < cells.positions.size(); ++p)
+      {
+        const CellView<dim, double> cell(tissue.cell_properties(p),
+                                         tissue.slots());
+        if (growth.present())
+          growth.commit(cell,
+                        time_steps.time(),
+                        time_steps.next(),
+                        growth_of_step.current[p]);
+        // doc/theory.md (1.1)
+        Tensor<2, dim> F = cells.deformations[p] * cell.deformation();
+        if (!volumes.empty())
+          F *=
+            std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
+                     1. / dim);
+        cell.set_tensor(tissue.slots().deformation, F);
+      }
+    for (unsigned int p = 0; p < surface.positions.size(); ++p)
+      if (surface.deformations[p].norm() <= limit.f)
+        deform_boundary_point<dim>(tissue.boundary_properties(p),
+                                   surface.deformations[p]);
+    growth_of_step = {};
+    tissue.move(cells.positions, surface.positions);
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

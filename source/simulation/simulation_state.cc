@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/output/cell_fields.h>
+#include <morula/output/surface_fields.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/cell_domain.h>
+#include <morula/particles/surface_refinement.h>
+#include <morula/scene/checks.h>
+#include <morula/scene/limits.h>
+#include <morula/scene/warnings.h>
+#include <morula/simulation/simulation.h>
+#include <morula/simulation/snapshot_check.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    CellGrowth<dim>
+    growth_of(const Scene &scene)
+    {
+      std::optional<CellCycle<dim>> cycle;
+      if (scene.has_proliferation())
+        cycle.emplace(scene.cell_cycle,
+                      scene.random_seed,
+                      1e-9 * scene.time.step);
+      return CellGrowth<dim>(growth_law_of<dim>(scene),
+                             std::move(cycle),
+                             division_rule_of<dim>(scene));
+    }
+
+    template <int dim>
+    std::optional<Expression>
+    body_force_of(const Scene &scene)
+    {
+      const Expression force("Body force/Force density",
+                             scene.body_force.force_density,
+                             3,
+                             dim);
+      if (force.is_constant() &&
+          force.vector(Point<dim>(), 0.) == Tensor<1, dim>())
+        return {};
+      return force;
+    }
+
+    template <int dim>
+    void
+    count_splines(const SplineSpace<dim> &space, StatisticsRow &row)
+    {
+      row.active_grid_cells = space.n_active_cells();
+      row.inner_splines     = space.n_inner_splines();
+      row.outer_splines     = space.n_outer_splines();
+      row.unknowns          = space.n_unknowns();
+    }
+  } // namespace
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene   &scene,
+                              const MPI_Comm comm,
+                              const bool     resume)
+    : scene(scene)
+    , comm(comm)
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , material(scene.material)
+    , boundary_conditions(scene.boundary_conditions)
+    , growth(growth_of<dim>(scene))
+    , body_force(body_force_of<dim>(scene))
+    , tissue(scene.grid,
+             CellSlots<dim>(scene.has_growth(), scene.has_proliferation()),
+             comm,
+             scene.tissue.refine_surface ?
+               BoundarySlots<dim>::n_slots_with_patch :
+               BoundarySlots<dim>::n_slots)
+    , time_steps(scene.time)
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    if (resume)
+      restore();
+    else
+      seed();
+    double largest = 0.;
+    for (const auto &particle : tissue.cells().order())
+      largest = std::max(largest,
+                         material.youngs_modulus(
+                           tissue.cell(particle).founder_position()));
+    typical_stiffness = Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::seed()
+  {
+    const Founders<dim> founders =
+      seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
+    const SurfacePatches<dim> patches = seed_surface<dim>(scene.tissue, comm);
+    check_at_cells(scene, founders.positions, comm);
+    check_at_surface(scene, patches, comm);
+    warnings = scene_warnings(scene, founders, patches, comm);
+
+    PointList<dim> cells;
+    cells.n_slots = tissue.slots().n_slots;
+    cells.reserve(founders.positions.size());
+    births.reserve(founders.positions.size());
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    for (std::size_t i = 0; i < founders.positions.size(); ++i)
+      {
+        std::vector<double>         slots(cells.n_slots);
+        const CellView<dim, double> cell(make_array_view(slots),
+                                         tissue.slots());
+        cell.set_vector(tissue.slots().founder_position, founders.positions[i]);
+        cell.set_scalar(tissue.slots().initial_volume, founders.volumes[i]);
+        cell.set_tensor(tissue.slots().deformation, identity);
+        growth.initialize(founders.first_id + i, cell);
+        cells.add(founders.first_id + i,
+                  founders.positions[i],
+                  make_array_view(slots));
+        births.push_back({cells.ids.back(), -1, 0, 0., founders.positions[i]});
+      }
+
+    const bool     refine = scene.tissue.refine_surface;
+    PointList<dim> points;
+    points.n_slots = refine ? BoundarySlots<dim>::n_slots_with_patch :
+                              BoundarySlots<dim>::n_slots;
+    for (std::size_t i = 0; i < patches.positions.size(); ++i)
+      {
+        std::vector<double> slots = initial_boundary_slots<dim>(
+          patches.positions[i],
+          patches.normals[i],
+          patches.areas[i],
+          boundary_conditions.condition(patches.positions[i],
+                                        patches.normals[i]));
+        if (refine)
+          slots = with_patch<dim>(std::move(slots));
+        points.add(patches.first_id + i,
+                   patches.positions[i],
+                   make_array_view(slots));
+      }
+    tissue.place(cells, points);
+    next_id          = founders.n_global;
+    next_boundary_id = patches.n_global;
+    refine_surface([](const Point<dim> &) { return false; });
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_points(const SnapshotData<dim> &data) const
+  {
+    // Ranks without points may not know the number of slots.
+    const auto check = [this, &data](const PointList<dim> &points,
+                                     const std::string    &what,
+                                     const unsigned int    n_slots) {
+      everywhere(comm, [&]() {
+        if (points.size() > 0 && points.n_slots != n_slots)
+          refuse_snapshot(data.file,
+                          "a snapshot whose " + what + " have " +
+                            std::to_string(n_slots) + " numbers each (they " +
+                            "have " + std::to_string(points.n_slots) + ")");
+      });
+    };
+    check(data.cells, "cells", tissue.slots().n_slots);
+    check(data.boundary_points,
+          "boundary points",
+          scene.tissue.refine_surface ?
+            static_cast<unsigned int>(BoundarySlots<dim>::n_slots_with_patch) :
+            static_cast<unsigned int>(BoundarySlots<dim>::n_slots));
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::restore()
+  {
+    const std::string path = scene.output_directory + "/snapshot.h5";
+    check_resumable(scene, read_snapshot_parameters(path, comm));
+    resumed_from = read_snapshot<dim>(path, comm);
+    check_points(*resumed_from);
+
+    const std::vector<int> &box_first =
+      resumed_from->integer_table("box_first", dim);
+    const std::vector<int> &box_n = resumed_from->integer_table("box_n", dim);
+    GridIndex<dim>          first, n;
+    std::size_t             n_grid_cells = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = box_first[d];
+        n[d]     = box_n[d];
+        if (box_n[d] <= 0)
+          refuse_snapshot(path, "a snapshot whose grid has cells");
+        n_grid_cells *= box_n[d];
+      }
+    const std::vector<int> &weights =
+      resumed_from->integer_table("box_weights", n_grid_cells);
+    const auto number = [this](const std::string &name) {
+      return resumed_from->number(name);
+    };
+    next_id = number("next_id");
+    if (scene.tissue.refine_surface)
+      next_boundary_id = number("next_boundary_id");
+    n_steps    = number("steps");
+    n_rejected = number("rejected_steps");
+    time_steps.restore({resumed_from->time,
+                        number("step_length"),
+                        static_cast<unsigned int>(number("step_interval")),
+                        number("step_begin"),
+                        static_cast<unsigned int>(number("step_part")),
+                        static_cast<unsigned int>(number("step_level"))});
+    tissue.restore(resumed_from->cells,
+                   resumed_from->boundary_points,
+                   first,
+                   n,
+                   std::vector<unsigned int>(weights.begin(), weights.end()));
+    row = statistics();
+    check_resumed_cycle();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_resumed_cycle() const
+  {
+    if (growth.cycle() == nullptr)
+      return;
+    std::vector<Point<dim>> founders;
+    for (const auto &particle : tissue.cells().order())
+      founders.push_back(tissue.cell(particle).founder_position());
+    everywhere(comm,
+               [&]() { growth.cycle()->check(founders, scene.time.step); });
+  }
+
+  template <int dim>
+  SnapshotData<dim>
+  Simulation<dim>::snapshot() const
+  {
+    SnapshotData<dim> data;
+    data.program_version       = MORULA_VERSION;
+    const TimeSteps::State now = time_steps.state();
+    data.time                  = now.time;
+    data.numbers               = {{"next_id", double(next_id)},
+                                  {"steps", double(n_steps)},
+                                  {"rejected_steps", double(n_rejected)},
+                                  {"step_length", now.step},
+                                  {"step_interval", double(now.interval)},
+                                  {"step_begin", now.begin},
+                                  {"step_part", double(now.part)},
+                                  {"step_level", double(now.level)}};
+    if (scene.tissue.refine_surface)
+      data.numbers["next_boundary_id"] = next_boundary_id;
+    const GridBox<dim> &box = tissue.grid().box();
+    data.integer_tables["box_first"].assign(box.first().begin(),
+                                            box.first().end());
+    data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
+    data.integer_tables["box_weights"].assign(tissue.grid().weights().begin(),
+                                              tissue.grid().weights().end());
+    data.cells           = tissue.cells().copy();
+    data.boundary_points = tissue.boundary_points().copy();
+    return data;
+  }
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::phase(const CellView<dim, const double> &cell) const
+  {
+    constexpr unsigned int does_not_proliferate = 9;
+    return growth.cycle() == nullptr ?
+             does_not_proliferate :
+             growth.cycle()->phase_number(CycleState<dim>::load(cell),
+                                          cell.founder_position(),
+                                          time_steps.time());
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::is_held(const CellView<dim, const double> &cell) const
+  {
+    return growth.cycle() != nullptr &&
+           growth.cycle()->is_held(CycleState<dim>::load(cell),
+                                   cell.founder_position(),
+                                   time_steps.time(),
+                                   elastic_volume_ratio(cell));
+  }
+
+  template <int dim>
+  CellQuantities
+  Simulation<dim>::quantities(const CellView<dim, const double> &cell) const
+  {
+    return cell_quantities(cell,
+                           material.lame_at(cell.founder_position()),
+                           material.per_grown_volume());
+  }
+
+  template <int dim>
+  StatisticsRow
+  Simulation<dim>::statistics() const
+  {
+    StatisticsRow    state;
+    TissueSums<dim>  sums;
+    LongestCell<dim> longest(scene.grid.spacing);
+    std::uint64_t    held = 0;
+    for (const auto &particle : tissue.cells().order())
+      {
+        const auto cell = tissue.cell(particle);
+        sums.add_cell(quantities(cell), particle->get_location());
+        held += is_held(cell);
+        longest.add(
+          cell_domain(particle->get_location(), tissue.cell(particle)));
+      }
+    for (const auto &point : tissue.boundary_points().order())
+      sums.add_boundary_point(point->get_location());
+    state.step = n_steps;
+    state.time = time_steps.time();
+    state.cells =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(), comm);
+    state.tissue             = sums.totals(comm);
+    state.lengths            = longest.over_all_ranks(comm);
+    state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+    return state;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::begin_rows()
+  {
+    first_splines.emplace(splines());
+    row = statistics();
+    count_splines(*first_splines, row);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::complete_row(const SplineSpace<dim> &space)
+  {
+    const TimerOutput::Scope section(timer, "statistics");
+    StatisticsRow            complete = statistics();
+    complete.dt                       = row.dt;
+    complete.dividing                 = row.dividing;
+    count_splines(space, complete);
+    complete.newton_iterations = newton_report.newton_iterations;
+    complete.linear_iterations = newton_report.linear_iterations;
+    complete.rejected_steps    = row.rejected_steps;
+    complete.residual          = newton_report.residual;
+    row                        = complete;
+    warn_of_long_cells();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_long_cells()
+  {
+    if (row.lengths.n_too_long == 0 || warned_of_long_cells)
+      return;
+    warned_of_long_cells     = true;
+    const auto        &place = row.lengths.place;
+    std::ostringstream text;
+    text << "Warning: from t = " << row.time << " day on, fewer than "
+         << CellLengths::fewest
+         << " cells fill Grid/Spacing = " << scene.grid.spacing
+         << " um where the tissue is stretched: " << row.lengths.n_too_long
+         << (row.lengths.n_too_long == 1 ? " cell is" : " cells are")
+         << " too long, the longest, at (" << place[0] << ' ' << place[1];
+    if (dim == 3)
+      text << ' ' << place[2];
+    text << ") um, " << scene.grid.spacing / row.lengths.min_cells_per_spacing
+         << " um. Do not rely on positions and stresses there, and if it gets "
+            "worse the run may fail. Start anew with a smaller Tissue/Cell "
+            "spacing or a larger Grid/Spacing; the column "
+            "min_cells_per_spacing of statistics.csv has the number.";
+    files->message(text.str());
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::output(const bool last)
+  {
+    const double t = time_steps.time();
+    if (files->writes_points() && files->output_due(t, last))
+      {
+        const TimerOutput::Scope section(timer, "output");
+        const bool               has_checkpoint =
+          growth.cycle() != nullptr && growth.cycle()->has_checkpoint();
+        CellFields<dim> cells(t, tissue.cells().order().size(), has_checkpoint);
+        for (const auto &particle : tissue.cells().order())
+          {
+            const auto cell = tissue.cell(particle);
+            cells.add(particle->get_id(),
+                      cell,
+                      particle->get_location(),
+                      phase(cell),
+                      is_held(cell),
+                      quantities(cell));
+          }
+        SurfaceFields<dim> surface(t);
+        for (const auto &point : tissue.boundary_points().order())
+          surface.add(point->get_id(),
+                      boundary_properties<dim>(point),
+                      point->get_location());
+        files->write_points(cells.fields(), surface.fields(), t);
+      }
+    if (files->snapshot_due(t, last))
+      files->write_snapshot(snapshot(), timer);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::stop_if_asked(const StopSignals &signals)
+  {
+    const int signal = signals.received();
+    if (signal == 0)
+      return;
+    files->write_snapshot(snapshot(), timer);
+    files->write_timings(timer);
+    throw RunStopped(signal, time_steps.time());
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up(const std::string &reason)
+  {
+    --n_steps; // not done
+    files->write_snapshot(snapshot(), timer);
+    // Behind the snapshot, as the step is repeated when the run is resumed.
+    if (condition)
+      files->condition(n_steps + 1, time_steps.time(), *condition);
+    files->write_timings(timer);
+    throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::way_of_held_points() const
+  {
+    double largest = 0.;
+    everywhere(comm, [&]() {
+      for (const auto &point : held_points(
+             boundary_conditions, tissue, time_steps.time(), time_steps.next()))
+        largest = std::max(largest, point.from.distance(point.to));
+    });
+    return Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up_step(const std::string &reason)
+  {
+    std::ostringstream text;
+    text << "the step failed even at a length of "
+         << time_steps.next() - time_steps.time()
+         << " day (Time/Smallest step = " << scene.time.smallest_step
+         << "): " << reason
+         << ". Resuming may go on with a smaller Time/Smallest step or other "
+            "Solver keys; if it does not, start anew with a larger "
+            "Grid/Spacing, with smaller loads or less growth";
+    if (boundary_conditions.has_dirichlet())
+      text << ", or with another Boundary conditions/Nitsche penalty";
+    text << '.';
+    if (const double way = way_of_held_points(); way > 0.5 * scene.grid.spacing)
+      text << " Even in so short a step held points move by " << way
+           << " um: let Boundary conditions/Displacement rise from 0 with t.";
+    give_up(text.str());
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/step_checks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace Morula
+{
+  template <int dim>
+  bool
+  inverts(const DisplacementField<dim> &displacement,
+          const PointStore<dim>        &store,
+          const MPI_Comm                comm)
+  {
+    unsigned int inverted = 0;
+    displacement.at_points(store,
+                           [&](const unsigned int,
+                               const LocalField<dim>   &field,
+                               const SplineValues<dim> &splines) {
+                             const Tensor<2, dim> f =
+                               field.step_deformation(splines);
+                             if (!(determinant(f) > 0.))
+                               ++inverted;
+                           });
+    return Utilities::MPI::sum(inverted, comm) > 0;
+  }
+
+  template <int dim>
+  std::string
+  why_torn(const std::vector<Point<dim>> &cells,
+           const std::vector<Point<dim>> &boundary_points,
+           const GridBox<dim>            &box,
+           const MPI_Comm                 comm)
+  {
+    constexpr double    infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> reach(2 * dim, -infinity);
+    for (const auto *points : {&cells, &boundary_points})
+      for (const Point<dim> &x : *points)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            reach[d]       = std::max(reach[d], x[d]);
+            reach[dim + d] = std::max(reach[dim + d], -x[d]);
+          }
+    Utilities::MPI::max(reach, comm, reach);
+    double     n_grid_cells = 1.;
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        upper[d] = reach[d];
+        lower[d] = -reach[dim + d];
+        n_grid_cells *= (upper[d] - lower[d]) / box.spacing() + 1.;
+      }
+    const double n_cells = Utilities::MPI::sum(1. * cells.size(), comm);
+    if (n_grid_cells <= std::max(2e6 + 100. * n_cells, 8. * box.size()))
+      return "";
+    std::ostringstream text;
+    text << "points have left the tissue: it would reach from (" << lower
+         << ") to (" << upper << ") um, over " << n_grid_cells
+         << " grid cells. Look at the surface in the last output; choose a "
+            "shape without corners that stand off from the cells, another "
+            "Grid/Spacing, or Grid/Points per cell = 2";
+    return text.str();
+  }
+
+#define INSTANTIATE(dim)                                         \
+  template bool        inverts(const DisplacementField<dim> &,   \
+                               const PointStore<dim> &,          \
+                               const MPI_Comm);                  \
+  template std::string why_torn(const std::vector<Point<dim>> &, \
+                                const std::vector<Point<dim>> &, \
+                                const GridBox<dim> &,            \
+                                const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

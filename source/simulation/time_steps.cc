@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/time_steps.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Times closer than this part of a Step are equal. */
+    constexpr double slack = 1e-9;
+  } // namespace
+
+  TimeSteps::TimeSteps(const TimeParameters &parameters)
+    : parameters(parameters)
+    , state_({0., parameters.step, 0, 0., 0, 0})
+  {}
+
+  TimeSteps::State
+  TimeSteps::state() const
+  {
+    return state_;
+  }
+
+  void
+  TimeSteps::restore(const State &state)
+  {
+    state_ = state;
+    if (state.step == parameters.step && time() == state.time)
+      return;
+    const double n_steps = std::floor(state.time / parameters.step + slack);
+    state_               = {state.time,
+                            parameters.step,
+                            static_cast<unsigned int>(n_steps),
+                            state.time,
+                            0,
+                            0};
+  }
+
+  double
+  TimeSteps::end_of_interval() const
+  {
+    const double end = (state_.interval + 1) * parameters.step;
+    return end > parameters.end_time - slack * parameters.step ?
+             parameters.end_time :
+             end;
+  }
+
+  double
+  TimeSteps::at(const unsigned int part) const
+  {
+    const unsigned int parts = 1u << state_.level;
+    return part == parts ?
+             end_of_interval() :
+             state_.begin + part * ((end_of_interval() - state_.begin) / parts);
+  }
+
+  double
+  TimeSteps::time() const
+  {
+    return at(state_.part);
+  }
+
+  double
+  TimeSteps::next() const
+  {
+    return at(state_.part + 1);
+  }
+
+  bool
+  TimeSteps::finished() const
+  {
+    return time() >= parameters.end_time - slack * parameters.step;
+  }
+
+  void
+  TimeSteps::accept()
+  {
+    ++state_.part;
+    if (state_.part == 1u << state_.level)
+      {
+        // An interval that End time has cut goes on where it was cut.
+        const double end = end_of_interval();
+        if (end >= (state_.interval + 1 - slack) * parameters.step)
+          ++state_.interval;
+        state_.begin = end;
+        state_.part  = 0;
+        state_.level = 0;
+      }
+    else if (state_.level > 0 && state_.part % 2 == 0)
+      {
+        state_.part /= 2;
+        --state_.level;
+      }
+    state_.time = time();
+  }
+
+  bool
+  TimeSteps::reject()
+  {
+    if (0.5 * (next() - time()) < parameters.smallest_step * (1. - slack) ||
+        state_.level >= 30)
+      return false;
+    state_.part *= 2;
+    ++state_.level;
+    return true;
+  }
+} // namespace Morula

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/condition_estimate.h>
+
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/tridiagonal_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    using Vector = Equilibrium::Vector;
+    using Matrix = Equilibrium::Matrix;
+
+    /** Far beyond what solves a system: the smallest eigenvalue settles late,
+     *  and SolverCG keeps the last coefficient to itself. */
+    constexpr double       reduction      = 1e-20;
+    constexpr unsigned int max_iterations = 5000; // and 100 + 10 n
+
+    void
+    remove(Vector &x, const std::vector<Vector> &directions)
+    {
+      for (const Vector &direction : directions)
+        x.add(-(x * direction), direction);
+    }
+
+    /**
+     * P D^(-1/2) (K + K^T)/2 D^(-1/2) P, where P removes the scaled null space.
+     * There it is a multiple of the identity, the mean of the other
+     * eigenvalues: were it zero, rounding would make conjugate gradients
+     * diverge along it.
+     */
+    class ScaledTangent
+    {
+    public:
+      ScaledTangent(const Equilibrium &problem,
+                    const Matrix      &K,
+                    const Vector      &layout)
+        : K(K)
+        , symmetric(problem.is_conservative())
+        , scale(layout)
+        , x(layout)
+        , part(layout)
+      {
+        for (const auto row : scale.locally_owned_elements())
+          {
+            const double diagonal = std::abs(K.diag_element(row));
+            scale(row) = diagonal > 0. ? 1. / std::sqrt(diagonal) : 1.;
+          }
+        scale.compress(VectorOperation::insert);
+        for (const Vector &direction : problem.null_space())
+          {
+            // D^(1/2) n, orthonormal
+            Vector scaled(direction);
+            for (const auto row : scaled.locally_owned_elements())
+              scaled(row) = direction(row) / scale(row);
+            scaled.compress(VectorOperation::insert);
+            remove(scaled, null_space);
+            scaled /= scaled.l2_norm();
+            null_space.push_back(scaled);
+          }
+        const double n = layout.size();
+        mean           = n / std::max(1., n - null_space.size());
+      }
+
+      void
+      vmult(Vector &y, const Vector &in) const
+      {
+        x = in;
+        remove(x, null_space);
+        x.scale(scale);
+        K.vmult(y, x);
+        if (!symmetric)
+          {
+            K.Tvmult(part, x);
+            y.sadd(0.5, 0.5, part);
+          }
+        y.scale(scale);
+        remove(y, null_space);
+        part = in;
+        remove(part, null_space);
+        part.sadd(-1., 1., in);
+        y.add(mean, part);
+      }
+
+    private:
+      const Matrix       &K;
+      const bool          symmetric;
+      Vector              scale; // D^(-1/2)
+      std::vector<Vector> null_space;
+      double              mean;
+      mutable Vector      x, part;
+    };
+
+    /**
+     * Lanczos' tridiagonal matrix from the coefficients of conjugate gradients.
+     * SolverCG offers its eigenvalues, too, but without their signs.
+     */
+    class LanczosMatrix
+    {
+    public:
+      void
+      add(const double alpha, const double beta)
+      {
+        const double next = 1. / alpha + carried;
+        const double off  = std::sqrt(beta) / alpha;
+        if (!std::isfinite(next) || !std::isfinite(off))
+          return; // behind a breakdown
+        carried = beta / alpha;
+        diagonal.push_back(next);
+        off_diagonal.push_back(off);
+      }
+
+      /** The smallest and the largest eigenvalue. */
+      std::pair<double, double>
+      extremes() const
+      {
+        const std::size_t n = diagonal.size();
+        if (n == 0)
+          return {0., 0.};
+        TridiagonalMatrix<double> T(n, true);
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            T(i, i) = diagonal[i];
+            if (i + 1 < n)
+              T(i, i + 1) = off_diagonal[i];
+          }
+        T.compute_eigenvalues();
+        return {T.eigenvalue(0), T.eigenvalue(n - 1)};
+      }
+
+    private:
+      std::vector<double> diagonal, off_diagonal;
+      double              carried = 0.;
+    };
+
+    /** Has a part in every eigenvector, for all that can be foreseen. */
+    Vector
+    random_vector(const Vector &layout)
+    {
+      Vector          result(layout);
+      const auto      owned = result.locally_owned_elements();
+      std::mt19937_64 generator(
+        owned.n_elements() > 0 ? 1 + owned.nth_index_in_set(0) : 0);
+      std::normal_distribution<double> normal;
+      for (const auto row : owned)
+        result(row) = normal(generator);
+      result.compress(VectorOperation::insert);
+      return result;
+    }
+  } // namespace
+
+  double
+  ConditionEstimate::condition() const
+  {
+    const double least =
+      std::numeric_limits<double>::epsilon() * std::abs(largest);
+    return largest > 0. ? largest / std::max(smallest, least) :
+                          1. / std::numeric_limits<double>::epsilon();
+  }
+
+  ConditionEstimate
+  estimate_condition(Equilibrium &problem)
+  {
+    Vector zero;
+    problem.initialize(zero);
+    const Matrix       &K = problem.tangent(zero, GrowthAt::previous);
+    const ScaledTangent A(problem, K, zero);
+    Vector              x(zero), b = random_vector(zero);
+
+    // It does not matter whether conjugate gradients solve the system.
+    LanczosMatrix    lanczos;
+    bool             breakdown = false;
+    ReductionControl control(std::min<unsigned int>(max_iterations,
+                                                    100 + 10 * zero.size()),
+                             0.,
+                             reduction,
+                             false,
+                             false);
+    SolverCG<Vector> solver(control);
+    solver.connect_coefficients_slot(
+      [&](const double alpha, const double beta) { lanczos.add(alpha, beta); });
+    try
+      {
+        solver.solve(A, x, b, PreconditionIdentity());
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        breakdown = !std::isfinite(control.last_value());
+      }
+    catch (const StandardExceptions::ExcDivideByZero &)
+      {
+        breakdown = true; // in Debug
+      }
+
+    ConditionEstimate estimate;
+    estimate.unknowns                             = zero.size();
+    std::tie(estimate.smallest, estimate.largest) = lanczos.extremes();
+    // A direction without any stiffness.
+    if (breakdown)
+      estimate.smallest = std::min(estimate.smallest, 0.);
+    return estimate;
+  }
+} // namespace Morula

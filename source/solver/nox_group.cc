@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/nox_group.h>
+
+#include <NOX_Solver_Generic.H>
+#include <Teuchos_ParameterList.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  NoxGroup::NoxGroup(Equilibrium               &problem,
+                     LinearSolver              &linear_solver,
+                     NewtonReport              &report,
+                     const Equilibrium::Vector &u)
+    : problem(problem)
+    , linear_solver(linear_solver)
+    , report(report)
+    , u(u)
+    , R(u)
+    , direction(u)
+  {}
+
+  const Equilibrium::Evaluation &
+  NoxGroup::evaluation() const
+  {
+    return evaluation_;
+  }
+
+  void
+  NoxGroup::invalidate()
+  {
+    has_residual = has_direction = false;
+    K                            = nullptr;
+  }
+
+  NOX::Abstract::Group &
+  NoxGroup::operator=(const NOX::Abstract::Group &source)
+  {
+    const auto &other = dynamic_cast<const NoxGroup &>(source);
+    u.values          = other.u.values;
+    R.values          = other.R.values;
+    direction.values  = other.direction.values;
+    evaluation_       = other.evaluation_;
+    K                 = other.K;
+    has_residual      = other.has_residual;
+    has_direction     = other.has_direction;
+    first_tangent     = other.first_tangent;
+    return *this;
+  }
+
+  void
+  NoxGroup::setX(const NOX::Abstract::Vector &y)
+  {
+    u = y;
+    invalidate();
+  }
+
+  void
+  NoxGroup::computeX(const NOX::Abstract::Group  &group,
+                     const NOX::Abstract::Vector &d,
+                     const double                 step)
+  {
+    u.update(1., group.getX(), step, d, 0.);
+    first_tangent = dynamic_cast<const NoxGroup &>(group).first_tangent;
+    invalidate();
+  }
+
+  NOX::Abstract::Group::ReturnType
+  NoxGroup::computeF()
+  {
+    // Inversion is no failure: NOX would stop. It shows as infinite energy.
+    if (!has_residual)
+      {
+        evaluation_ = problem.residual(u.values, R.values);
+        // Nothing balances a force along an unsupported motion, and nothing
+        // moves along it: what counts is the rest.
+        for (const Equilibrium::Vector &direction : problem.null_space())
+          R.values.add(-(R.values * direction), direction);
+      }
+    has_residual = true;
+    return Ok;
+  }
+
+  NOX::Abstract::Group::ReturnType
+  NoxGroup::computeJacobian()
+  {
+    if (K == nullptr)
+      K = &problem.tangent(u.values,
+                           first_tangent ? GrowthAt::previous :
+                                           GrowthAt::current);
+    first_tangent = false;
+    return Ok;
+  }
+
+  NOX::Abstract::Group::ReturnType
+  NoxGroup::computeGradient()
+  {
+    return computeF(); // the gradient of the energy is the residual
+  }
+
+  NOX::Abstract::Group::ReturnType
+  NoxGroup::computeNewton(Teuchos::ParameterList &parameters)
+  {
+    if (has_direction)
+      return Ok;
+    computeF();
+    computeJacobian();
+    Equilibrium::Vector b(R.values);
+    b *= -1.;
+    ++report.newton_iterations;
+    linear_solver.solve(*K,
+                        direction.values,
+                        b,
+                        parameters.get("Tolerance", 1e-6),
+                        report.linear_iterations);
+    has_direction = true;
+    return Ok;
+  }
+
+  NOX::Abstract::Group::ReturnType
+  NoxGroup::applyJacobian(const NOX::Abstract::Vector &input,
+                          NOX::Abstract::Vector       &result) const
+  {
+    if (K == nullptr)
+      return BadDependency;
+    K->vmult(dynamic_cast<NoxVector &>(result).values, values_of(input));
+    return Ok;
+  }
+
+  bool
+  NoxGroup::isF() const
+  {
+    return has_residual;
+  }
+
+  bool
+  NoxGroup::isJacobian() const
+  {
+    return K != nullptr;
+  }
+
+  bool
+  NoxGroup::isGradient() const
+  {
+    return has_residual;
+  }
+
+  bool
+  NoxGroup::isNewton() const
+  {
+    return has_direction;
+  }
+
+  const NOX::Abstract::Vector &
+  NoxGroup::getX() const
+  {
+    return u;
+  }
+
+  const NOX::Abstract::Vector &
+  NoxGroup::getF() const
+  {
+    return R;
+  }
+
+  double
+  NoxGroup::getNormF() const
+  {
+    return R.values.l2_norm();
+  }
+
+  const NOX::Abstract::Vector &
+  NoxGroup::getGradient() const
+  {
+    return R;
+  }
+
+  const NOX::Abstract::Vector &
+  NoxGroup::getNewton() const
+  {
+    return direction;
+  }
+
+  Teuchos::RCP<const NOX::Abstract::Vector>
+  NoxGroup::getXPtr() const
+  {
+    return Teuchos::rcpFromRef(u);
+  }
+
+  Teuchos::RCP<const NOX::Abstract::Vector>
+  NoxGroup::getFPtr() const
+  {
+    return Teuchos::rcpFromRef(R);
+  }
+
+  Teuchos::RCP<const NOX::Abstract::Vector>
+  NoxGroup::getGradientPtr() const
+  {
+    return Teuchos::rcpFromRef(R);
+  }
+
+  Teuchos::RCP<const NOX::Abstract::Vector>
+  NoxGroup::getNewtonPtr() const
+  {
+    return Teuchos::rcpFromRef(direction);
+  }
+
+  Teuchos::RCP<NOX::Abstract::Group>
+  NoxGroup::clone(const NOX::CopyType type) const
+  {
+    const auto copy =
+      Teuchos::rcp(new NoxGroup(problem, linear_solver, report, u.values));
+    if (type == NOX::DeepCopy)
+      *copy = static_cast<const NOX::Abstract::Group &>(*this);
+    return copy;
+  }
+
+  EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem)
+    : problem(problem)
+  {}
+
+  bool
+  EnergyLineSearch::compute(NOX::Abstract::Group        &group,
+                            double                      &step,
+                            const NOX::Abstract::Vector &direction,
+                            const NOX::Solver::Generic  &solver)
+  {
+    constexpr double       armijo         = 1e-4;
+    constexpr unsigned int max_reductions = 30;
+    const auto            &old_group =
+      dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
+    auto &new_group = dynamic_cast<NoxGroup &>(group);
+
+    const bool   conservative = problem.is_conservative();
+    const double slope        = direction.innerProduct(old_group.getF());
+    const auto  &before       = old_group.evaluation();
+    const double slack =
+      10. * std::numeric_limits<double>::epsilon() * before.energy_magnitude;
+    step = 1.;
+    for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
+      {
+        new_group.computeX(old_group, direction, step);
+        new_group.computeF();
+        const double energy = new_group.evaluation().energy;
+        if (!std::isfinite(energy))
+          continue;
+        if (conservative ?
+              energy <= before.energy + armijo * step * slope + slack :
+              new_group.getNormF() <=
+                  (1. - armijo * step) * old_group.getNormF() ||
+                new_group.getNormF() <=
+                  problem.rounding(values_of(new_group.getX())))
+          return true;
+      }
+    step = 0.; // any other length NOX would take for a recovery step
+    return false;
+  }
+} // namespace Morula

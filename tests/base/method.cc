@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/method.h>
+#include <morula/scene/scene.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace Morula;
+
+namespace
+{
+  /** A scene that is removed at the end of a test. */
+  class SceneFile
+  {
+  public:
+    const std::string name;
+
+    explicit SceneFile(const std::string &text)
+      : name(std::filesystem::temp_directory_path() /
+             ("morula-method-" + std::to_string(getpid()) + ".prm"))
+    {
+      std::ofstream(name) << text;
+    }
+
+    ~SceneFile()
+    {
+      std::filesystem::remove(name);
+    }
+  };
+
+  Scene
+  read(const std::string &text, const std::vector<std::string> &overrides = {})
+  {
+    const SceneFile file(text);
+    return Scene::read(file.name, overrides);
+  }
+
+  const std::string consistent = "set Method = consistent\n";
+  const std::string penalty =
+    "subsection Boundary conditions\n set Nitsche penalty = 77\nend\n";
+} // namespace
+
+
+TEST(Method, PaperLeavesTheDefaults)
+{
+  const Scene silent = read("");
+  EXPECT_EQ(silent.method, "paper");
+  EXPECT_EQ(silent.boundary_conditions.nitsche_form, "symmetric");
+  EXPECT_EQ(silent.boundary_conditions.nitsche_penalty, 1000.);
+  EXPECT_EQ(read("set Method = paper").parameters(), silent.parameters());
+  EXPECT_TRUE(Method::values("paper").empty());
+}
+
+
+TEST(Method, ConsistentSetsWhatTheSceneDoesNot)
+{
+  const Scene scene = read(consistent);
+  EXPECT_EQ(scene.boundary_conditions.nitsche_form, "unsymmetric");
+  EXPECT_EQ(scene.boundary_conditions.nitsche_penalty, 20.);
+  // as a default does: the user has not written it
+  EXPECT_EQ(scene.as_written.size(), 1u);
+  EXPECT_EQ(read("", {"Method=consistent"}).parameters(), scene.parameters());
+}
+
+
+TEST(Method, GivesWayToTheSceneWhereverThatSetsAKey)
+{
+  for (const Scene &scene :
+       {read(consistent + penalty),
+        read(penalty + consistent),
+        read(penalty, {"Method=consistent"}),
+        read(consistent, {"Boundary conditions/Nitsche penalty=77"})})
+    {
+      EXPECT_EQ(scene.boundary_conditions.nitsche_form, "unsymmetric");
+      EXPECT_EQ(scene.boundary_conditions.nitsche_penalty, 77.);
+    }
+}
+
+
+TEST(Method, IsThereAgainInTheParametersOfARun)
+{
+  const Scene scene = read(consistent + penalty);
+  const Scene again = read(scene.parameters());
+  EXPECT_EQ(again.parameters(), scene.parameters());
+  EXPECT_EQ(again.method, "consistent");
+  EXPECT_EQ(again.boundary_conditions.nitsche_form, "unsymmetric");
+  EXPECT_EQ(again.boundary_conditions.nitsche_penalty, 77.);
+
+  // what a program has changed since the scene was read
+  Scene changed                            = read(consistent);
+  changed.boundary_conditions.nitsche_form = "symmetric";
+  EXPECT_EQ(read(changed.parameters()).boundary_conditions.nitsche_form,
+            "symmetric");
+}
+
+
+TEST(Method, RefusesWhatItDoesNotKnow)
+{
+  try
+    {
+      read("\nset Method = consistant");
+      ADD_FAILURE();
+    }
+  catch (const InputError &error)
+    {
+      const std::string text = error.what();
+      for (const char *part :
+           {".prm:2", "Method", "Did you mean 'consistent'?", "paper"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+}

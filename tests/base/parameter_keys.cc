@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/parameter_keys.h>
+#include <morula/scene/scene.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+using namespace Morula;
+
+
+TEST(ParameterKeys, KnowUnitsAndChoices)
+{
+  ParameterHandler prm;
+  Scene            scene;
+  scene.declare(prm);
+  const ParameterKeys                 keys(prm);
+  std::map<std::string, ParameterKey> by_path;
+  for (const ParameterKey &key : keys.list())
+    by_path.emplace(key.path, key);
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(by_path.at("Time/Step").unit, "day");
+  EXPECT_EQ(by_path.at("Body force/Force density").unit, "kPa/um");
+  EXPECT_EQ(by_path.at("Material/Poisson's ratio").unit, "");
+  EXPECT_EQ(by_path.at("Boundary conditions/Nitsche form").choices,
+            (Words{"symmetric", "unsymmetric"}));
+  EXPECT_EQ(by_path.at("Output/Formats").choices,
+            (Words{"vtu", "csv", "none"}));
+  EXPECT_TRUE(by_path.at("Time/Step").choices.empty());
+}
+
+
+TEST(ParameterKeys, KeepFormerNames)
+{
+  ParameterHandler prm;
+  double           spacing = 50.;
+  std::string      law     = "none";
+  prm.enter_subsection("Grid");
+  prm.add_parameter("Spacing", spacing, "h. Units: um.");
+  prm.add_parameter("Law", law, "A law.");
+  prm.declare_alias("Spacing", "Mesh size", true);
+  prm.leave_subsection();
+
+  const ParameterKeys keys(prm);
+  ASSERT_EQ(keys.list().size(), 2u);
+  EXPECT_EQ(keys.current_name("Grid/Mesh size"), "Grid/Spacing");
+  EXPECT_EQ(keys.current_name("Grid/Spacing"), "Grid/Spacing");
+  EXPECT_EQ(keys.current_name("Grid/Other"), "Grid/Other");
+
+  keys.apply({Statement::set, "Grid/Mesh size", "20", ""}, prm);
+  EXPECT_EQ(spacing, 20.);
+  try
+    {
+      keys.apply({Statement::set, "Grid/Mesh size", "wide", ""}, prm);
+      ADD_FAILURE();
+    }
+  catch (const InputError &error)
+    {
+      const std::string message = error.what();
+      for (const std::string part : {"Grid/Spacing", "'wide'", "a number"})
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
+
+  std::ostringstream printed;
+  keys.print(printed);
+  EXPECT_NE(printed.str().find(
+              "# Formerly: Grid/Mesh size\n  set Spacing = 50"),
+            std::string::npos)
+    << printed.str();
+}

@@ -1,0 +1,462 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/mechanics/neo_hookean.h>
+#include <morula/particles/strays.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "effects/small_tissue.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr double area = 30.; // a⁰
+
+  TissueMaterial
+  material(const std::string &E,
+           const double       nu,
+           const bool         grown     = false,
+           const bool         projected = false)
+  {
+    MaterialParameters parameters;
+    parameters.youngs_modulus = E;
+    parameters.poissons_ratio = nu;
+    parameters.energy_per     = grown ? "grown volume" : "initial volume";
+    if (projected)
+      parameters.volumetric_strain = "projected";
+    return TissueMaterial(parameters);
+  }
+
+  /**
+   * A ball with boundary points where the axes leave it, each with its
+   * condition. Points are displaced by @p moved from their initial positions,
+   * and have the deformation gradient @p F.
+   */
+  template <int dim>
+  struct Problem
+  {
+    const BoundaryConditions<dim>     conditions;
+    const CellGrowth<dim>             growth;
+    Tissue<dim>                       tissue;
+    std::unique_ptr<SplineSpace<dim>> space;
+
+    Problem(const BoundaryConditionParameters &parameters,
+            CellGrowth<dim>                    growth_of_cells,
+            const Tensor<1, dim>              &moved = Tensor<1, dim>(),
+            const Tensor<2, dim>              &F     = unit_tensor<dim>())
+      : conditions(parameters)
+      , growth(std::move(growth_of_cells))
+      , tissue(GridParameters(),
+               CellSlots<dim>(growth.present(), false),
+               MPI_COMM_WORLD)
+    {
+      PointList<dim> boundary;
+      boundary.n_slots = BoundarySlots<dim>::n_slots;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const int sign : {-1, 1})
+          {
+            Tensor<1, dim> N;
+            N[d] = sign;
+            const Point<dim> X(90. * N);
+            auto             slots =
+              initial_boundary_slots(X, N, area, conditions.condition(X, N));
+            deform_boundary_point<dim>(make_array_view(slots), F);
+            boundary.ids.push_back(boundary.ids.size());
+            boundary.positions.push_back(X + moved);
+            boundary.properties.insert(boundary.properties.end(),
+                                       slots.begin(),
+                                       slots.end());
+          }
+      tissue.place(only_first_rank(founders(ball_points(Point<dim>(), 88., 20.),
+                                            std::pow(20., dim),
+                                            tissue.slots(),
+                                            growth,
+                                            [](const auto &) {
+                                              return unit_tensor<dim>();
+                                            }),
+                                   MPI_COMM_WORLD),
+                   only_first_rank(boundary, MPI_COMM_WORLD));
+      space = std::make_unique<SplineSpace<dim>>(tissue.splines());
+    }
+
+    struct Sums
+    {
+      double         energy = 0.;
+      Tensor<1, dim> force;
+    };
+
+    /** Energy and resultant of a term at u = 0, over all ranks. */
+    Sums
+    sums(const Term<dim> &term, const GrowthAt at = GrowthAt::current) const
+    {
+      LocalField<dim> rest{};
+      Sums            result;
+      for (unsigned int c = 0; c < space->cells().size(); ++c)
+        {
+          LocalSystem<dim> system(LocalSystem<dim>::energy_and_residual);
+          term.add(c, rest, at, system);
+          result.energy += system.energy;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+              result.force[i] += system.residual[i * BSpline<dim>::n + a];
+        }
+      result.energy = Utilities::MPI::sum(result.energy, MPI_COMM_WORLD);
+      result.force  = Utilities::MPI::sum(result.force, MPI_COMM_WORLD);
+      return result;
+    }
+
+    std::unique_ptr<Term<dim>>
+    nitsche(const TissueMaterial &material, const double t) const
+    {
+      return nitsche_term(
+        conditions, material, tissue, *space, growth.of_step(tissue, 0., t), t);
+    }
+  };
+
+  const std::string at_top = "X > 80"; // one point
+
+  template <int dim>
+  void
+  check_penalty()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where     = at_top;
+    parameters.displacement    = "2*t; -t; 0";
+    parameters.nitsche_penalty = 1e3;
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    Tensor<1, dim>     U;
+    U[0] = 1.;
+    U[1] = -0.5;
+    // E = 2 at X = 90; close to incompressible the least penalty counts.
+    const double h = 50.;
+    for (const auto &[nu, beta] :
+         {std::pair<double, double>(0.4, 2e3 / h),
+          {0.4999,
+           20. * (lame(2., 0.4999).lambda + 2. * lame(2., 0.4999).mu) / h}})
+      {
+        const auto sums =
+          problem.sums(*problem.nitsche(material("X/45", nu), 0.5));
+        EXPECT_NEAR(sums.energy,
+                    0.5 * beta * area * (U * U),
+                    1e-10 * sums.energy);
+        EXPECT_LE((sums.force + beta * area * U).norm(),
+                  1e-10 * sums.force.norm());
+      }
+  }
+
+  /** What is squeezed is stiffer than at rest, and so must be what holds it. */
+  template <int dim>
+  void
+  check_squeezed()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where     = at_top;
+    parameters.nitsche_penalty = 10.;
+    const Lame   constants     = lame(1., 0.4);
+    const double squeeze = 0.4, J = std::pow(squeeze, dim);
+    const double b         = squeeze * squeeze;
+    const double log_J     = std::log(J);
+    const double stiffness = (constants.lambda + constants.mu -
+                              constants.lambda * log_J + constants.mu * b) /
+                             J;
+    const double   at_rest = constants.lambda + 2. * constants.mu;
+    const double   beta = (20. * at_rest + 100. * (stiffness - at_rest)) / 50.;
+    Tensor<1, dim> moved;
+    moved[0] = 1e-3;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               moved,
+                               squeeze * unit_tensor<dim>());
+    const double       a_t = area * std::pow(squeeze, dim - 1);
+    const double       traction =
+      (constants.mu * (b - 1.) + constants.lambda * log_J) / J;
+    const double energy =
+      problem.sums(*problem.nitsche(material("1", 0.4), 1.)).energy;
+    EXPECT_GT(stiffness, 5. * at_rest);
+    EXPECT_NEAR(energy,
+                a_t * (0.5 * beta * 1e-6 - traction * 1e-3),
+                1e-9 * energy);
+  }
+
+  /** Projected, the traction of a volume change alone is left to the penalty,
+   *  which counts in λ + 2μ. */
+  template <int dim>
+  void
+  check_projected()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where   = at_top;
+    const Lame     constants = lame(1., 0.4999);
+    const double   b         = 1.01 * 1.01 - 1.;
+    const double   penalty = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
+    Tensor<1, dim> moved;
+    moved[0] = 1e-3;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               moved,
+                               1.01 * unit_tensor<dim>());
+    const double       a_t      = area * std::pow(1.01, dim - 1);
+    const double       traction = constants.mu * b / std::pow(1.01, dim);
+    const double       energy =
+      problem.sums(*problem.nitsche(material("1", 0.4999, false, true), 1.))
+        .energy;
+    EXPECT_NEAR(energy,
+                a_t * (0.5 * penalty * 1e-6 - traction * 1e-3),
+                1e-9 * energy);
+  }
+
+  /** The total position counts, not the increment. */
+  template <int dim>
+  void
+  check_total_gap()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where  = at_top;
+    parameters.displacement = "1; 2; 0";
+    parameters.slip_where   = "Y > 80";
+    Tensor<1, dim> moved;
+    moved[0] = 0.7;
+    moved[1] = -0.4;
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}), moved);
+    Tensor<1, dim>     gap; // fixed: moved - displacement; slip: along y
+    gap[0]          = -0.3;
+    gap[1]          = -2.4 + moved[1];
+    const auto sums = problem.sums(*problem.nitsche(material("1", 0.4), 1.));
+    EXPECT_LE((sums.force - 1e3 / 50. * area * gap).norm(),
+              1e-10 * sums.force.norm());
+    EXPECT_NEAR(sums.energy,
+                10. * area * (0.3 * 0.3 + 2.4 * 2.4 + moved[1] * moved[1]),
+                1e-10 * sums.energy);
+  }
+
+  /** Growth of the nearest cell presses on the held point. */
+  template <int dim>
+  void
+  check_growth()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where = at_top;
+    // At X = 70, the nearest cells, and elsewhere.
+    const std::string off_axis = dim == 2 ? "Y*Y" : "Y*Y + Z*Z";
+    const std::string stretch =
+      "1 + t*(X > 65 && " + off_axis + " < 500 ? 0.2 : 7)";
+    Tensor<2, dim> F = unit_tensor<dim>();
+    F[0][0]          = 1.1;
+    F[0][1]          = 0.2;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>(isotropic_growth<dim>(stretch),
+                                               {}),
+                               Tensor<1, dim>(),
+                               F);
+    for (const bool grown : {false, true})
+      for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
+        {
+          const double          theta = at == GrowthAt::current ? 1.2 : 1.;
+          const NeoHookean<dim> state(F / theta, lame(3., 0.3));
+          Tensor<1, dim>        N;
+          N[0] = 1.;
+          // a_t n_t = det F F⁻ᵀ a⁰ N, and W / V_t = det F_g^(0, 1) / det F
+          const Tensor<1, dim> expected =
+            -area * (grown ? std::pow(theta, dim) : 1.) *
+            (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+          const auto sums =
+            problem.sums(*problem.nitsche(material("3", 0.3, grown), 1.), at);
+          EXPECT_LE((sums.force - expected).norm(), 1e-12 * expected.norm());
+        }
+  }
+
+  /** Growth that is no symmetric tensor, the same everywhere. */
+  template <int dim>
+  class ShearedGrowth : public GrowthLaw<dim>
+  {
+  public:
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &,
+           const double,
+           const double t1) const override
+    {
+      Tensor<2, dim> F_g = unit_tensor<dim>();
+      F_g[0][1] += 0.4 * t1;
+      F_g[1][0] -= 0.1 * t1;
+      F_g[dim - 1][dim - 1] += 0.2 * t1;
+      return F_g;
+    }
+
+    double
+    expected_volume_ratio(const Point<dim> &, const double) const override
+    {
+      return 1.3;
+    }
+  };
+
+  /** F_e = F F_g^-1, not that of the transpose. */
+  template <int dim>
+  void
+  check_sheared_growth()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where = at_top;
+    Tensor<2, dim> F       = unit_tensor<dim>();
+    F[0][0]                = 1.1;
+    F[0][1]                = 0.2;
+    const Problem<dim> problem(
+      parameters,
+      CellGrowth<dim>(std::make_unique<ShearedGrowth<dim>>(), {}),
+      Tensor<1, dim>(),
+      F);
+    for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
+      {
+        const Tensor<2, dim> F_g =
+          ShearedGrowth<dim>().growth({},
+                                      0.,
+                                      at == GrowthAt::current ? 1. : 0.);
+        const NeoHookean<dim> state(F * invert(F_g), lame(3., 0.3));
+        Tensor<1, dim>        N;
+        N[0] = 1.;
+        const Tensor<1, dim> expected =
+          -area * determinant(F_g) *
+          (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+        const auto sums =
+          problem.sums(*problem.nitsche(material("3", 0.3, true), 1.), at);
+        EXPECT_LE((sums.force - expected).norm(), 1e-12 * expected.norm());
+      }
+  }
+
+  /** Where a held point is as far from its nearest cell as no surface is, its
+   *  state is an extrapolation, and its traction counts in part or not. */
+  template <int dim>
+  void
+  check_trust()
+  {
+    Tensor<2, dim> F = unit_tensor<dim>();
+    F[0][0]          = 1.1;
+    Tensor<1, dim> N;
+    N[0] = 1.;
+    const NeoHookean<dim> state(F, lame(3., 0.3));
+    const Tensor<1, dim>  all =
+      -area * (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
+    for (const double distance : {0., 16., 200.})
+      {
+        BoundaryConditionParameters parameters;
+        parameters.fixed_where  = at_top;
+        parameters.displacement = std::to_string(distance) + "; 0; 0";
+        Tensor<1, dim> moved;
+        moved[0] = distance;
+        const Problem<dim> problem(parameters,
+                                   CellGrowth<dim>({}, {}),
+                                   moved,
+                                   F);
+        Point<dim>         x;
+        x[0]               = 90. + distance;
+        const double trust = trust_in_surface<dim>({x}, problem.tissue)[0];
+        EXPECT_EQ(trust == 1., distance == 0.);
+        EXPECT_EQ(trust == 0., distance == 200.);
+        const auto sums =
+          problem.sums(*problem.nitsche(material("3", 0.3), 1.));
+        EXPECT_LE((sums.force - trust * all).norm(), 1e-11 * all.norm());
+      }
+  }
+
+  template <int dim>
+  void
+  check_loads()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.traction_where = "X > 80 || Y > 80";
+    parameters.traction       = "0.1*t; X/90; 0";
+    parameters.pressure_where = at_top;
+    parameters.pressure       = "3*t";
+    Tensor<2, dim> F          = unit_tensor<dim>();
+    F[1][1]                   = 1.5;
+    F[0][1]                   = 0.3;
+    const Problem<dim> problem(parameters,
+                               CellGrowth<dim>({}, {}),
+                               Tensor<1, dim>(),
+                               F);
+    const auto         traction = problem.sums(
+      *traction_term(problem.conditions, problem.tissue, *problem.space, 2.));
+    Tensor<1, dim> expected;
+    expected[0] = -2. * 0.2 * area; // per initial area, two points
+    expected[1] = -1. * area;
+    EXPECT_LE((traction.force - expected).norm(), 1e-11 * expected.norm());
+
+    Tensor<1, dim> N;
+    N[0]               = 1.;
+    const auto pressed = problem.sums(
+      *pressure_term(problem.conditions, problem.tissue, *problem.space, 2.));
+    expected = 6. * determinant(F) * area * (N * invert(F));
+    EXPECT_LE((pressed.force - expected).norm(), 1e-11 * expected.norm());
+  }
+
+  template <int dim>
+  void
+  check_supports()
+  {
+    BoundaryConditionParameters parameters;
+    parameters.fixed_where    = at_top;
+    parameters.slip_where     = "Y > 80 || Y < -80";
+    parameters.traction_where = "X < -80";
+    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    const auto         list =
+      supports(problem.conditions, problem.tissue, *problem.space);
+    EXPECT_EQ(Utilities::MPI::sum<unsigned int>(list.size(), MPI_COMM_WORLD),
+              3u);
+    for (const auto &support : list)
+      {
+        EXPECT_EQ(support.piece, 0u);
+        EXPECT_EQ(support.area, area);
+        Tensor<2, dim> M = unit_tensor<dim>();
+        if (support.x[0] < 80.)
+          {
+            M       = 0.;
+            M[1][1] = 1.;
+          }
+        EXPECT_EQ(support.projection, M);
+      }
+  }
+} // namespace
+
+
+TEST(BoundaryTerms,
+     PenaltyFollowsStiffnessAndSpacing){MORULA_BOTH_DIMENSIONS(check_penalty)}
+
+
+TEST(BoundaryTerms,
+     PenaltyFollowsTheSqueeze){MORULA_BOTH_DIMENSIONS(check_squeezed)}
+
+
+TEST(BoundaryTerms, ProjectedTractionHasNoVolumetricPart){
+  MORULA_BOTH_DIMENSIONS(check_projected)}
+
+
+TEST(BoundaryTerms,
+     TheTotalPositionIsHeld){MORULA_BOTH_DIMENSIONS(check_total_gap)}
+
+
+TEST(BoundaryTerms,
+     TractionOfTheNearestCellsGrowth){MORULA_BOTH_DIMENSIONS(check_growth)}
+
+
+TEST(BoundaryTerms,
+     GrowthNeedNotBeSymmetric){MORULA_BOTH_DIMENSIONS(check_sheared_growth)}
+
+
+TEST(BoundaryTerms,
+     ExtrapolatedTractionIsNotTrusted){MORULA_BOTH_DIMENSIONS(check_trust)}
+
+
+TEST(BoundaryTerms, DeadAndFollowingLoads){MORULA_BOTH_DIMENSIONS(check_loads)}
+
+
+TEST(BoundaryTerms, SupportsAreFixedAndSlipPoints)
+{
+  MORULA_BOTH_DIMENSIONS(check_supports)
+}

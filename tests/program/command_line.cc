@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/command_line.h>
+#include <morula/base/input_error.h>
+#include <morula/base/parameter_file.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace Morula;
+
+namespace
+{
+  std::string
+  complaint(const std::vector<std::string> &words)
+  {
+    try
+      {
+        CommandLine::parse(words);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "accepted";
+  }
+} // namespace
+
+
+TEST(CommandLine, NamesTheScene)
+{
+  const CommandLine line = CommandLine::parse({"a.prm"});
+  EXPECT_EQ(line.scene_file, "a.prm");
+  EXPECT_TRUE(line.overrides.empty());
+  EXPECT_FALSE(line.resume || line.explain || line.parameters || line.version ||
+               line.help);
+}
+
+
+TEST(CommandLine, CollectsOverridesInOrder)
+{
+  const CommandLine line =
+    CommandLine::parse({"-s",
+                        "Time/End time=2",
+                        "a.prm",
+                        "-s",
+                        "Growth/Isotropic/Stretch=if(X <= 0, -1, 1)",
+                        "--resume"});
+  EXPECT_EQ(line.scene_file, "a.prm");
+  EXPECT_EQ(
+    line.overrides,
+    (std::vector<std::string>{"Time/End time=2",
+                              "Growth/Isotropic/Stretch=if(X <= 0, -1, 1)"}));
+  EXPECT_TRUE(line.resume);
+  EXPECT_FALSE(line.explain);
+}
+
+
+TEST(CommandLine, KnowsItsOptions)
+{
+  EXPECT_TRUE(CommandLine::parse({"a.prm", "--explain"}).explain);
+  EXPECT_TRUE(CommandLine::parse({"a.prm", "--replace"}).replace);
+  EXPECT_FALSE(CommandLine::parse({"a.prm"}).replace);
+  EXPECT_TRUE(CommandLine::parse({"--parameters"}).parameters);
+  EXPECT_TRUE(CommandLine::parse({"--version"}).version);
+  EXPECT_TRUE(CommandLine::parse({"--help"}).help);
+}
+
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow)
+{
+  for (const auto &[words, part] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+         {{}, "Name the scene"},
+         {{"--resume"}, "Name the scene"},
+         {{"a.prm", "b.prm"}, "'a.prm' and 'b.prm'"},
+         {{"a.prm", "--rezume"}, "--rezume"},
+         {{"a.prm", "--res"}, "--res"},
+         {{"a.prm", "--resume", "--replace"}, "leave one of the two out"},
+         {{"a.prm", "-s"}, "required argument"},
+         {{"a.prm", "-x"}, "-x"}})
+    {
+      const std::string message = complaint(words);
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+      EXPECT_NE(message.find("morula SCENE.prm"), std::string::npos) << message;
+      EXPECT_NE(message.find("--help"), std::string::npos) << message;
+    }
+}
+
+
+TEST(CommandLine, PrintsEveryOptionAndExitCode)
+{
+  std::ostringstream out;
+  print_help(out);
+  for (const char *part : {"SCENE.prm",
+                           "-s",
+                           "--resume",
+                           "--replace",
+                           "--explain",
+                           "--parameters",
+                           "--version",
+                           "--help",
+                           "mpirun",
+                           "0 finished",
+                           "1 bad input",
+                           "2 the run failed"})
+    EXPECT_NE(out.str().find(part), std::string::npos) << part;
+}
+
+
+TEST(CommandLine, PrintsParametersThatCanBeReadBack)
+{
+  std::stringstream out;
+  print_parameters(out);
+  std::size_t n_keys = 0;
+  for (const Statement &statement : read_statements(out, "output"))
+    n_keys += statement.kind == Statement::set;
+  EXPECT_GE(n_keys, 49u);
+  for (const char *part : {"subsection Cell cycle",
+                           "set Spacing = 50",
+                           "# With Method = consistent: 20\n",
+                           "Allowed: a number >= 0",
+                           "Allowed: any one of none, cell cycle.",
+                           "kPa",
+                           "day"})
+    EXPECT_NE(out.str().find(part), std::string::npos) << part;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+// ranks: 1 2 3
+
+#include <morula/program/failure.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+using namespace dealii;
+using namespace Morula;
+
+namespace
+{
+  unsigned int
+  rank()
+  {
+    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  }
+
+  /** Number of times that @p part occurs in @p text. */
+  unsigned int
+  occurrences(const std::string &text, const std::string &part)
+  {
+    unsigned int n = 0;
+    for (auto i = text.find(part); i != std::string::npos;
+         i      = text.find(part, i + 1))
+      ++n;
+    return n;
+  }
+} // namespace
+
+
+TEST(Failure, IsPrintedOnceByTheFirstRank)
+{
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(end_of_all_ranks(1, "no grid", MPI_COMM_WORLD), 1);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(text, rank() == 0 ? "morula: no grid\n" : "");
+}
+
+
+TEST(Failure, ShowsWhatOtherRanksHaveToSay)
+{
+  const unsigned int last = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  const bool         is_last = rank() == last;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(end_of_all_ranks(is_last ? 2 : 1,
+                             is_last ? "the cause" : "a consequence",
+                             MPI_COMM_WORLD),
+            2);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(occurrences(text, "the cause"), rank() == 0 ? 1u : 0u);
+  EXPECT_EQ(occurrences(text, "a consequence"),
+            rank() == 0 && last > 0 ? 1u : 0u);
+}
+
+
+TEST(Failure, ShowsBeginningAndEndOfLongMessages)
+{
+  testing::internal::CaptureStderr();
+  end_of_all_ranks(1,
+                   "the key" + std::string(9999, 'a') + "the remedy",
+                   MPI_COMM_WORLD);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(occurrences(text, "the key"), rank() == 0 ? 1u : 0u);
+  EXPECT_EQ(occurrences(text, "the remedy"), rank() == 0 ? 1u : 0u);
+  EXPECT_LT(text.size(), 3000u);
+}

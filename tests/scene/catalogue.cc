@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/scene/scene.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+using namespace Morula;
+
+namespace
+{
+  struct Parameters
+  {
+    double factor = 2.;
+
+    void
+    declare(ParameterHandler &prm)
+    {
+      prm.add_parameter("Factor", factor, "Not zero.");
+    }
+  };
+
+  template <int dim>
+  class Law : public GrowthLaw<dim>
+  {
+  public:
+    using Parameters = ::Parameters;
+
+    explicit Law(const Parameters &parameters)
+      : factor(parameters.factor)
+    {
+      if (factor == 0.)
+        throw InputError("Growth/By factor/Factor", "0", "not zero", "");
+    }
+
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double,
+           const double) const override
+    {
+      return factor * cell.growth;
+    }
+
+    double
+    expected_volume_ratio(const Point<dim> &, const double) const override
+    {
+      return factor;
+    }
+
+  private:
+    const double factor;
+  };
+
+  template <int dim>
+  class Rule : public DivisionRule<dim>
+  {
+  public:
+    using Parameters = ::Parameters;
+
+    explicit Rule(const Parameters &) {}
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override
+    {
+      return cell.random;
+    }
+  };
+
+  Catalogue
+  catalogue()
+  {
+    Catalogue result;
+    result.add_growth_law<Law>("by factor");
+    result.add_division_rule<Rule>("some axis");
+    return result;
+  }
+
+  Scene
+  read(const std::vector<std::string> &overrides)
+  {
+    const std::string empty = "catalogue-test.prm";
+    std::ofstream     file(empty);
+    file.close();
+    const Scene scene = Scene::read(empty, overrides, catalogue());
+    std::remove(empty.c_str());
+    return scene;
+  }
+} // namespace
+
+
+TEST(Catalogue, GivesTheSceneKeysAndEffects)
+{
+  const Scene scene =
+    read({"Growth/Law=by factor",
+          "Growth/By factor/Factor=3",
+          "Proliferation/Law=cell cycle",
+          "Proliferation/Cell cycle/Division axis=some axis"});
+  EXPECT_NO_THROW(scene.check());
+  EXPECT_EQ(growth_law_of<2>(scene)->expected_volume_ratio(Point<2>(), 1.), 3.);
+  EXPECT_EQ(growth_law_of<3>(scene)->expected_volume_ratio(Point<3>(), 1.), 3.);
+  EXPECT_NE(division_rule_of<3>(scene), nullptr);
+
+  // Values belong to one scene.
+  EXPECT_EQ(catalogue().growth_laws[0].keys()[0].default_value, "2");
+  EXPECT_EQ(scene.catalogue.growth_laws[0].keys()[0].default_value, "3");
+  EXPECT_EQ(scene.with_defaults().catalogue.growth_laws[0].keys()[0].path,
+            "Factor");
+  EXPECT_EQ(
+    scene.with_defaults().catalogue.growth_laws[0].keys()[0].default_value,
+    "2");
+}
+
+
+TEST(Catalogue, ValuesStandInTheParameters)
+{
+  const std::string text =
+    read({"Growth/Law=by factor", "Growth/By factor/Factor=0.1234567891"})
+      .parameters();
+  EXPECT_NE(text.find("subsection By factor"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.1234567891"), std::string::npos) << text;
+}
+
+
+TEST(Catalogue, LeavesTheLibrarysOwnEffectsAlone)
+{
+  const Scene scene = read({"Growth/Law=isotropic",
+                            "Growth/Isotropic/Stretch=1.1",
+                            "Proliferation/Law=cell cycle"});
+  EXPECT_NO_THROW(scene.check());
+  EXPECT_NEAR(growth_law_of<2>(scene)->expected_volume_ratio(Point<2>(), 1.),
+              1.21,
+              1e-12);
+  EXPECT_EQ(division_rule_of<2>(scene), nullptr);
+  EXPECT_EQ(growth_law_of<2>(read({})), nullptr);
+}
+
+
+TEST(Catalogue, RefusesInTheScene)
+{
+  // by the effect itself, a value that nothing uses, an unknown key
+  EXPECT_THROW(
+    read({"Growth/Law=by factor", "Growth/By factor/Factor=0"}).check(),
+    InputError);
+  EXPECT_THROW(read({"Growth/By factor/Factor=1"}).check(), InputError);
+  EXPECT_THROW(read({"Proliferation/Cell cycle/Some axis/Factor=1"}).check(),
+               InputError);
+  EXPECT_THROW(read({"Growth/By factor/Other=1"}), InputError);
+  EXPECT_THROW(read({"Growth/Law=other"}), InputError);
+}
+
+
+TEST(Catalogue, RefusesNames)
+{
+  for (const std::string name : {"",
+                                 "none",
+                                 "isotropic",
+                                 "random",
+                                 "By",
+                                 "a|b",
+                                 " a",
+                                 "a ",
+                                 "by factor",
+                                 "some axis"})
+    {
+      Catalogue full = catalogue();
+      EXPECT_THROW(full.add_growth_law<Law>(name), std::invalid_argument);
+      EXPECT_THROW(full.add_division_rule<Rule>(name), std::invalid_argument);
+    }
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/scene/scene.h>
+
+#include <gtest/gtest.h>
+
+#include "common/temporary_file.h"
+
+using namespace Morula;
+
+namespace
+{
+  Scene
+  read(const std::string &text, const std::vector<std::string> &overrides = {})
+  {
+    return Scene::read(TemporaryFile(".prm", text).path, overrides);
+  }
+
+  /** What reading says about a scene. */
+  std::string
+  complaint(const std::string &text)
+  {
+    try
+      {
+        read(text);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "accepted";
+  }
+
+  void
+  expect_parts(const std::string              &message,
+               const std::vector<std::string> &parts)
+  {
+    for (const std::string &part : parts)
+      EXPECT_NE(message.find(part), std::string::npos)
+        << "'" << part << "' is missing in: " << message;
+  }
+} // namespace
+
+
+TEST(ScenePlaces, AreThoseOfSubsectionsWithoutEnd)
+{
+  const std::string cycle = "subsection Proliferation\n"
+                            "  set Law = cell cycle\n"
+                            "  subsection Cell cycle\n"
+                            "    set Duration = 2\n"
+                            "  end\n";
+  expect_parts(complaint(cycle + "subsection Grid\nend\nend\n"),
+               {".prm:6: subsection = 'Proliferation/Grid'",
+                "'subsection Proliferation' of ",
+                ".prm:1 is still open here: is an 'end' missing?"});
+  expect_parts(complaint(cycle + "set Dimension = 2\nend\n"),
+               {".prm:6: Proliferation/Dimension = '2'",
+                "'subsection Proliferation' of "});
+  expect_parts(complaint(cycle), {".prm:1: subsection", "Proliferation"});
+  expect_parts(complaint("subsection Growth\n"
+                         "  subsection Isotropic\n"
+                         "  set Law = isotropic\n"),
+               {".prm:1: subsection = 'Growth'", "ends with line 3"});
+  expect_parts(complaint("subsection Growth\n"
+                         "  subsection Isotropic\n"
+                         "  set Law = isotropic\nend\nend\n"),
+               {".prm:3: Growth/Isotropic/Law",
+                "'subsection Isotropic' of ",
+                ".prm:2 is still open"});
+}
+
+
+TEST(ScenePlaces, AreThoseOfValuesRefusedLater)
+{
+  const Scene scene =
+    read("\nsubsection Grid\n  set Spacing = -5\nend\n", {"Time/Step=0.2"});
+  expect_parts(scene.located("Grid/Spacing = '-5': allowed is"),
+               {".prm:3: Grid/Spacing = '-5'"});
+  expect_parts(scene.located("Grid/Spacing (some file, line 3) = '-5'"),
+               {".prm:3: Grid/Spacing (some"});
+  EXPECT_EQ(scene.located("Time/Step = '0.2'"), "-s: Time/Step = '0.2'");
+  EXPECT_EQ(scene.located("Time/End time = '1'"), "Time/End time = '1'");
+  EXPECT_EQ(scene.located("no message"), "no message");
+}

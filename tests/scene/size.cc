@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+// ranks: 1 2 3
+
+#include <morula/base/input_error.h>
+#include <morula/scene/checks.h>
+#include <morula/scene/estimates.h>
+#include <morula/scene/size.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace Morula;
+
+namespace
+{
+  unsigned int
+  rank()
+  {
+    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  }
+
+  unsigned int
+  n_ranks()
+  {
+    return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  }
+
+  /** What @p action throws on this rank. */
+  template <typename Action>
+  std::string
+  complaint(const Action &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "accepted";
+  }
+
+  /** Patches on the faces z = -1 and z = 1, one of each on every rank. */
+  SurfacePatches<3>
+  two_faces()
+  {
+    SurfacePatches<3> surface;
+    for (const double z : {-1., 1.})
+      {
+        surface.positions.emplace_back(rank(), 0., z);
+        surface.normals.push_back(Tensor<1, 3>({0., 0., z}));
+        surface.areas.push_back(1.);
+      }
+    return surface;
+  }
+} // namespace
+
+
+TEST(SceneSize, KnowsTheVolumeOfTheShapes)
+{
+  Scene scene;
+  EXPECT_NEAR(initial_size(scene).cells, 65449.8, 0.1);
+  scene.tissue.shape = "box";
+  EXPECT_DOUBLE_EQ(initial_size(scene).cells, 8000.);
+  scene.tissue.shape = "ellipsoid";
+  EXPECT_NEAR(initial_size(scene).cells, 4188.79, 0.01);
+  scene.tissue.shape = "cylinder";
+  EXPECT_NEAR(initial_size(scene).cells, 39269.9, 0.1);
+  scene.tissue.shape = "mesh";
+  EXPECT_EQ(initial_size(scene).cells, 0.);
+  scene.dimension    = 2;
+  scene.tissue.shape = "sphere";
+  EXPECT_NEAR(initial_size(scene).cells, 1963.50, 0.01);
+}
+
+
+TEST(SceneSize, SolvesTheRenewalEquation)
+{
+  EXPECT_EQ(expected_cells(1., 1., 0.5, false), 1.);
+  EXPECT_EQ(expected_cells(1., 0., 100., false), 1.);
+  EXPECT_EQ(expected_cells(1., 0., 100., true), 2.);
+  // one wait: divided with probability 1 - exp(-Lambda (t - T/2))
+  EXPECT_NEAR(expected_cells(2., 3., 1.4, false), 2. - std::exp(-1.2), 1e-14);
+  // no waits: all divide at T/2, 3T/2, ...
+  for (const auto &[t, n] : {std::pair(0.4, 1.),
+                             std::pair(0.6, 2.),
+                             std::pair(1.4, 2.),
+                             std::pair(3.6, 16.)})
+    {
+      EXPECT_NEAR(expected_cells(1., 1e9, t, true), n, 1e-6);
+      EXPECT_NEAR(expected_cells(1., 1e9, t, false), n, 1e-6);
+    }
+  // at long times exponential: 2 exp(-rT) Lambda/(Lambda + r) = 1
+  for (const double T : {0.5, 1., 2.})
+    for (const double Lambda : {0.1, 0.3, 1.})
+      {
+        const double r = std::log(expected_cells(T, Lambda, 60., false) /
+                                  expected_cells(T, Lambda, 50., false)) /
+                         10.;
+        EXPECT_NEAR(2. * std::exp(-r * T) * Lambda / (Lambda + r), 1., 1e-6)
+          << T << ' ' << Lambda;
+      }
+  EXPECT_GT(expected_cells(1e-9, 1e9, 1., false), 1e300);
+}
+
+
+TEST(SceneSize, CountsDescendants)
+{
+  Scene                       scene;
+  const std::vector<Point<3>> founders = {Point<3>(-1., 0., 0.),
+                                          Point<3>(1., 0., 0.)};
+  const double                n        = n_ranks();
+  const auto                  size     = [&] {
+    return expected_size(scene, founders, MPI_COMM_WORLD);
+  };
+
+  EXPECT_DOUBLE_EQ(size().cells, 2. * n);
+  EXPECT_DOUBLE_EQ(size().volume, 2000. * n);
+
+  scene.growth_law               = "isotropic";
+  scene.isotropic_growth.stretch = "1 + t*(X > 0)";
+  EXPECT_DOUBLE_EQ(size().volume, 9000. * n);
+
+  scene.growth_law        = "none";
+  scene.proliferation_law = "cell cycle";
+  scene.cell_cycle.where  = "X > 0";
+  scene.time.end_time     = 10.;
+  const double many       = 1. + expected_cells(1., 1., 10., false);
+  EXPECT_NEAR(size().cells, many * n, 1e-9 * many * n);
+
+  scene.time.stop_at_cells = 10 * n_ranks();
+  EXPECT_DOUBLE_EQ(size().cells, 20. * n);
+  scene.cell_cycle.size_checkpoint = "0.8";
+  EXPECT_DOUBLE_EQ(size().cells, 2. * n);
+}
+
+
+TEST(SceneSize, RefusesWhatDoesNotFit)
+{
+  const double memory = physical_memory(MPI_COMM_WORLD);
+  EXPECT_GT(memory, 1e8);
+  EXPECT_LT(memory, 1e15);
+
+  Scene scene;
+  check_memory(scene, {1e4, 1e7}, MPI_COMM_WORLD);
+  scene.tissue.cell_spacing = 0.01;
+  const std::string message = complaint(
+    [&] { check_memory(scene, initial_size(scene), MPI_COMM_WORLD); });
+  for (const char *part : {"GB", "Cell spacing", "End time", "Stop at cells"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+
+  scene.tissue.cell_spacing = 10.;
+  scene.grid.spacing        = 0.05;
+  EXPECT_THROW(check_memory(scene, initial_size(scene), MPI_COMM_WORLD),
+               InputError);
+}
+
+
+TEST(SceneSize, EstimatesTheMatrixOfTheHalfFixedSphere)
+{
+  // measured: 840 k entries for 2,904 unknowns at h = 50; the box around the
+  // tissue has more, and there are three copies of 12 bytes an entry
+  Scene        scene;
+  const double bytes = estimated_memory(scene, initial_size(scene));
+  EXPECT_GT(bytes, 3. * 12. * 840e3);
+  EXPECT_LT(bytes, 1e9);
+  scene.grid.spacing = 25.;
+  EXPECT_GT(estimated_memory(scene, initial_size(scene)), bytes);
+}
+
+
+TEST(SceneSize, EstimatesRuns)
+{
+  Scene scene;
+  scene.tissue.shape             = "box";
+  scene.growth_law               = "isotropic";
+  scene.isotropic_growth.stretch = "1 + t";
+  scene.time.step                = 0.1;
+  const auto size                = [&](const unsigned int n_unknowns) {
+    return estimated_size(scene,
+                          seed_founders<3>(scene.tissue, MPI_COMM_WORLD),
+                          MPI_COMM_WORLD,
+                          n_unknowns);
+  };
+  const SizeEstimate grown = size(648);
+  EXPECT_EQ(grown.cells, 8000.);
+  EXPECT_EQ(grown.unknowns_at_start, 648.);
+  EXPECT_NEAR(grown.unknowns,
+              648. * 1000. / 216.,
+              1e-9); // (8 + 2)^3, (4 + 2)^3
+  EXPECT_EQ(grown.steps, 10.);
+  EXPECT_NEAR(size(0).unknowns_at_start, 648., 1e-9);
+
+  // twice the steps, twice the time; finer grids and a direct solver cost more
+  scene.time.step = 0.05;
+  EXPECT_NEAR(size(648).seconds, 2. * grown.seconds, 1e-9);
+  EXPECT_EQ(size(648).memory, grown.memory);
+  EXPECT_GT(size(6480).seconds, size(648).seconds);
+  EXPECT_GT(size(6480).memory, size(648).memory);
+  const double iterative     = size(6480).memory;
+  scene.solver.linear_solver = "direct";
+  EXPECT_GT(size(6480).memory, iterative);
+}
+
+
+TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
+{
+  // bad at one cell of the last rank: all ranks must refuse
+  const std::string           bad = std::to_string(n_ranks() - 1);
+  const std::vector<Point<3>> founders(1, Point<3>(rank(), 0., 0.));
+  const auto                  check = [&](const Scene &scene) {
+    return complaint([&] { check_at_cells(scene, founders, MPI_COMM_WORLD); });
+  };
+
+  Scene scene;
+  EXPECT_EQ(check(scene), "accepted");
+
+  scene.material.youngs_modulus = "if(X == " + bad + ", 0, 1)";
+  EXPECT_NE(check(scene).find("Material/Young's modulus"), std::string::npos);
+  scene.material.youngs_modulus = "1";
+
+  scene.growth_law               = "isotropic";
+  scene.isotropic_growth.stretch = "1 - t*(X == " + bad + ")";
+  EXPECT_NE(check(scene).find("Growth/Isotropic/Stretch"), std::string::npos);
+  scene.time.end_time = 0.5;
+  EXPECT_EQ(check(scene), "accepted");
+  scene.growth_law = "none";
+
+  scene.body_force.force_density = "0; 0; 1/(X - " + bad + ")";
+  EXPECT_NE(check(scene).find("Body force/Force density"), std::string::npos);
+  scene.body_force.force_density = "0; 0; 0";
+
+  scene.proliferation_law   = "cell cycle";
+  scene.cell_cycle.duration = "1 - 0.95*(X == " + bad + ")";
+  EXPECT_NE(check(scene).find("Step"), std::string::npos) << check(scene);
+}
+
+
+TEST(SceneChecks, CountTheBoundaryConditions)
+{
+  Scene      scene;
+  auto      &given = scene.boundary_conditions;
+  const auto check = [&] {
+    return check_at_surface(scene, two_faces(), MPI_COMM_WORLD);
+  };
+
+  given.fixed_where      = "Z < 0";
+  given.slip_where       = "1";
+  given.slip_normal      = "0, 0, 2";
+  given.pressure_where   = "X == 0 && Z > 0";
+  given.pressure         = "1/(1 + X)";
+  ConditionCounts counts = check();
+  EXPECT_EQ(counts.points, 2 * n_ranks());
+  EXPECT_EQ(counts.fixed, n_ranks());
+  // fixed wins over slip, slip over pressure
+  EXPECT_EQ(counts.slip, n_ranks());
+  EXPECT_EQ(counts.traction, 0u);
+  EXPECT_EQ(counts.pressure, 0u);
+
+  given.slip_where = "Z < 0";
+  counts           = check();
+  EXPECT_EQ(counts.fixed, n_ranks());
+  EXPECT_EQ(counts.slip, 0u);
+  EXPECT_EQ(counts.pressure, 1u);
+  given.slip_where = "1";
+
+  given.slip_normal         = "1, 0, 0";
+  const std::string message = complaint(check);
+  EXPECT_NE(message.find("Boundary conditions/Slip where"), std::string::npos)
+    << message;
+  EXPECT_NE(message.find("boundary point"), std::string::npos) << message;
+  given.slip_where = "";
+
+  given.displacement = "1/X; 0; 0";
+  EXPECT_NE(complaint(check).find("Boundary conditions/Displacement"),
+            std::string::npos);
+}

@@ -1,0 +1,338 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/scene/warnings.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include "common/temporary_file.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** A held cube of 1000 cells that grows, with nothing to warn of. */
+  Scene
+  good_scene()
+  {
+    Scene scene;
+    scene.tissue.shape                        = "box";
+    scene.tissue.size                         = {100., 100., 100.};
+    scene.growth_law                          = "isotropic";
+    scene.isotropic_growth.stretch            = "1 + 0.1*t";
+    scene.boundary_conditions.fixed_where     = "Z < -49";
+    scene.boundary_conditions.nitsche_penalty = 1000.;
+    scene.time.step                           = 1.;
+    scene.time.end_time                       = 4.;
+    scene.output.interval                     = 1.;
+    return scene;
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of(const Scene &scene)
+  {
+    scene.check();
+    return scene_warnings(scene,
+                          seed_founders<dim>(scene.tissue, MPI_COMM_WORLD),
+                          seed_surface<dim>(scene.tissue, MPI_COMM_WORLD),
+                          MPI_COMM_WORLD);
+  }
+
+  /** Expects a single warning with these parts. */
+  void
+  expect_warning(const Scene &scene, const std::vector<std::string> &parts)
+  {
+    const auto warnings = warnings_of<3>(scene);
+    ASSERT_EQ(warnings.size(), 1u)
+      << parts[0] << " " << (warnings.empty() ? "" : warnings.back());
+    for (const std::string &part : parts)
+      EXPECT_NE(warnings[0].find(part), std::string::npos)
+        << "'" << part << "' is missing in: " << warnings[0];
+  }
+} // namespace
+
+
+TEST(SceneWarnings, AreNoneForAGoodScene)
+{
+  EXPECT_TRUE(warnings_of<3>(good_scene()).empty());
+  Scene flat                           = good_scene();
+  flat.dimension                       = 2;
+  flat.boundary_conditions.fixed_where = "Y < -49";
+  EXPECT_TRUE(warnings_of<2>(flat).empty());
+}
+
+
+TEST(SceneWarnings, OfCellsPerGridSpacing)
+{
+  Scene scene        = good_scene();
+  scene.grid.spacing = 30.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.grid.spacing = 25.;
+  expect_warning(scene,
+                 {"Warning: Grid/Spacing = '25 um'",
+                  "2.5 cells of 10 um",
+                  "accuracy-and-cost",
+                  "Choose 4 to 7"});
+  scene.grid.spacing = 15.;
+  expect_warning(scene, {"'15 um'", "1.5 cells", "below 2", "classification"});
+}
+
+
+TEST(SceneWarnings, OfFilesInAnotherUnit)
+{
+  // a square lattice of cells, 10 um apart where the unit is 1 um
+  const auto points = [](const double unit) {
+    std::string text = "x,y\n";
+    for (unsigned int i = 0; i < 400; ++i)
+      text += std::to_string(10. * unit * (i % 20)) + "," +
+              std::to_string(10. * unit * (i / 20)) + "\n";
+    return text;
+  };
+  Scene scene;
+  scene.dimension    = 2;
+  scene.tissue.shape = "points";
+  for (const auto &[unit, said] :
+       {std::pair(0.01, "0.01 of a cell's length away"),
+        std::pair(0.45, "0.45 of a cell's length away"),
+        std::pair(0.55, ""),
+        std::pair(1., ""),
+        std::pair(1.9, ""),
+        std::pair(2.2, "2.2 of a cell's length away")})
+    {
+      const TemporaryFile file(".csv", points(unit));
+      scene.tissue.points_file                = file.path;
+      const std::vector<std::string> warnings = warnings_of<2>(scene);
+      const std::string first = warnings.empty() ? "" : warnings[0];
+      const bool        warned =
+        first.find("Is the file in another") != std::string::npos;
+      EXPECT_EQ(warned, std::string(said) != "") << unit << ' ' << first;
+      EXPECT_NE(first.find(said), std::string::npos) << unit << ' ' << first;
+    }
+
+  Scene solid;
+  solid.tissue.shape = "mesh";
+  solid.tissue.surface_mesh =
+    std::string(MORULA_SOURCE_DIRECTORY) + "/tests/scenes/octahedron.off";
+  for (const auto &[spacing, said] :
+       {std::pair(40., "only 3 cells long"), std::pair(30., "")})
+    {
+      solid.tissue.cell_spacing   = spacing;
+      solid.tissue.lattice_offset = {0.5 * spacing, 0.5 * spacing, 0.};
+      std::string all;
+      for (const std::string &text : warnings_of<3>(solid))
+        all += text + "\n";
+      EXPECT_EQ(all.find("cells long") != std::string::npos,
+                std::string(said) != "")
+        << spacing << ' ' << all;
+    }
+}
+
+
+TEST(SceneWarnings, OfKeysThatTheShapeDoesNotUse)
+{
+  Scene scene                     = good_scene();
+  scene.as_written["Tissue/Size"] = "100, 100, 100";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.tissue.radius = 70.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty()); // no key of the file
+  scene.as_written["Tissue/Radius"] = "70";
+  expect_warning(scene,
+                 {"Tissue/Radius = '70'",
+                  "no effect on Tissue/Shape = box",
+                  "sphere, cylinder"});
+  scene.tissue.radius = 250.;
+  scene.as_written["Tissue/Radius"] =
+    "250"; // the default: as in parameters.prm
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfThinTissue)
+{
+  Scene scene                           = good_scene();
+  scene.tissue.size                     = {100., 100., 50.};
+  scene.boundary_conditions.fixed_where = "Z < -24";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.tissue.size                     = {100., 100., 40.};
+  scene.boundary_conditions.fixed_where = "Z < -19";
+  expect_warning(scene,
+                 {"Grid/Spacing = '50 um'",
+                  "40 um wide",
+                  "small_and_thin",
+                  "Lower Grid/Spacing"});
+}
+
+
+TEST(SceneWarnings, OfBoundaryPointsFarApart)
+{
+  Scene scene                  = good_scene();
+  scene.tissue.boundary_points = 96; // 4 x 4 a face: 25 um apart
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.boundary_conditions.slip_where = "X < -49";
+  expect_warning(scene,
+                 {"Tissue/Boundary points = '96'",
+                  "25 um apart",
+                  "instability",
+                  "Refine surface"});
+  scene.tissue.refine_surface = true;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.tissue.refine_surface  = false;
+  scene.tissue.boundary_points = 150;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfMissingExtension)
+{
+  Scene scene          = good_scene();
+  scene.grid.extension = false;
+  expect_warning(scene, {"Grid/Extension = 'false'", "cuts", "true"});
+}
+
+
+TEST(SceneWarnings, OfLongSteps)
+{
+  Scene scene                    = good_scene();
+  scene.isotropic_growth.stretch = "1 + 0.2*t*(X > 44)"; // one layer of cells
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.isotropic_growth.stretch = "1 + 0.21*t*(X > 44)";
+  expect_warning(scene, {"Time/Step = '1 day'", "1.21", "advice", "Shorten"});
+  scene.isotropic_growth.stretch = "if(t > 2.5 && X > 44, 0.5, 1)"; // withering
+  expect_warning(scene, {"Time/Step", "up to 2;"});
+  scene.isotropic_growth.stretch        = "1 + 0.3*t";
+  scene.boundary_conditions.fixed_where = "";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.isotropic_growth.stretch = "if(t == 2, log(-1), 1)"; // the run says so
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfStepsOfTheCellCycle)
+{
+  Scene scene               = good_scene();
+  scene.growth_law          = "none";
+  scene.isotropic_growth    = {};
+  scene.proliferation_law   = "cell cycle";
+  scene.cell_cycle.duration = "if(X > 44, 4, 5)";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.cell_cycle.duration = "if(X > 44, 3, 5)";
+  expect_warning(scene,
+                 {"Time/Step = '1 day'",
+                  "0.333333 of the shortest cell cycle, 3 day",
+                  "Shorten"});
+  scene.cell_cycle.where = "X < 44";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfTheMaterial)
+{
+  Scene scene                   = good_scene();
+  scene.material.poissons_ratio = 0.49;
+  expect_warning(scene,
+                 {"Material/Poisson's ratio = '0.49'",
+                  "locks",
+                  "stiffness",
+                  "Volumetric strain = projected"});
+  scene.material.volumetric_strain = "projected";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
+{
+  // 20 (1 - nu) / ((1 + nu) (1 - 2 nu)) = 42.857 at nu = 0.4
+  Scene scene                               = good_scene();
+  scene.boundary_conditions.nitsche_penalty = 42.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty()); // the default's value: not chosen
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "42";
+  expect_warning(
+    scene,
+    {"Nitsche penalty = '42 E/h'", "42.8571 E/h", "no effect", "unsymmetric"});
+  scene.boundary_conditions.nitsche_penalty = 43.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.boundary_conditions.nitsche_penalty = 20.;
+  scene.boundary_conditions.nitsche_form    = "unsymmetric";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
+{
+  Scene scene                               = good_scene();
+  scene.boundary_conditions.nitsche_form    = "unsymmetric";
+  scene.boundary_conditions.nitsche_penalty = 20.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty()); // there is a free surface
+  scene.boundary_conditions.fixed_where = "1";
+  expect_warning(scene,
+                 {"Nitsche penalty = '20 E/h'",
+                  "all of the surface is fixed",
+                  "9 % low",
+                  "Method = paper"});
+  scene.boundary_conditions.nitsche_penalty = 1000.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.boundary_conditions.nitsche_form = "symmetric";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfAMethodThatChangesNothing)
+{
+  Scene scene                                          = good_scene();
+  scene.method                                         = "consistent";
+  scene.as_written["Boundary conditions/Nitsche form"] = "symmetric";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  expect_warning(scene,
+                 {"Method = 'consistent'",
+                  "changes nothing",
+                  "Nitsche form",
+                  "Nitsche penalty",
+                  "Remove"});
+  // one of them has the method's value: a choice
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "20.0";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.method                                            = "paper";
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfIntervalsBelowTheStep)
+{
+  Scene scene           = good_scene();
+  scene.output.interval = 0.5;
+  expect_warning(scene,
+                 {"Output/Interval = '0.5 day'", "Time/Step = 1 day", "Raise"});
+  scene.output.interval          = 0.;
+  scene.output.snapshot_interval = 0.9;
+  expect_warning(scene, {"Output/Snapshot interval = '0.9 day'"});
+}
+
+
+TEST(SceneWarnings, OfLongRunsWithoutSnapshots)
+{
+  Scene scene                    = good_scene();
+  scene.isotropic_growth.stretch = "1 + 0.01*t";
+  scene.time.step                = 1e-4;
+  scene.time.smallest_step       = 1e-5;
+  scene.time.end_time            = 20.; // 200,000 steps of some 0.02 s
+  expect_warning(scene,
+                 {"Output/Snapshot interval = '0 day'",
+                  "hours of one core",
+                  "Choose an interval"});
+  scene.output.snapshot_interval = 1.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfFormerNames)
+{
+  Scene scene   = good_scene();
+  scene.renamed = {"scene.prm:3: the key 'A' is called 'B' today"};
+  expect_warning(scene, {"Warning: scene.prm:3", "'B' today."});
+}

@@ -1,0 +1,500 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/seeding/mesh_patches.h>
+#include <morula/seeding/seeding.h>
+#include <morula/seeding/surface_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "common/temporary_file.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** Polygons to be written as an OFF file. */
+  struct Polygons
+  {
+    std::vector<Point<3>>                  points;
+    std::vector<std::vector<unsigned int>> faces;
+
+    std::string
+    off() const
+    {
+      std::ostringstream out;
+      out.precision(17);
+      out << "OFF\n" << points.size() << ' ' << faces.size() << " 0\n";
+      for (const Point<3> &p : points)
+        out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+      for (const auto &face : faces)
+        {
+          out << face.size();
+          for (const unsigned int i : face)
+            out << ' ' << i;
+          out << '\n';
+        }
+      return out.str();
+    }
+
+    void
+    append(const Polygons &other)
+    {
+      for (auto face : other.faces)
+        {
+          for (unsigned int &i : face)
+            i += points.size();
+          faces.push_back(face);
+        }
+      points.insert(points.end(), other.points.begin(), other.points.end());
+    }
+  };
+
+  /** A cube with six square faces. */
+  Polygons
+  cube(const Point<3> &corner, const double edge)
+  {
+    Polygons cube;
+    for (unsigned int i = 0; i < 8; ++i)
+      cube.points.push_back(
+        corner + edge * Tensor<1, 3>(
+                          {1. * (i & 1), 1. * ((i >> 1) & 1), 1. * (i >> 2)}));
+    cube.faces = {{0, 2, 3, 1},
+                  {4, 5, 7, 6},
+                  {0, 1, 5, 4},
+                  {2, 6, 7, 3},
+                  {0, 4, 6, 2},
+                  {1, 3, 7, 5}};
+    return cube;
+  }
+
+  Polygons
+  reversed(Polygons polygons)
+  {
+    for (auto &face : polygons.faces)
+      std::reverse(face.begin(), face.end());
+    return polygons;
+  }
+
+  /** An octahedron whose faces are cut in four again and again, on a sphere. */
+  Polygons
+  sphere(const double radius, const unsigned int n_cuts)
+  {
+    Polygons result;
+    result.points = {
+      {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    result.faces = {{0, 2, 4},
+                    {2, 1, 4},
+                    {1, 3, 4},
+                    {3, 0, 4},
+                    {2, 0, 5},
+                    {1, 2, 5},
+                    {3, 1, 5},
+                    {0, 3, 5}};
+    for (unsigned int cut = 0; cut < n_cuts; ++cut)
+      {
+        std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
+        const auto middle = [&](const unsigned int i, const unsigned int j) {
+          const auto [place, is_new] =
+            middles.emplace(std::minmax(i, j), result.points.size());
+          if (is_new)
+            {
+              const Tensor<1, 3> m =
+                result.points[i] + result.points[j] - Point<3>();
+              result.points.push_back(Point<3>(m / m.norm()));
+            }
+          return place->second;
+        };
+        std::vector<std::vector<unsigned int>> finer;
+        for (const auto &f : result.faces)
+          {
+            const unsigned int a = middle(f[0], f[1]);
+            const unsigned int b = middle(f[1], f[2]);
+            const unsigned int c = middle(f[2], f[0]);
+            finer.insert(finer.end(),
+                         {{f[0], a, c}, {a, f[1], b}, {c, b, f[2]}, {a, b, c}});
+          }
+        result.faces = finer;
+      }
+    for (Point<3> &p : result.points)
+      p *= radius;
+    return result;
+  }
+
+  double
+  volume(const std::vector<SurfaceTriangle> &triangles)
+  {
+    double sum = 0.;
+    for (const SurfaceTriangle &t : triangles)
+      sum += t.vertices[0] * area_vector(t.vertices) / 3.;
+    return sum;
+  }
+
+  /** Why a mesh is refused; empty if it is not. */
+  std::string
+  refusal(const std::string &content, const std::string &ending = ".off")
+  {
+    const TemporaryFile file(ending, content);
+    try
+      {
+        SurfaceMesh mesh(file.path);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  bool
+  contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  struct Sums
+  {
+    double       area = 0., volume = 0., smallest = 1e300, largest = 0.;
+    Tensor<1, 3> vector;
+  };
+
+  Sums
+  sums(const std::vector<SurfacePatch<3>> &patches)
+  {
+    Sums sums;
+    for (const SurfacePatch<3> &patch : patches)
+      {
+        EXPECT_NEAR(patch.normal.norm(), 1., 1e-14);
+        sums.area += patch.area;
+        sums.vector += patch.area * patch.normal;
+        sums.volume += patch.area * (patch.position * patch.normal) / 3.;
+        sums.smallest = std::min(sums.smallest, patch.area);
+        sums.largest  = std::max(sums.largest, patch.area);
+      }
+    return sums;
+  }
+
+  /** One square face cut into a grid of triangles; the cube of such faces. */
+  Polygons
+  fine_cube(const double edge, const unsigned int n)
+  {
+    Polygons                                            result;
+    std::map<std::array<unsigned int, 3>, unsigned int> numbers;
+    const auto number = [&](const std::array<unsigned int, 3> &i) {
+      const auto [place, is_new] = numbers.emplace(i, result.points.size());
+      if (is_new)
+        result.points.push_back(
+          Point<3>(edge * i[0] / n, edge * i[1] / n, edge * i[2] / n));
+      return place->second;
+    };
+    for (unsigned int d = 0; d < 3; ++d)
+      for (const unsigned int side : {0u, n})
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              const auto corner = [&](const unsigned int k,
+                                      const unsigned int l) {
+                std::array<unsigned int, 3> index;
+                index[d]           = side;
+                index[(d + 1) % 3] = k;
+                index[(d + 2) % 3] = l;
+                return number(index);
+              };
+              const unsigned int a = corner(i, j), b = corner(i + 1, j),
+                                 c = corner(i + 1, j + 1), e = corner(i, j + 1);
+              result.faces.push_back({a, b, c});
+              result.faces.push_back({a, c, e});
+            }
+    return result; // sides of d = 0 wind inward: reading puts that right
+  }
+} // namespace
+
+TEST(SurfaceMesh, CubeOfPolygons)
+{
+  const TemporaryFile file(".off", cube(Point<3>(-1., 2., 3.), 4.).off());
+  const SurfaceMesh   mesh(file.path);
+  EXPECT_EQ(mesh.triangles().size(), 12u);
+  EXPECT_NEAR(volume(mesh.triangles()), 64., 1e-12);
+  EXPECT_EQ(mesh.bounding_box(),
+            BoundingBox<3>({Point<3>(-1., 2., 3.), Point<3>(3., 6., 7.)}));
+  EXPECT_TRUE(mesh.contains(Point<3>(0., 3., 4.), 0.5));
+  EXPECT_TRUE(mesh.contains(Point<3>(-1. + 2e-8, 3., 4.), 1e-8));
+  EXPECT_FALSE(mesh.contains(Point<3>(-1. + 0.5e-8, 3., 4.), 1e-8));
+  EXPECT_FALSE(mesh.contains(Point<3>(-1., 3., 4.), 0.));
+  EXPECT_FALSE(mesh.contains(Point<3>(-2., 3., 4.), 1e-8));
+  for (const SurfaceTriangle &t : mesh.triangles())
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        // both ends of the edge are the neighbour's, too
+        const auto &other = mesh.triangles().at(t.neighbors[i]).vertices;
+        EXPECT_EQ(std::count(other.begin(), other.end(), t.vertices[i]), 1);
+        EXPECT_EQ(
+          std::count(other.begin(), other.end(), t.vertices[(i + 1) % 3]), 1);
+      }
+}
+
+TEST(SurfaceMesh, OrientationIsMadeOutward)
+{
+  const TemporaryFile inward(".off", reversed(cube({}, 2.)).off());
+  EXPECT_NEAR(volume(SurfaceMesh(inward.path).triangles()), 8., 1e-12);
+
+  Polygons mixed = cube({}, 2.);
+  std::reverse(mixed.faces[3].begin(), mixed.faces[3].end());
+  const TemporaryFile file(".off", mixed.off());
+  EXPECT_NEAR(volume(SurfaceMesh(file.path).triangles()), 8., 1e-12);
+}
+
+TEST(SurfaceMesh, CavitiesAndSeveralBodies)
+{
+  Polygons bodies = cube({}, 4.);
+  bodies.append(cube(Point<3>(1., 1., 1.), 2.));
+  bodies.append(cube(Point<3>(10., 0., 0.), 1.));
+  const TemporaryFile file(".off", bodies.off());
+  const SurfaceMesh   mesh(file.path);
+  EXPECT_NEAR(volume(mesh.triangles()), 64. - 8. + 1., 1e-12);
+  EXPECT_TRUE(mesh.contains(Point<3>(0.5, 2., 2.), 1e-9));
+  EXPECT_FALSE(mesh.contains(Point<3>(2., 2., 2.), 1e-9));
+  EXPECT_FALSE(mesh.contains(Point<3>(7., 0.5, 0.5), 1e-9));
+  EXPECT_TRUE(mesh.contains(Point<3>(10.5, 0.5, 0.5), 1e-9));
+}
+
+TEST(SurfaceMesh, OtherFormats)
+{
+  const Polygons     body = sphere(10., 1);
+  std::ostringstream obj, stl, ply;
+  ply << "ply\nformat ascii 1.0\nelement vertex " << body.points.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\n"
+      << "element face " << body.faces.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  stl << "solid body\n";
+  for (std::ostringstream *out : {&obj, &stl, &ply})
+    out->precision(17);
+  for (const Point<3> &p : body.points)
+    {
+      obj << "v " << p << '\n';
+      ply << p << '\n';
+    }
+  for (const auto &face : body.faces)
+    {
+      obj << "f";
+      stl << "facet normal 0 0 0\nouter loop\n";
+      ply << face.size();
+      for (const unsigned int i : face)
+        {
+          obj << ' ' << i + 1;
+          stl << "vertex " << body.points[i] << '\n';
+          ply << ' ' << i;
+        }
+      obj << '\n';
+      stl << "endloop\nendfacet\n";
+      ply << '\n';
+    }
+  stl << "endsolid body\n";
+
+  const TemporaryFile off_file(".off", body.off());
+  const double        expected = volume(SurfaceMesh(off_file.path).triangles());
+  EXPECT_GT(expected, 1000.);
+  const std::map<std::string, std::string> contents = {{".obj", obj.str()},
+                                                       {".stl", stl.str()},
+                                                       {".STL", stl.str()},
+                                                       {".ply", ply.str()}};
+  for (const auto &[ending, content] : contents)
+    {
+      const TemporaryFile file(ending, content);
+      EXPECT_NEAR(volume(SurfaceMesh(file.path).triangles()), expected, 1e-9)
+        << ending;
+    }
+}
+
+TEST(SurfaceMesh, RefusesWhatHasNoInside)
+{
+  EXPECT_EQ(refusal(cube({}, 2.).off()), "");
+
+  Polygons open = cube({}, 2.);
+  open.faces.pop_back();
+  EXPECT_TRUE(contains(refusal(open.off()), "open: 4 edges"));
+
+  Polygons fin = cube({}, 2.);
+  fin.points.push_back(Point<3>(3., 3., 3.));
+  fin.faces.push_back({0, 1, 8});
+  EXPECT_TRUE(contains(refusal(fin.off()), "non-manifold: 1 edges"));
+
+  Polygons wall = cube({}, 2.); // a neighbour shares a face: a wall inside
+  Polygons next = cube(Point<3>(2., 0., 0.), 2.);
+  wall.append(next);
+  EXPECT_TRUE(contains(refusal(wall.off()), "non-manifold: 4 edges"));
+
+  Polygons touching = cube({}, 2.);
+  touching.append(cube(Point<3>(2., 2., 2.), 2.));
+  EXPECT_TRUE(contains(refusal(touching.off()), "touches itself"));
+}
+
+TEST(SurfaceMesh, SaysWhereADefectIs)
+{
+  Polygons open = cube({}, 2.);
+  open.faces.erase(open.faces.begin()); // the bottom
+  EXPECT_TRUE(contains(refusal(open.off()), "from (0, 0, 0) to (2, 0, 0) um"));
+
+  Polygons crossing = cube({}, 2.);
+  crossing.append(cube(Point<3>(1., 1., 1.), 2.));
+  EXPECT_TRUE(contains(refusal(crossing.off()), "intersects"));
+  EXPECT_TRUE(contains(refusal(crossing.off()), "(1, 1, 1)"));
+
+  Polygons sliver = cube({}, 2.);
+  sliver.points.push_back(Point<3>(1., 0., 0.));
+  sliver.faces[0] = {0, 2, 3, 1, 8};
+  sliver.faces.push_back({1, 0, 8});
+  EXPECT_TRUE(contains(refusal(sliver.off()), "(1, 0, 0) um has no area"));
+
+  const Polygons far = cube({}, 2e200);
+  EXPECT_TRUE(contains(refusal(far.off()), "(2e+200, 0, 0) um"));
+}
+
+TEST(SurfaceMesh, TellsOfAnotherUnit)
+{
+  for (const double scale : {1e-3, 1e5})
+    {
+      const TemporaryFile file(".off", cube({}, 60. * scale).off());
+      TissueParameters    parameters;
+      parameters.shape        = "mesh";
+      parameters.surface_mesh = file.path;
+      try
+        {
+          seed_founders<3>(parameters, MPI_COMM_WORLD);
+          FAIL() << scale;
+        }
+      catch (const InputError &error)
+        {
+          EXPECT_TRUE(contains(error.what(), "scale it to um"));
+        }
+    }
+}
+
+TEST(SurfaceMesh, RefusesWhatIsNoMesh)
+{
+  EXPECT_TRUE(contains(refusal(""), "empty"));
+  EXPECT_TRUE(contains(refusal("no mesh at all\n"), "cannot be read"));
+  EXPECT_NE(refusal("OFF\n0 0 0\n"), "");
+  EXPECT_NE(refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "");
+  EXPECT_NE(refusal("OFF\n8 6 0\n0 0 0\n1 0"), "");
+  EXPECT_NE(refusal("solid nothing\nendsolid nothing\n", ".stl"), "");
+  EXPECT_TRUE(contains(refusal("x", ".abc"), "cannot be read"));
+  EXPECT_THROW(SurfaceMesh("no/such/file.off"), InputError);
+}
+
+TEST(MeshPatches, LargeTrianglesAreCut)
+{
+  const TemporaryFile file(".off", cube({}, 200.).off());
+  const SurfaceMesh   mesh(file.path);
+  for (const unsigned int n : {12u, 13u, 100u, 2904u, 10000u})
+    {
+      const auto patches = cut_into_patches(mesh.triangles(), n);
+      EXPECT_EQ(patches.size(), n);
+      const Sums total = sums(patches);
+      EXPECT_NEAR(total.area / 240000., 1., 1e-12);
+      EXPECT_LT(total.vector.norm() / 240000., 1e-12);
+      EXPECT_NEAR(total.volume / 8e6, 1., 1e-12);
+      if (n >= 100)
+        {
+          EXPECT_LT(total.largest, 1.2 * total.smallest);
+        }
+    }
+}
+
+TEST(MeshPatches, SmallTrianglesAreMergedButNotAcrossEdges)
+{
+  const TemporaryFile file(".off", fine_cube(200., 30).off());
+  const SurfaceMesh   mesh(file.path);
+  EXPECT_NEAR(volume(mesh.triangles()) / 8e6, 1., 1e-12);
+  for (const unsigned int n : {6u, 60u, 600u, 2904u})
+    {
+      const auto patches = cut_into_patches(mesh.triangles(), n);
+      EXPECT_EQ(patches.size(), n);
+      const Sums total = sums(patches);
+      EXPECT_NEAR(total.area / 240000., 1., 1e-12);
+      EXPECT_LT(total.vector.norm() / 240000., 1e-12);
+      EXPECT_NEAR(total.volume / 8e6, 1., 1e-12);
+      EXPECT_LT(total.largest, 4. * total.smallest);
+      for (const SurfacePatch<3> &patch : patches)
+        {
+          // on one face, off the edges
+          unsigned int n_faces = 0;
+          for (unsigned int d = 0; d < 3; ++d)
+            n_faces +=
+              std::abs(std::abs(patch.position[d] - 100.) - 100.) < 0.5;
+          EXPECT_EQ(n_faces, 1u);
+        }
+    }
+  // not fewer than faces
+  EXPECT_EQ(cut_into_patches(mesh.triangles(), 1).size(), 6u);
+}
+
+TEST(MeshPatches, SphereIsFollowed)
+{
+  const TemporaryFile file(".off", sphere(250., 5).off());
+  const SurfaceMesh   mesh(file.path);
+  const double        exact = volume(mesh.triangles());
+  double              area  = 0.;
+  for (const SurfaceTriangle &t : mesh.triangles())
+    area += area_vector(t.vertices).norm();
+
+  for (const unsigned int n : {160u, 640u, 2560u})
+    {
+      const auto patches = cut_into_patches(mesh.triangles(), n);
+      EXPECT_EQ(patches.size(), n);
+      const Sums total = sums(patches);
+      EXPECT_NEAR(total.area / area, 1., 1e-12);
+      EXPECT_LT(total.vector.norm() / area, 0.2 / n);
+      // the sagitta of a patch against the radius
+      EXPECT_NEAR(total.volume / exact, 1., numbers::PI / (2. * n));
+      for (const SurfacePatch<3> &patch : patches)
+        {
+          EXPECT_NEAR(patch.position.norm(), 250., 0.5);
+          EXPECT_GT(patch.normal * patch.position / patch.position.norm(),
+                    0.995);
+        }
+    }
+}
+
+TEST(MeshSeeding, IsTheSameForAnyNumberOfRanks)
+{
+  const TemporaryFile file(".off", cube(Point<3>(-50., -50., 7.), 100.).off());
+  TissueParameters    parameters;
+  parameters.shape           = "mesh";
+  parameters.surface_mesh    = file.path;
+  parameters.center          = {0., 0., 2.};
+  parameters.boundary_points = 600;
+  parameters.check(3);
+
+  const auto mine  = seed_founders<3>(parameters, MPI_COMM_WORLD);
+  const auto alone = seed_founders<3>(parameters, MPI_COMM_SELF);
+  // z = 7 is on a layer of the lattice, and so is z = 107
+  EXPECT_EQ(alone.n_global, 900u);
+  EXPECT_EQ(mine.n_global, 900u);
+  EXPECT_LT(alone.positions[0].distance(Point<3>(-45., -45., 17.)), 1e-12);
+  for (std::size_t i = 0; i < mine.positions.size(); ++i)
+    ASSERT_EQ(mine.positions[i], alone.positions.at(mine.first_id + i));
+
+  const auto surface       = seed_surface<3>(parameters, MPI_COMM_WORLD);
+  const auto surface_alone = seed_surface<3>(parameters, MPI_COMM_SELF);
+  EXPECT_EQ(surface.n_global, 600u);
+  EXPECT_EQ(Utilities::MPI::sum(surface.areas.size(), MPI_COMM_WORLD), 600u);
+  for (std::size_t i = 0; i < surface.areas.size(); ++i)
+    {
+      ASSERT_EQ(surface.positions[i],
+                surface_alone.positions.at(surface.first_id + i));
+      ASSERT_EQ(surface.areas[i], surface_alone.areas[surface.first_id + i]);
+    }
+
+  parameters.cell_spacing = 150.;
+  EXPECT_THROW(seed_founders<3>(parameters, MPI_COMM_WORLD), InputError);
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/time_steps.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace Morula;
+
+namespace
+{
+  TimeParameters
+  times(const double end, const double step, const double smallest = 1e-4)
+  {
+    TimeParameters parameters;
+    parameters.end_time      = end;
+    parameters.step          = step;
+    parameters.smallest_step = smallest;
+    return parameters;
+  }
+
+  /** Ends of all steps that follow, if none fails. */
+  std::vector<double>
+  all_ends(TimeSteps &steps)
+  {
+    std::vector<double> ends;
+    while (!steps.finished())
+      {
+        ends.push_back(steps.next());
+        EXPECT_GT(steps.next(), steps.time());
+        steps.accept();
+        EXPECT_EQ(steps.time(), ends.back());
+        if (ends.size() > 100000)
+          break;
+      }
+    return ends;
+  }
+
+  void
+  expect_times(const std::vector<double> &found,
+               const std::vector<double> &expected)
+  {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_NEAR(found[i], expected[i], 1e-14);
+  }
+} // namespace
+
+
+TEST(TimeSteps, AreExactMultiples)
+{
+  TimeSteps  steps(times(100., 0.1));
+  const auto ends = all_ends(steps);
+  ASSERT_EQ(ends.size(), 1000u);
+  for (unsigned int i = 0; i + 1 < ends.size(); ++i)
+    EXPECT_EQ(ends[i], (i + 1) * 0.1);
+  EXPECT_EQ(ends.back(), 100.);
+}
+
+
+TEST(TimeSteps, EndTimeCutsTheLast)
+{
+  {
+    TimeSteps steps(times(0.13, 0.05));
+    expect_times(all_ends(steps), {0.05, 0.1, 0.13});
+    EXPECT_EQ(steps.time(), 0.13);
+  }
+  {
+    // 3 * 0.1 > 0.3: no fourth step of rounding's length.
+    TimeSteps steps(times(0.3, 0.1));
+    EXPECT_EQ(all_ends(steps).size(), 3u);
+    EXPECT_EQ(steps.time(), 0.3);
+  }
+  {
+    TimeSteps steps(times(0.02, 0.05));
+    EXPECT_EQ(all_ends(steps), (std::vector<double>{0.02}));
+  }
+  {
+    TimeSteps steps(times(0., 0.05));
+    EXPECT_TRUE(steps.finished());
+  }
+}
+
+
+TEST(TimeSteps, ARejectedStepIsHalvedAndCoarsenedOneLevelAtATime)
+{
+  TimeSteps steps(times(3., 1.));
+  steps.accept();
+  EXPECT_TRUE(steps.reject()); // [1, 1.5]
+  EXPECT_EQ(steps.time(), 1.);
+  EXPECT_EQ(steps.next(), 1.5);
+  EXPECT_TRUE(steps.reject()); // [1, 1.25]
+  EXPECT_EQ(steps.next(), 1.25);
+  steps.accept();
+  EXPECT_EQ(steps.next(), 1.5); // the second quarter
+  EXPECT_TRUE(steps.reject());
+  EXPECT_EQ(steps.next(), 1.375);
+  // Eighths, then quarters: no step is more than twice as long as the last.
+  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.375, 1.5, 1.75, 2., 3.}));
+}
+
+
+TEST(TimeSteps, RejectsDownToTheSmallestStep)
+{
+  TimeSteps steps(times(1., 0.1, 0.0125));
+  for (unsigned int i = 1; i <= 3; ++i)
+    {
+      EXPECT_TRUE(steps.reject());
+      EXPECT_NEAR(steps.next(), 0.1 / (1 << i), 1e-15);
+    }
+  EXPECT_FALSE(steps.reject());
+  // It stands where it stood.
+  EXPECT_EQ(steps.time(), 0.);
+  EXPECT_NEAR(steps.next(), 0.0125, 1e-15);
+  EXPECT_FALSE(TimeSteps(times(1., 0.1, 0.06)).reject());
+}
+
+
+TEST(TimeSteps, HalvesOfTheLastStepEndAtEndTime)
+{
+  TimeSteps steps(times(0.13, 0.1));
+  steps.accept();
+  EXPECT_TRUE(steps.reject());
+  expect_times(all_ends(steps), {0.115, 0.13});
+  EXPECT_EQ(steps.time(), 0.13);
+}
+
+
+TEST(TimeSteps, ARestoredRunGoesOnTheSameWay)
+{
+  TimeSteps steps(times(2.05, 0.1));
+  for (unsigned int i = 0; i < 7; ++i)
+    steps.accept();
+  steps.reject();
+  steps.reject();
+  steps.accept();
+  TimeSteps again(times(2.05, 0.1));
+  again.restore(steps.state());
+  EXPECT_EQ(again.time(), steps.time());
+  EXPECT_EQ(all_ends(again), all_ends(steps));
+}
+
+
+TEST(TimeSteps, ALaterEndTimeContinuesTheMultiples)
+{
+  TimeSteps steps(times(0.13, 0.05));
+  all_ends(steps);
+  TimeSteps again(times(0.21, 0.05));
+  again.restore(steps.state());
+  EXPECT_FALSE(again.finished());
+  EXPECT_EQ(again.time(), 0.13);
+  expect_times(all_ends(again), {0.15, 0.2, 0.21});
+
+  // Exactly at a multiple.
+  TimeSteps whole(times(0.3, 0.1));
+  all_ends(whole);
+  TimeSteps longer(times(0.5, 0.1));
+  longer.restore(whole.state());
+  expect_times(all_ends(longer), {0.4, 0.5});
+}
+
+
+TEST(TimeSteps, AnotherStepContinuesAtItsOwnMultiples)
+{
+  TimeSteps steps(times(1., 0.1));
+  for (unsigned int i = 0; i < 3; ++i)
+    steps.accept();
+  TimeSteps finer(times(0.5, 0.04));
+  finer.restore(steps.state());
+  EXPECT_EQ(finer.time(), steps.time());
+  expect_times(all_ends(finer), {0.32, 0.36, 0.4, 0.44, 0.48, 0.5});
+
+  // From within a halved step.
+  steps.reject();
+  steps.accept();
+  TimeSteps coarser(times(1., 0.25));
+  coarser.restore(steps.state());
+  EXPECT_NEAR(coarser.time(), 0.35, 1e-15);
+  expect_times(all_ends(coarser), {0.5, 0.75, 1.});
+
+  // An End time that has been passed.
+  TimeSteps earlier(times(0.2, 0.1));
+  earlier.restore(steps.state());
+  EXPECT_TRUE(earlier.finished());
+  EXPECT_NEAR(earlier.time(), 0.35, 1e-15);
+}

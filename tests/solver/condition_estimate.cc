@@ -1,0 +1,160 @@
+// ranks: 1 2 3
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/condition_estimate.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/linear_problem.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** A chain of springs on a foundation, and with a part @p skew that has no
+   *  energy. */
+  ChainProblem
+  chain(const unsigned int                         n,
+        const std::function<double(unsigned int)> &spring,
+        const double                               foundation,
+        const double                               skew = 0.)
+  {
+    ChainProblem problem(n);
+    problem.stiffness =
+      [=](const unsigned int i, const unsigned int j, const auto &) {
+        if (i != j)
+          return -spring(std::min(i, j)) + (i < j ? skew : -skew);
+        return foundation + (i > 0 ? spring(i - 1) : 0.) +
+               (i + 1 < n ? spring(i) : 0.);
+      };
+    problem.conservative = skew == 0.;
+    return problem;
+  }
+
+  /** Between 1/100 and 100. */
+  double
+  uneven_spring(const unsigned int i)
+  {
+    return std::pow(10., 2. * std::sin(1. * i));
+  }
+
+  double
+  even_spring(const unsigned int)
+  {
+    return 1.;
+  }
+
+  /** All eigenvalues of the scaled symmetric part in ascending order, by
+   *  LAPACK. */
+  std::vector<double>
+  dense_eigenvalues(const ChainProblem &problem)
+  {
+    const unsigned int       n = problem.n;
+    LAPACKFullMatrix<double> matrix(n);
+    const auto K = [&](const unsigned int i, const unsigned int j) {
+      return problem.stiffness(i, j, {});
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(i + 2, n); ++j)
+        matrix(i, j) =
+          0.5 * (K(i, j) + K(j, i)) / std::sqrt(std::abs(K(i, i) * K(j, j)));
+    matrix.set_property(LAPACKSupport::symmetric);
+    FullMatrix<double>     vectors;
+    dealii::Vector<double> values;
+    matrix.compute_eigenvalues_symmetric(-1e3, 1e3, 1e-14, values, vectors);
+    return {values.begin(), values.end()};
+  }
+
+  void
+  check(ChainProblem &problem, const double smallest, const double largest)
+  {
+    const ConditionEstimate estimate = estimate_condition(problem);
+    EXPECT_EQ(estimate.unknowns, problem.n);
+    EXPECT_NEAR(estimate.smallest / smallest, 1., 1e-6);
+    EXPECT_NEAR(estimate.largest / largest, 1., 1e-6);
+    EXPECT_NEAR(estimate.condition() / (largest / smallest), 1., 2e-6);
+    EXPECT_EQ(problem.tangents.back(), GrowthAt::previous);
+  }
+} // namespace
+
+/** Condition numbers from 3 to 10^8. */
+TEST(ConditionEstimate, AgreesWithADenseComputation)
+{
+  for (const double foundation : {10., 1e-1, 1e-4, 1e-7})
+    {
+      SCOPED_TRACE(foundation);
+      ChainProblem problem = chain(60, uneven_spring, foundation);
+      const auto   values  = dense_eigenvalues(problem);
+      check(problem, values.front(), values.back());
+    }
+}
+
+/** A chain fixed at both ends: 1 -+ cos(pi/(n+1)). */
+TEST(ConditionEstimate, AgreesWithAClosedForm)
+{
+  for (const unsigned int n : {10u, 100u, 1000u})
+    {
+      ChainProblem problem(n);
+      problem.stiffness = [](const unsigned int i,
+                             const unsigned int j,
+                             const auto &) { return i == j ? 7. : -3.5; };
+      const double c    = std::cos(numbers::PI / (n + 1));
+      check(problem, 1. - c, 1. + c);
+    }
+}
+
+/** Without foundation the chain as a whole is free to move. */
+TEST(ConditionEstimate, LeavesOutWhatIsFree)
+{
+  for (const auto &spring : {even_spring, uneven_spring})
+    {
+      ChainProblem problem = chain(40, spring, 0.);
+      const auto   values  = dense_eigenvalues(problem);
+      ASSERT_NEAR(values.front(), 0., 1e-14);
+
+      const ConditionEstimate with = estimate_condition(problem);
+      EXPECT_GE(with.condition(), 1e12);
+
+      problem.nulls.push_back(
+        problem.vector_of(std::vector<double>(40, 1. / std::sqrt(40.))));
+      check(problem, values[1], values.back());
+    }
+}
+
+TEST(ConditionEstimate, TakesTheSymmetricPart)
+{
+  ChainProblem problem = chain(50, uneven_spring, 0.01, 0.3);
+  const auto   values  = dense_eigenvalues(problem);
+  check(problem, values.front(), values.back());
+}
+
+TEST(ConditionEstimate, ShowsIndefiniteTangents)
+{
+  ChainProblem problem = chain(50, even_spring, -0.3);
+  const auto   values  = dense_eigenvalues(problem);
+  ASSERT_LT(values.front(), 0.);
+  const ConditionEstimate estimate = estimate_condition(problem);
+  EXPECT_NEAR(estimate.smallest / values.front(), 1., 1e-6);
+  EXPECT_NEAR(estimate.condition(),
+              1. / std::numeric_limits<double>::epsilon(),
+              1e-3 / std::numeric_limits<double>::epsilon());
+}
+
+/** An unknown without any stiffness, such as a spline that touches none of the
+ *  body. */
+TEST(ConditionEstimate, ShowsSingularTangents)
+{
+  ChainProblem problem(30);
+  problem.stiffness =
+    [](const unsigned int i, const unsigned int j, const auto &) {
+      return i == j && i != 11 ? 1. + i : 0.;
+    };
+  const ConditionEstimate estimate = estimate_condition(problem);
+  EXPECT_NEAR(estimate.smallest, 0., 1e-14);
+  EXPECT_GE(estimate.condition(), 1e14);
+}

@@ -1,0 +1,405 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/newton.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "common/linear_problem.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr unsigned int n = 12;
+
+  double
+  solution(const unsigned int i)
+  {
+    return 1.5 * std::sin(1. + i);
+  }
+
+  /** Springs with stiffening ends, whose loads have the equilibrium u_i =
+   *  solution(i); and a part @p skew that has no energy. */
+  ChainProblem
+  hardening(const double skew)
+  {
+    ChainProblem problem(n);
+    const auto   inner = [skew](const unsigned int         i,
+                              const std::vector<double> &u) {
+      double f = u[i] + u[i] * u[i] * u[i];
+      if (i > 0)
+        f += u[i] - u[i - 1] - skew * u[i - 1];
+      if (i + 1 < n)
+        f += u[i] - u[i + 1] + skew * u[i + 1];
+      return f;
+    };
+    std::vector<double> loads, goal;
+    for (unsigned int i = 0; i < n; ++i)
+      goal.push_back(solution(i));
+    for (unsigned int i = 0; i < n; ++i)
+      loads.push_back(inner(i, goal));
+
+    problem.force = [=](const unsigned int i, const std::vector<double> &u) {
+      return inner(i, u) - loads[i];
+    };
+    problem.stiffness = [=](const unsigned int         i,
+                            const unsigned int         j,
+                            const std::vector<double> &u) {
+      if (i != j)
+        return -1. + (i < j ? skew : -skew);
+      return 1. + 3. * u[i] * u[i] + (i > 0 ? 1. : 0.) + (i + 1 < n ? 1. : 0.);
+    };
+    if (skew == 0.)
+      problem.energy = [=](const std::vector<double> &u) {
+        double sum = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            sum +=
+              0.5 * u[i] * u[i] + 0.25 * std::pow(u[i], 4) - loads[i] * u[i];
+            if (i + 1 < n)
+              sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
+          }
+        return sum;
+      };
+    problem.conservative = skew == 0.;
+    return problem;
+  }
+
+  struct Result
+  {
+    std::vector<double> u;
+    NewtonReport        report;
+  };
+
+  Result
+  solved(ChainProblem      &problem,
+         const double       tolerance,
+         const std::string &linear_solver = "automatic")
+  {
+    QuietTimer       timer;
+    SolverParameters parameters;
+    parameters.newton_tolerance = tolerance;
+    parameters.linear_solver    = linear_solver;
+    Equilibrium::Vector u;
+    Result              result;
+    solve(problem, parameters, timer, u, result.report);
+    result.u = problem.gathered(u);
+    return result;
+  }
+
+  /** All unknowns alike and uncoupled. */
+  ChainProblem
+  alike(const std::function<double(double)> &energy,
+        const std::function<double(double)> &force,
+        const std::function<double(double)> &stiffness)
+  {
+    ChainProblem problem(n);
+    problem.energy = [=](const std::vector<double> &u) {
+      double sum = 0.;
+      for (const double x : u)
+        sum += energy(x);
+      return sum;
+    };
+    problem.force = [=](const unsigned int i, const std::vector<double> &u) {
+      return force(u[i]);
+    };
+    problem.stiffness = [=](const unsigned int         i,
+                            const unsigned int         j,
+                            const std::vector<double> &u) {
+      return i == j ? stiffness(u[i]) : 0.;
+    };
+    return problem;
+  }
+} // namespace
+
+
+TEST(Newton, FindsTheEquilibrium)
+{
+  for (const std::string linear_solver : {"automatic", "direct"})
+    for (const double skew : {0., 0.4})
+      {
+        SCOPED_TRACE(linear_solver + (skew == 0. ? "" : ", without energy"));
+        ChainProblem problem = hardening(skew);
+        const Result result  = solved(problem, 1e-11, linear_solver);
+        for (unsigned int i = 0; i < n; ++i)
+          EXPECT_NEAR(result.u[i], solution(i), 1e-9);
+        EXPECT_LE(result.report.residual, 1e-11);
+        EXPECT_GE(result.report.linear_iterations,
+                  result.report.newton_iterations);
+        EXPECT_LE(result.report.newton_iterations, 12u);
+      }
+}
+
+
+// Near the solution each residual is of the order of the last one's square.
+TEST(Newton, ConvergesQuadratically)
+{
+  ChainProblem problem = hardening(0.);
+  solved(problem, 1e-12, "direct");
+  const auto &norms = problem.residual_norms;
+  ASSERT_GE(norms.size(), 5u);
+  unsigned int n_quadratic = 0;
+  for (std::size_t k = 0; k + 1 < norms.size(); ++k)
+    if (norms[k] < 1. && norms[k] > 1e-7)
+      {
+        EXPECT_LE(norms[k + 1], 2. * norms[k] * norms[k] + 1e-12);
+        ++n_quadratic;
+      }
+  EXPECT_GE(n_quadratic, 2u);
+}
+
+
+TEST(Newton, TakesOnlyTheFirstTangentAtTheOldGrowth)
+{
+  ChainProblem problem = hardening(0.);
+  solved(problem, 1e-8);
+  ASSERT_GE(problem.tangents.size(), 3u);
+  EXPECT_EQ(problem.tangents[0], GrowthAt::previous);
+  for (std::size_t k = 1; k < problem.tangents.size(); ++k)
+    EXPECT_EQ(problem.tangents[k], GrowthAt::current);
+}
+
+
+TEST(Newton, DoesNothingAtEquilibrium)
+{
+  {
+    ChainProblem problem = alike([](double u) { return 0.5 * u * u; },
+                                 [](double u) { return u; },
+                                 [](double) { return 1.; });
+    const Result result  = solved(problem, 1e-6);
+    EXPECT_EQ(result.report.newton_iterations, 0u);
+    EXPECT_EQ(result.report.residual, 0.);
+  }
+  {
+    // Forces far below those that count in the scene.
+    ChainProblem problem =
+      alike([](double u) { return 0.5 * u * u - 1e-9 * u; },
+            [](double u) { return u - 1e-9; },
+            [](double) { return 1.; });
+    problem.small = 1.;
+    EXPECT_EQ(solved(problem, 1e-6).report.newton_iterations, 0u);
+    problem.small = 1e-9;
+    EXPECT_GT(solved(problem, 1e-6).report.newton_iterations, 0u);
+  }
+}
+
+
+// A residual that counts as small leaves an error behind: Newton's method goes
+// on until that is small as well, or the residual is nothing but rounding.
+TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
+{
+  const auto error = [](const double length, unsigned int &iterations) {
+    ChainProblem problem = hardening(0.);
+    problem.length       = length;
+    const Result result  = solved(problem, 1e-2, "direct");
+    iterations           = result.report.newton_iterations;
+    double largest       = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      largest = std::max(largest, std::abs(result.u[i] - solution(i)));
+    return largest;
+  };
+  unsigned int at_once, later, latest;
+  EXPECT_GT(error(1e3, at_once), 1e-4);
+  EXPECT_LE(error(1e-2, later), 1e-4);
+  EXPECT_LE(error(1e-30, latest), 1e-12);
+  EXPECT_LT(at_once, later);
+  EXPECT_LT(later, latest);
+  EXPECT_LE(latest, at_once + 5u);
+}
+
+
+// The first full step would go far beyond the barrier at u = 1.
+TEST(Newton, StepsBackFromInversion)
+{
+  ChainProblem problem = alike(
+    [](double u) {
+      return u < 1. ? -std::log(1. - u) - 20. * u :
+                      std::numeric_limits<double>::infinity();
+    },
+    [](double u) { return 1. / (1. - u) - 20.; },
+    [](double u) { return 1. / ((1. - u) * (1. - u)); });
+  const Result result = solved(problem, 1e-8);
+  for (const double u : result.u)
+    EXPECT_NEAR(u, 0.95, 1e-8);
+}
+
+
+// A double well, started on the hill between: the tangent is negative.
+TEST(Newton, GoesDownFromAHill)
+{
+  ChainProblem problem =
+    alike([](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
+          [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
+          [](double u) { return 12. * u * u - 4.; });
+  const Result result = solved(problem, 1e-10);
+  for (const double u : result.u)
+    {
+      EXPECT_NEAR(4. * u * (u * u - 1.), 0.1, 1e-8);
+      EXPECT_GT(u, 0.9);
+    }
+}
+
+
+TEST(Newton, FailsWithoutASolution)
+{
+  // The energy has no minimum.
+  ChainProblem endless = alike([](double u) { return -0.5 * u * u - u; },
+                               [](double u) { return -u - 1.; },
+                               [](double) { return -1.; });
+  EXPECT_THROW(solved(endless, 1e-6), StepFailed);
+
+  ChainProblem inverted =
+    alike([](double) { return std::numeric_limits<double>::infinity(); },
+          [](double) { return 1.; },
+          [](double) { return 1.; });
+  EXPECT_THROW(solved(inverted, 1e-6), StepFailed);
+
+  // Without energy: |R| has a minimum where R is not zero.
+  ChainProblem stuck = alike([](double) { return 0.; },
+                             [](double u) { return u * u - u + 1.; },
+                             [](double u) { return 2. * u - 1.; });
+  stuck.conservative = false;
+  EXPECT_THROW(solved(stuck, 1e-6), StepFailed);
+}
+
+
+// Wherever the search looks, the body is inverted: it does not go on from one
+// of these places.
+TEST(Newton, EndsWithASearchThatFindsNothing)
+{
+  ChainProblem problem = alike(
+    [](double u) {
+      return u == 0. ? 0. : std::numeric_limits<double>::infinity();
+    },
+    [](double) { return -1.; },
+    [](double) { return 1.; });
+  QuietTimer          timer;
+  NewtonReport        report;
+  Equilibrium::Vector u;
+  EXPECT_THROW(solve(problem, SolverParameters(), timer, u, report),
+               StepFailed);
+  EXPECT_EQ(report.newton_iterations, 1u);
+}
+
+
+// NOX threw strings before Trilinos 14.2, and throws runtime errors since: the
+// step has failed. Whatever else is thrown is none of Newton's business.
+TEST(Newton, FailsWhereNoxGivesUp)
+{
+  const auto throws = [](const auto &what) {
+    ChainProblem problem = hardening(0.);
+    problem.stiffness    = [&what](const unsigned int,
+                                const unsigned int,
+                                const std::vector<double> &) -> double {
+      throw what;
+    };
+    return problem;
+  };
+  const char *const        message = "NOX Error";
+  const std::runtime_error error("NOX Error"), other("the disk is full");
+  ChainProblem             before_14_2 = throws(message);
+  EXPECT_THROW(solved(before_14_2, 1e-6), StepFailed);
+  ChainProblem since = throws(error);
+  EXPECT_THROW(solved(since, 1e-6), StepFailed);
+  ChainProblem elsewhere = throws(other);
+  try
+    {
+      solved(elsewhere, 1e-6);
+      FAIL() << "it must fail";
+    }
+  catch (const StepFailed &failure)
+    {
+      FAIL() << failure.what();
+    }
+  catch (const std::runtime_error &failure)
+    {
+      EXPECT_STREQ(failure.what(), other.what());
+    }
+}
+
+
+// Downhill without end.
+TEST(Newton, SaysThatTheTangentIsIndefinite)
+{
+  ChainProblem        problem = alike([](double u) { return -std::exp(u); },
+                               [](double u) { return -std::exp(u); },
+                               [](double u) { return -std::exp(u); });
+  QuietTimer          timer;
+  NewtonReport        report;
+  Equilibrium::Vector u;
+  try
+    {
+      solve(problem, SolverParameters(), timer, u, report);
+      FAIL() << "it must fail";
+    }
+  catch (const StepFailed &failure)
+    {
+      const std::string message = failure.what();
+      EXPECT_NE(message.find("indefinite"), std::string::npos) << message;
+    }
+}
+
+
+TEST(Newton, ReportsAddUp)
+{
+  QuietTimer          timer;
+  SolverParameters    parameters;
+  NewtonReport        report;
+  Equilibrium::Vector u;
+  ChainProblem        problem = hardening(0.);
+  solve(problem, parameters, timer, u, report);
+  const unsigned int once = report.newton_iterations;
+  solve(problem, parameters, timer, u, report);
+  EXPECT_EQ(report.newton_iterations, 2 * once);
+  EXPECT_LE(report.residual, parameters.newton_tolerance);
+}
+
+
+// A chain that may move as a whole, under loads that do not balance.
+TEST(Newton, LeavesAnUnbalancedLoadOut)
+{
+  for (const std::string linear_solver : {"automatic", "direct"})
+    {
+      SCOPED_TRACE(linear_solver);
+      ChainProblem problem(n);
+      const auto   load = [](const unsigned int i) {
+        return 1. + std::sin(2. * i);
+      };
+      problem.force = [&](const unsigned int i, const std::vector<double> &u) {
+        return (i > 0 ? u[i] - u[i - 1] : 0.) +
+               (i + 1 < n ? u[i] - u[i + 1] : 0.) - load(i);
+      };
+      problem.stiffness =
+        [](const unsigned int i, const unsigned int j, auto &) {
+          return i != j ? -1. : (i > 0) + (i + 1 < n);
+        };
+      problem.energy = [&](const std::vector<double> &u) {
+        double sum = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          sum +=
+            (i > 0 ? 0.5 * std::pow(u[i] - u[i - 1], 2) : 0.) - load(i) * u[i];
+        return sum;
+      };
+      problem.nulls.push_back(
+        problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n))));
+      const Result result = solved(problem, 1e-9, linear_solver);
+
+      double mean = 0., sum = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          mean += load(i) / n;
+          sum += result.u[i];
+        }
+      EXPECT_NEAR(sum, 0., 1e-9);
+      // The load less its mean is in equilibrium.
+      for (unsigned int i = 0; i < n; ++i)
+        EXPECT_NEAR(problem.force(i, result.u), -mean, 1e-7);
+    }
+}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
 
 #include <deal.II/base/mpi.h>
 

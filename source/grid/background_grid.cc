@@ -67,15 +67,15 @@ namespace Morula
     /** Whether a cell of any level holds grid cells of the box. */
     template <int dim>
     bool
-    overlaps(const typename Triangulation<dim>::cell_iterator &cell,
+    overlaps(const typename Triangulation<dim>::cell_iterator &grid_cell,
              const GridBox<dim>                               &box)
     {
       Tensor<1, dim> half;
       for (unsigned int d = 0; d < dim; ++d)
         half[d] = box.spacing() / 2;
-      const GridIndex<dim> first = box.locate(cell->vertex(0) + half);
+      const GridIndex<dim> first = box.locate(grid_cell->vertex(0) + half);
       const GridIndex<dim> last =
-        box.locate(cell->vertex(cell->n_vertices() - 1) - half);
+        box.locate(grid_cell->vertex(grid_cell->n_vertices() - 1) - half);
       for (unsigned int d = 0; d < dim; ++d)
         if (last[d] < box.first()[d] || first[d] >= box.first()[d] + box.n()[d])
           return false;
@@ -129,7 +129,7 @@ namespace Morula
   {
     box_ = GridBox<dim>(first, n, h, offset);
     const CoarseCells<dim> coarse(box_);
-    cells.clear();
+    grid_cells.clear();
     tria.clear();
     GridGenerator::subdivided_hyper_rectangle(tria,
                                               coarse.repetitions,
@@ -137,9 +137,9 @@ namespace Morula
                                               box_.corner(coarse.end));
     for (int i = 0; i < coarse.n_refinements; ++i)
       {
-        for (const auto &cell : tria.active_cell_iterators())
-          if (cell->is_locally_owned() && overlaps<dim>(cell, box_))
-            cell->set_refine_flag();
+        for (const auto &grid_cell : tria.active_cell_iterators())
+          if (grid_cell->is_locally_owned() && overlaps<dim>(grid_cell, box_))
+            grid_cell->set_refine_flag();
         tria.execute_coarsening_and_refinement();
       }
     weights_.assign(box_.size(), 1);
@@ -155,9 +155,9 @@ namespace Morula
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return;
     const auto connection = tria.signals.weight.connect(
-      [&](const typename Triangulation<dim>::cell_iterator &cell,
+      [&](const typename Triangulation<dim>::cell_iterator &grid_cell,
           const typename Triangulation<dim>::CellStatus) -> unsigned int {
-        const GridIndex<dim> index = box_.locate(cell->center());
+        const GridIndex<dim> index = box_.locate(grid_cell->center());
         return 1 + (box_.contains(index) ? weights_[box_.number(index)] : 0);
       });
     tria.repartition();
@@ -169,15 +169,15 @@ namespace Morula
   void
   BackgroundGrid<dim>::tabulate()
   {
-    cells.assign(box_.size(), tria.end());
+    grid_cells.assign(box_.size(), tria.end());
     owners.assign(box_.size(), 0);
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    for (const auto &cell : tria.active_cell_iterators())
-      if (const GridIndex<dim> index = box_.locate(cell->center());
-          cell->is_locally_owned() && box_.contains(index))
+    for (const auto &grid_cell : tria.active_cell_iterators())
+      if (const GridIndex<dim> index = box_.locate(grid_cell->center());
+          grid_cell->is_locally_owned() && box_.contains(index))
         {
           const unsigned int number = box_.number(index);
-          cells[number]             = cell;
+          grid_cells[number]        = grid_cell;
           owners[number]            = rank;
         }
     Utilities::MPI::sum(owners, comm, owners);
@@ -206,9 +206,9 @@ namespace Morula
 
   template <int dim>
   typename BackgroundGrid<dim>::CellIterator
-  BackgroundGrid<dim>::cell(const unsigned int number) const
+  BackgroundGrid<dim>::grid_cell(const unsigned int number) const
   {
-    return cells[number];
+    return grid_cells[number];
   }
 
   template <int dim>

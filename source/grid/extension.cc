@@ -79,10 +79,10 @@ namespace Morula
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       if (copy.support & (1u << a))
         {
-          GridIndex<dim> cell = center;
+          GridIndex<dim> grid_cell = center;
           for (unsigned int d = 0; d < dim; ++d)
-            cell[d] += BSpline<dim>::offset(a, d);
-          reach(box.number(cell), cell);
+            grid_cell[d] += BSpline<dim>::offset(a, d);
+          reach(box.number(grid_cell), grid_cell);
         }
     for (std::size_t i = 0; i < list.size(); ++i)
       box.for_neighbors(box.index(list[i]), 1, reach);

@@ -40,16 +40,16 @@ namespace Morula
     /** The part of @p cells that is connected to its lowest. */
     template <int dim>
     std::uint32_t
-    first_part(const std::uint32_t cells)
+    first_part(const std::uint32_t grid_cells)
     {
       static const auto touching = make_touching<dim>();
-      std::uint32_t     part = cells & ~(cells - 1), before = 0;
+      std::uint32_t     part = grid_cells & ~(grid_cells - 1), before = 0;
       while (part != before)
         {
           before = part;
           for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
             if (before & (1u << a))
-              part |= touching[a] & cells;
+              part |= touching[a] & grid_cells;
         }
       return part;
     }
@@ -65,11 +65,11 @@ namespace Morula
       const GridIndex<dim> center = box.index(spline);
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          GridIndex<dim> cell = center;
+          GridIndex<dim> grid_cell = center;
           for (unsigned int d = 0; d < dim; ++d)
-            cell[d] += BSpline<dim>::offset(a, d);
-          if (box.contains(cell))
-            visit(a, box.number(cell));
+            grid_cell[d] += BSpline<dim>::offset(a, d);
+          if (box.contains(grid_cell))
+            visit(a, box.number(grid_cell));
         }
     }
   } // namespace
@@ -166,7 +166,7 @@ namespace Morula
   template <int dim>
   unsigned int
   SplineCopies<dim>::at(const GridIndex<dim> &spline,
-                        const GridIndex<dim> &cell) const
+                        const GridIndex<dim> &grid_cell) const
   {
     const unsigned int number = box.number(spline);
     unsigned int       copy   = first[number];
@@ -174,7 +174,7 @@ namespace Morula
       return copy;
     unsigned int a = 0;
     for (int d = dim - 1; d >= 0; --d)
-      a = 3 * a + (cell[d] - spline[d] + 1);
+      a = 3 * a + (grid_cell[d] - spline[d] + 1);
     while (copy < first[number + 1] && !(copies[copy].support & (1u << a)))
       ++copy;
     Assert(copy < first[number + 1], ExcInternalError());
@@ -197,7 +197,7 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineCopies<dim>::lowest_cell(const unsigned int piece) const
+  SplineCopies<dim>::lowest_grid_cell(const unsigned int piece) const
   {
     return lowest[piece];
   }

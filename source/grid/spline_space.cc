@@ -60,7 +60,7 @@ namespace Morula
                     });
     n_outer = copies.list().size() - n_inner;
     number_unknowns(grid);
-    express_cells(grid);
+    express_grid_cells(grid);
     find_relevant();
   }
 
@@ -77,17 +77,17 @@ namespace Morula
           const auto [lower, upper]   = occupancy_.bounds(number);
           for (unsigned int d = 0; d < dim; ++d)
             {
-              extent.lower[d] = extent.n_cells == 0 ?
+              extent.lower[d] = extent.n_grid_cells == 0 ?
                                   lower[d] :
                                   std::min(extent.lower[d], lower[d]);
-              extent.upper[d] = extent.n_cells == 0 ?
+              extent.upper[d] = extent.n_grid_cells == 0 ?
                                   upper[d] :
                                   std::max(extent.upper[d], upper[d]);
             }
           extent.inner |= classes[number] == GridCellClass::inner;
           extent.n_particles += occupancy_.n_particles(number);
           extent.sum_of_centers += box_.center(index) - Point<dim>();
-          ++extent.n_cells;
+          ++extent.n_grid_cells;
         }
     return list;
   }
@@ -106,7 +106,7 @@ namespace Morula
         const bool few = extent.n_particles < BSpline<dim>::n;
         if (!extent.inner || largest < (few ? 2. : 1.) * box_.spacing())
           small_pieces[piece] = {Point<dim>(extent.sum_of_centers /
-                                            extent.n_cells),
+                                            extent.n_grid_cells),
                                  !few && largest < box_.spacing(),
                                  none};
       }
@@ -134,7 +134,8 @@ namespace Morula
       if (is_unknown(copy))
         ++next[grid.owner(copy.spline) + 1];
     for (const auto &[piece, field] : small_pieces)
-      next[grid.owner(copies.lowest_cell(piece)) + 1] += field.n_unknowns();
+      next[grid.owner(copies.lowest_grid_cell(piece)) + 1] +=
+        field.n_unknowns();
     std::partial_sum(next.begin(), next.end(), next.begin());
 
     n_splines = next[n_ranks];
@@ -157,7 +158,7 @@ namespace Morula
         }
     for (auto &[piece, field] : small_pieces)
       {
-        unsigned int &first = next[grid.owner(copies.lowest_cell(piece))];
+        unsigned int &first = next[grid.owner(copies.lowest_grid_cell(piece))];
         field.first_unknown = first;
         for (unsigned int k = 0; k < field.n_unknowns(); ++k)
           set_piece(first++, piece);
@@ -213,7 +214,7 @@ namespace Morula
 
   template <int dim>
   void
-  SplineSpace<dim>::express_cells(const BackgroundGrid<dim> &grid)
+  SplineSpace<dim>::express_grid_cells(const BackgroundGrid<dim> &grid)
   {
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
@@ -234,14 +235,14 @@ namespace Morula
           std::vector<Terms>   rows;
           for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
             rows.push_back(terms_of(copies.at(neighbor(index, a), index)));
-          add_cell(number, rows);
+          add_grid_cell(number, rows);
         }
   }
 
   template <int dim>
   void
-  SplineSpace<dim>::add_cell(const unsigned int        number,
-                             const std::vector<Terms> &rows)
+  SplineSpace<dim>::add_grid_cell(const unsigned int        number,
+                                  const std::vector<Terms> &rows)
   {
     constexpr unsigned int    n = BSpline<dim>::n;
     std::vector<unsigned int> columns;
@@ -256,20 +257,20 @@ namespace Morula
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 
-    Cell cell;
-    cell.number = number;
+    GridCell grid_cell;
+    grid_cell.number = number;
     if (!plain)
       {
-        cell.weights.assign(n * columns.size(), 0.);
+        grid_cell.weights.assign(n * columns.size(), 0.);
         for (unsigned int a = 0; a < n; ++a)
           for (const auto &[unknown, weight] : rows[a])
-            cell.weights[a * columns.size() + (std::lower_bound(columns.begin(),
-                                                                columns.end(),
-                                                                unknown) -
-                                               columns.begin())] += weight;
+            grid_cell.weights[a * columns.size() +
+                              (std::lower_bound(
+                                 columns.begin(), columns.end(), unknown) -
+                               columns.begin())] += weight;
       }
-    cell.unknowns = std::move(columns);
-    cells_.push_back(std::move(cell));
+    grid_cell.unknowns = std::move(columns);
+    grid_cells_.push_back(std::move(grid_cell));
   }
 
   /** Makes positions in relevant() of the cells' global unknowns. */
@@ -278,8 +279,10 @@ namespace Morula
   SplineSpace<dim>::find_relevant()
   {
     std::vector<types::global_dof_index> used;
-    for (const Cell &cell : cells_)
-      used.insert(used.end(), cell.unknowns.begin(), cell.unknowns.end());
+    for (const GridCell &grid_cell : grid_cells_)
+      used.insert(used.end(),
+                  grid_cell.unknowns.begin(),
+                  grid_cell.unknowns.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     relevant_ = IndexSet(n_splines);
@@ -287,8 +290,8 @@ namespace Morula
     relevant_.add_indices(owned_);
     relevant_.compress();
     relevant_dofs_ = times_dim(relevant_, dim);
-    for (Cell &cell : cells_)
-      for (unsigned int &unknown : cell.unknowns)
+    for (GridCell &grid_cell : grid_cells_)
+      for (unsigned int &unknown : grid_cell.unknowns)
         unknown = relevant_.index_within_set(unknown);
   }
 
@@ -336,10 +339,10 @@ namespace Morula
   }
 
   template <int dim>
-  const std::vector<typename SplineSpace<dim>::Cell> &
-  SplineSpace<dim>::cells() const
+  const std::vector<typename SplineSpace<dim>::GridCell> &
+  SplineSpace<dim>::grid_cells() const
   {
-    return cells_;
+    return grid_cells_;
   }
 
   template <int dim>
@@ -379,7 +382,7 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineSpace<dim>::n_active_cells() const
+  SplineSpace<dim>::n_active_grid_cells() const
   {
     return n_active;
   }

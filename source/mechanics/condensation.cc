@@ -21,15 +21,16 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  Condensation<dim>::Condensation(const typename SplineSpace<dim>::Cell &cell)
-    : cell(cell)
+  Condensation<dim>::Condensation(
+    const typename SplineSpace<dim>::GridCell &grid_cell)
+    : grid_cell(grid_cell)
   {}
 
   template <int dim>
   unsigned int
   Condensation<dim>::m() const
   {
-    return cell.unknowns.size();
+    return grid_cell.unknowns.size();
   }
 
   template <int dim>
@@ -38,12 +39,12 @@ namespace Morula
   Condensation<dim>::for_each_weight(const unsigned int a,
                                      const Visit       &visit) const
   {
-    if (cell.weights.empty())
+    if (grid_cell.weights.empty())
       visit(a, 1.);
     else
       for (unsigned int s = 0; s < m(); ++s)
-        if (cell.weights[a * m() + s] != 0.)
-          visit(s, cell.weights[a * m() + s]);
+        if (grid_cell.weights[a * m() + s] != 0.)
+          visit(s, grid_cell.weights[a * m() + s]);
   }
 
   template <int dim>
@@ -100,7 +101,7 @@ namespace Morula
   Condensation<dim>::condense(const std::vector<double> &matrix,
                               Work                      &work) const
   {
-    if (cell.weights.empty())
+    if (grid_cell.weights.empty())
       return matrix;
     constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
     // (Cᵀ (Cᵀ K)ᵀ)ᵀ: both products run over contiguous rows.

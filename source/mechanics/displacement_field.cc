@@ -21,17 +21,18 @@ namespace Morula
 
   template <int dim>
   LocalField<dim>
-  DisplacementField<dim>::on_cell(const unsigned int cell) const
+  DisplacementField<dim>::on_grid_cell(const unsigned int grid_cell) const
   {
     // A ghosted Trilinos vector stores its entries in the order of the set of
     // relevant degrees of freedom.
     const double *const values   = relevant.trilinos_vector()[0];
-    const auto         &unknowns = space.cells()[cell].unknowns;
+    const auto         &unknowns = space.grid_cells()[grid_cell].unknowns;
     std::vector<double> coefficients(dim * unknowns.size());
     for (unsigned int s = 0; s < unknowns.size(); ++s)
       for (unsigned int i = 0; i < dim; ++i)
         coefficients[i * unknowns.size() + s] = values[unknowns[s] * dim + i];
-    return Condensation<dim>(space.cells()[cell]).expand(coefficients);
+    return Condensation<dim>(space.grid_cells()[grid_cell])
+      .expand(coefficients);
   }
 
   template class DisplacementField<2>;

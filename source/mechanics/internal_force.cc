@@ -128,14 +128,15 @@ namespace Morula
   template <int dim>
   template <typename Visit>
   bool
-  InternalForce<dim>::for_each_point(const unsigned int     cell,
+  InternalForce<dim>::for_each_point(const unsigned int     grid_cell,
                                      const LocalField<dim> &field,
                                      const GrowthAt         growth,
                                      LocalSystem<dim>      &system,
                                      const Visit           &visit) const
   {
     const auto &states = points.states(growth);
-    for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
+    for (unsigned int p = points.offsets[grid_cell];
+         p < points.offsets[grid_cell + 1];
          ++p)
       {
         const SplineValues<dim> splines(points.xi[p], points.h);
@@ -152,14 +153,14 @@ namespace Morula
 
   template <int dim>
   bool
-  InternalForce<dim>::add_pointwise(const unsigned int     cell,
+  InternalForce<dim>::add_pointwise(const unsigned int     grid_cell,
                                     const LocalField<dim> &field,
                                     const GrowthAt         growth,
                                     double                *tangent,
                                     LocalSystem<dim>      &system) const
   {
     return for_each_point(
-      cell,
+      grid_cell,
       field,
       growth,
       system,
@@ -184,14 +185,14 @@ namespace Morula
 
   template <int dim>
   bool
-  InternalForce<dim>::project(const unsigned int     cell,
+  InternalForce<dim>::project(const unsigned int     grid_cell,
                               const LocalField<dim> &field,
                               const GrowthAt         growth,
                               LocalSystem<dim>      &system,
                               ProjectedPoints<dim>  &projected) const
   {
     const bool valid =
-      for_each_point(cell,
+      for_each_point(grid_cell,
                      field,
                      growth,
                      system,
@@ -206,7 +207,7 @@ namespace Morula
 
   template <int dim>
   double
-  InternalForce<dim>::foreseen(const unsigned int          cell,
+  InternalForce<dim>::foreseen(const unsigned int          grid_cell,
                                const LocalField<dim>      &field,
                                const GrowthAt              growth,
                                const ProjectedPoints<dim> &projected) const
@@ -218,16 +219,16 @@ namespace Morula
         linearised.resize(points.offsets.size() - 1, false);
         linearisations.resize(points.offsets.size() - 1);
       }
-    Linearisation &last = linearisations[cell];
+    Linearisation &last = linearisations[grid_cell];
     const double   theta =
-      linearised[cell] ? last.at(field) : projected.mean_log_J;
+      linearised[grid_cell] ? last.at(field) : projected.mean_log_J;
 
     // What the next residual is of: the growth at t + dt.
-    last.field       = field;
-    last.value       = growth == GrowthAt::current ?
-                         projected.mean_log_J :
-                         mean_log_volume_ratio(cell, field);
-    linearised[cell] = true;
+    last.field            = field;
+    last.value            = growth == GrowthAt::current ?
+                              projected.mean_log_J :
+                              mean_log_volume_ratio(grid_cell, field);
+    linearised[grid_cell] = true;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         last.derivative.coefficient[i][a] =
@@ -238,17 +239,17 @@ namespace Morula
 
   template <int dim>
   bool
-  InternalForce<dim>::add_projected(const unsigned int     cell,
+  InternalForce<dim>::add_projected(const unsigned int     grid_cell,
                                     const LocalField<dim> &field,
                                     const GrowthAt         growth,
                                     double                *tangent,
                                     LocalSystem<dim>      &system) const
   {
     ProjectedPoints<dim> projected;
-    if (!project(cell, field, growth, system, projected))
+    if (!project(grid_cell, field, growth, system, projected))
       return false;
     const double theta =
-      tangent == nullptr ? 0. : foreseen(cell, field, growth, projected);
+      tangent == nullptr ? 0. : foreseen(grid_cell, field, growth, projected);
     for (unsigned int k = 0; k < projected.materials.size(); ++k)
       {
         const SpatialGradients<dim> &gradients = projected.gradients[k];
@@ -277,7 +278,7 @@ namespace Morula
 
   template <int dim>
   void
-  InternalForce<dim>::add(const unsigned int     cell,
+  InternalForce<dim>::add(const unsigned int     grid_cell,
                           const LocalField<dim> &field,
                           const GrowthAt         growth,
                           LocalSystem<dim>      &system) const
@@ -285,21 +286,22 @@ namespace Morula
     const bool wants_tangent = system.wanted == LocalSystem<dim>::tangent;
     std::vector<double> upper(wants_tangent ? system.matrix.size() : 0, 0.);
     double *const       tangent = wants_tangent ? upper.data() : nullptr;
-    const bool          valid   = form == VolumetricStrain::pointwise ?
-                                    add_pointwise(cell, field, growth, tangent, system) :
-                                    add_projected(cell, field, growth, tangent, system);
+    const bool          valid =
+      form == VolumetricStrain::pointwise ?
+                 add_pointwise(grid_cell, field, growth, tangent, system) :
+                 add_projected(grid_cell, field, growth, tangent, system);
     if (valid && wants_tangent)
       add_lower_blocks<dim>(upper, system.matrix);
   }
 
   template <int dim>
   double
-  InternalForce<dim>::mean_log_volume_ratio(const unsigned int     cell,
+  InternalForce<dim>::mean_log_volume_ratio(const unsigned int     grid_cell,
                                             const LocalField<dim> &field) const
   {
     ProjectedPoints<dim> projected;
     LocalSystem<dim>     unused(LocalSystem<dim>::energy_and_residual);
-    project(cell, field, GrowthAt::current, unused, projected);
+    project(grid_cell, field, GrowthAt::current, unused, projected);
     return projected.mean_log_J;
   }
 

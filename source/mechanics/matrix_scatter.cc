@@ -35,15 +35,15 @@ namespace Morula
   {
     Couplings columns(space.relevant().n_elements());
     Couplings cells_of(columns.size());
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
-      for (const unsigned int unknown : space.cells()[c].unknowns)
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      for (const unsigned int unknown : space.grid_cells()[c].unknowns)
         cells_of[unknown].push_back(c);
     std::vector<unsigned int> last(columns.size(),
                                    numbers::invalid_unsigned_int);
     for (unsigned int row = 0; row < columns.size(); ++row)
       {
         for (const unsigned int c : cells_of[row])
-          for (const unsigned int column : space.cells()[c].unknowns)
+          for (const unsigned int column : space.grid_cells()[c].unknowns)
             if (last[column] != row)
               {
                 last[column] = row;
@@ -228,10 +228,10 @@ namespace Morula
 
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> places(
       relevant.n_elements()); // (cell, row in the cell)
-    positions.resize(space.cells().size());
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
+    positions.resize(space.grid_cells().size());
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
-        const auto &unknowns = space.cells()[c].unknowns;
+        const auto &unknowns = space.grid_cells()[c].unknowns;
         positions[c].resize(unknowns.size() * unknowns.size());
         for (unsigned int s = 0; s < unknowns.size(); ++s)
           places[unknowns[s]].emplace_back(c, s);
@@ -268,7 +268,7 @@ namespace Morula
             position_of[columns[unknown][k]] = k * dim;
         for (const auto &[c, s] : places[unknown])
           {
-            const auto &unknowns = space.cells()[c].unknowns;
+            const auto &unknowns = space.grid_cells()[c].unknowns;
             for (unsigned int t = 0; t < unknowns.size(); ++t)
               positions[c][s * unknowns.size() + t] =
                 position_of[owned ? ids[unknowns[t]] : unknowns[t]];
@@ -278,17 +278,17 @@ namespace Morula
 
   template <int dim>
   void
-  MatrixScatter<dim>::add(const unsigned int         cell,
+  MatrixScatter<dim>::add(const unsigned int         grid_cell,
                           const std::vector<double> &cell_matrix)
   {
-    const auto        &unknowns = space.cells()[cell].unknowns;
+    const auto        &unknowns = space.grid_cells()[grid_cell].unknowns;
     const unsigned int m        = unknowns.size();
     for (unsigned int s = 0; s < m; ++s)
       for (unsigned int i = 0; i < dim; ++i)
         {
           const double *const source = &cell_matrix[(i * m + s) * dim * m];
           double *const       target = rows[unknowns[s] * dim + i];
-          const unsigned int *const position = &positions[cell][s * m];
+          const unsigned int *const position = &positions[grid_cell][s * m];
           for (unsigned int j = 0; j < dim; ++j)
             for (unsigned int t = 0; t < m; ++t)
               target[position[t] + j] += source[j * m + t];

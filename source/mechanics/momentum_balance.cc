@@ -42,15 +42,16 @@ namespace Morula
     /** Which unknowns of a grid cell its extended splines depend on. */
     template <int dim>
     std::set<unsigned int>
-    unknowns_of_extensions(const typename SplineSpace<dim>::Cell &cell)
+    unknowns_of_extensions(const typename SplineSpace<dim>::GridCell &grid_cell)
     {
-      const std::size_t      n = cell.unknowns.size();
+      const std::size_t      n = grid_cell.unknowns.size();
       std::set<unsigned int> result;
-      for (auto row = cell.weights.begin(); row != cell.weights.end(); row += n)
+      for (auto row = grid_cell.weights.begin(); row != grid_cell.weights.end();
+           row += n)
         if (std::count(row, row + n, 0.) + 1 < static_cast<long>(n))
           for (std::size_t k = 0; k < n; ++k)
             if (row[k] != 0.)
-              result.insert(cell.unknowns[k]);
+              result.insert(grid_cell.unknowns[k]);
       return result;
     }
   } // namespace
@@ -91,19 +92,20 @@ namespace Morula
     std::vector<double>          sums(space.relevant_dofs().n_elements(), 0.);
     double                       energies[3] = {0., 0., 0.};
     extremes_of_rank = {std::numeric_limits<double>::infinity(), {}, -1., {}};
-    for (unsigned int c = 0; c < space.cells().size() && !system.inverted; ++c)
+    for (unsigned int c = 0; c < space.grid_cells().size() && !system.inverted;
+         ++c)
       {
-        const LocalField<dim> field = displacement.on_cell(c);
+        const LocalField<dim> field = displacement.on_grid_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, GrowthAt::current, system);
-        update_extremes(system, space.cells()[c].number);
+        update_extremes(system, space.grid_cells()[c].number);
         energies[0] += system.energy;
         energies[1] += system.energy_magnitude;
 
-        const auto               &unknowns = space.cells()[c].unknowns;
+        const auto               &unknowns = space.grid_cells()[c].unknowns;
         const std::vector<double> condensed =
-          Condensation<dim>(space.cells()[c])
+          Condensation<dim>(space.grid_cells()[c])
             .condense(magnitudes ? system.magnitude : system.residual,
                       magnitudes);
         for (unsigned int s = 0; s < unknowns.size(); ++s)
@@ -241,14 +243,15 @@ namespace Morula
     const DisplacementField<dim>     displacement(space, u, comm);
     LocalSystem<dim>                 system(LocalSystem<dim>::tangent);
     typename Condensation<dim>::Work work;
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
-        const LocalField<dim> field = displacement.on_cell(c);
+        const LocalField<dim> field = displacement.on_grid_cell(c);
         system.clear();
         for (const auto &term : terms)
           term->add(c, field, growth, system);
-        scatter->add(
-          c, Condensation<dim>(space.cells()[c]).condense(system.matrix, work));
+        scatter->add(c,
+                     Condensation<dim>(space.grid_cells()[c])
+                       .condense(system.matrix, work));
       }
     scatter->finish();
     matrix.compress(VectorOperation::add);
@@ -277,8 +280,8 @@ namespace Morula
   MomentumBalance<dim>::coupled_dofs() const
   {
     IndexSet dofs(space.relevant_dofs().size());
-    for (const auto &cell : space.cells())
-      for (const unsigned int s : unknowns_of_extensions<dim>(cell))
+    for (const auto &grid_cell : space.grid_cells())
+      for (const unsigned int s : unknowns_of_extensions<dim>(grid_cell))
         {
           const auto first = space.relevant().nth_index_in_set(s) * dim;
           dofs.add_range(first, first + dim);

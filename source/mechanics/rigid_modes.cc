@@ -205,16 +205,16 @@ namespace Morula
     std::vector<std::vector<double>> sums(
       first.back(),
       std::vector<double>(space.relevant_dofs().n_elements(), 0.));
-    const auto &cells = space.cells();
+    const auto &grid_cells = space.grid_cells();
     for (const Mass &mass : masses)
       {
         const Piece &piece = pieces[mass.piece];
         if (piece.free.empty())
           continue;
         const GridIndex<dim> index = space.box().locate(mass.x);
-        const auto           cell =
-          std::lower_bound(cells.begin(),
-                           cells.end(),
+        const auto           grid_cell =
+          std::lower_bound(grid_cells.begin(),
+                           grid_cells.end(),
                            space.box().number(index),
                            [](const auto &c, const unsigned int number) {
                              return c.number < number;
@@ -222,7 +222,7 @@ namespace Morula
         const SplineValues<dim> splines(space.box().unit_position(mass.x,
                                                                   index),
                                         space.box().spacing());
-        const Condensation<dim> condensation(*cell);
+        const Condensation<dim> condensation(*grid_cell);
         for (unsigned int k = 0; k < piece.free.size(); ++k)
           {
             const Mode          &mode = piece.free[k];
@@ -233,10 +233,10 @@ namespace Morula
               for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
                 forces[i * BSpline<dim>::n + a] = force[i] * splines.value[a];
             const std::vector<double> condensed = condensation.condense(forces);
-            const unsigned int        m         = cell->unknowns.size();
+            const unsigned int        m         = grid_cell->unknowns.size();
             for (unsigned int s = 0; s < m; ++s)
               for (unsigned int i = 0; i < dim; ++i)
-                sums[first[mass.piece] + k][cell->unknowns[s] * dim + i] +=
+                sums[first[mass.piece] + k][grid_cell->unknowns[s] * dim + i] +=
                   condensed[i * m + s];
           }
       }

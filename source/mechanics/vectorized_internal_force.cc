@@ -22,13 +22,13 @@ namespace Morula
 
   template <int dim>
   void
-  VectorizedInternalForce<dim>::add(const unsigned int     cell,
+  VectorizedInternalForce<dim>::add(const unsigned int     grid_cell,
                                     const LocalField<dim> &field,
                                     const GrowthAt         growth,
                                     LocalSystem<dim>      &system) const
   {
-    const unsigned int first  = points.offsets[cell],
-                       n      = points.offsets[cell + 1] - first,
+    const unsigned int first  = points.offsets[grid_cell],
+                       n      = points.offsets[grid_cell + 1] - first,
                        stride = points.lame.size() == 1 ? 0 : 2;
     if (n == 0)
       return;

@@ -49,7 +49,7 @@ namespace Morula
       PointList<dim> near_points;
       near_points.n_slots = wanted.n;
       std::vector<double> properties;
-      for (const auto &cell : points.cells())
+      for (const auto &cell : points.grid_cells())
         for (unsigned int p = cell.begin;
              p < cell.end && near_any[cell.number] != 0;
              ++p)

@@ -90,7 +90,7 @@ namespace Morula
           points.positions[i],
           box.unit_position(points.positions[i], index),
           points.ids[i],
-          grid.cell(box.number(index)),
+          grid.grid_cell(box.number(index)),
           ArrayView<const double>(points.properties.data() + i * n_slots_,
                                   n_slots_));
       }
@@ -115,7 +115,7 @@ namespace Morula
     PointList<dim>        leaving;
     std::vector<Iterator> left;
     leaving.n_slots = n_slots_;
-    for (const Cell &cell : cells_)
+    for (const GridCell &cell : grid_cells_)
       {
         const GridIndex<dim> index = box.index(cell.number);
         for (unsigned int p = cell.begin; p < cell.end; ++p)
@@ -171,7 +171,7 @@ namespace Morula
   PointStore<dim>::clear()
   {
     order_.clear();
-    cells_.clear();
+    grid_cells_.clear();
     handler.clear_particles(); // gives back its memory
     capacity     = 0;
     n_disordered = 0;
@@ -194,11 +194,11 @@ namespace Morula
   PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
   {
     const GridBox<dim> &box = grid.box();
-    cells_.clear();
+    grid_cells_.clear();
     order_.clear();
     for (unsigned int number = 0; number < box.size(); ++number)
       {
-        const auto cell = grid.cell(number);
+        const auto cell = grid.grid_cell(number);
         if (cell == grid.triangulation().end())
           continue;
         const unsigned int begin = order_.size();
@@ -212,16 +212,16 @@ namespace Morula
                   [](const Iterator &a, const Iterator &b) {
                     return a->get_id() < b->get_id();
                   });
-        cells_.push_back(
+        grid_cells_.push_back(
           {number, begin, static_cast<unsigned int>(order_.size())});
       }
   }
 
   template <int dim>
-  const std::vector<typename PointStore<dim>::Cell> &
-  PointStore<dim>::cells() const
+  const std::vector<typename PointStore<dim>::GridCell> &
+  PointStore<dim>::grid_cells() const
   {
-    return cells_;
+    return grid_cells_;
   }
 
   template <int dim>

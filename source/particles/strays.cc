@@ -33,13 +33,13 @@ namespace Morula
       const auto         &store = tissue.cells();
       const auto          is_in = [&](const unsigned int number) {
         const auto cell =
-          std::lower_bound(store.cells().begin(),
-                           store.cells().end(),
+          std::lower_bound(store.grid_cells().begin(),
+                           store.grid_cells().end(),
                            number,
                            [](const auto &c, const unsigned int n) {
                              return c.number < n;
                            });
-        if (cell != store.cells().end() && cell->number == number)
+        if (cell != store.grid_cells().end() && cell->number == number)
           for (unsigned int p = cell->begin; p < cell->end; ++p)
             if (x.distance_square(store.order()[p]->get_location()) <=
                 near * near)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/command_line.h>
-#include <morula/program/failure.h>
-#include <morula/base/input_error.h>
 #include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
 #include <morula/output/directory.h>
 #include <morula/output/run_lock.h>
+#include <morula/program/command_line.h>
+#include <morula/program/failure.h>
 #include <morula/program/program.h>
 #include <morula/scene/explain.h>
 #include <morula/scene/size.h>

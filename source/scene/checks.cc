@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
-#include <morula/base/agreement.h>
+#include <morula/base/unit_vector.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/size.h>
-#include <morula/base/unit_vector.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>

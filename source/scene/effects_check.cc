@@ -3,9 +3,9 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
+#include <morula/base/unit_vector.h>
 #include <morula/scene/effects_check.h>
 #include <morula/scene/refusals.h>
-#include <morula/base/unit_vector.h>
 
 #include <deal.II/base/patterns.h>
 

@@ -5,7 +5,6 @@
 #include <morula/base/method.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/particles/cell_state.h>
-#include <morula/seeding/seeding.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/explain.h>
@@ -13,6 +12,7 @@
 #include <morula/scene/refusals.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
+#include <morula/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,10 +3,10 @@
 
 #include <morula/base/input_error.h>
 #include <morula/mechanics/vector_kernels.h>
-#include <morula/scene/scene.h>
 #include <morula/scene/effects_check.h>
 #include <morula/scene/limits.h>
 #include <morula/scene/refusals.h>
+#include <morula/scene/scene.h>
 
 #include <deal.II/base/patterns.h>
 

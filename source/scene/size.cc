@@ -3,9 +3,9 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
-#include <morula/seeding/shape.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/shape.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/dead_load.h>
-#include <morula/effects/division/divide.h>
+#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/division/divide.h>
+#include <morula/effects/surface/dead_load.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
-#include <morula/base/agreement.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/strays.h>
 #include <morula/particles/surface_refinement.h>
@@ -371,7 +371,7 @@ namespace Morula
   Simulation<dim>::masses(const SplineSpace<dim> &space) const
   {
     std::vector<typename RigidModes<dim>::Mass> list;
-    for (const auto &cell : tissue.cells().cells())
+    for (const auto &cell : tissue.cells().grid_cells())
       for (unsigned int p = cell.begin; p < cell.end; ++p)
         {
           const auto &particle = tissue.cells().order()[p];
@@ -419,9 +419,9 @@ namespace Morula
     // On all ranks: a cell on a grid line has part in several grid cells.
     const GridBox<dim> &box = space.box();
     std::vector<double> theta(box.size(), 0.);
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
-      theta[space.cells()[c].number] =
-        force.mean_log_volume_ratio(c, displacement.on_cell(c));
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      theta[space.grid_cells()[c].number] =
+        force.mean_log_volume_ratio(c, displacement.on_grid_cell(c));
     Utilities::MPI::sum(theta, comm, theta);
     for (const auto &particle : tissue.cells().order())
       {

@@ -55,7 +55,7 @@ namespace Morula
     void
     count_splines(const SplineSpace<dim> &space, StatisticsRow &row)
     {
-      row.active_grid_cells = space.n_active_cells();
+      row.active_grid_cells = space.n_active_grid_cells();
       row.inner_splines     = space.n_inner_splines();
       row.outer_splines     = space.n_outer_splines();
       row.unknowns          = space.n_unknowns();

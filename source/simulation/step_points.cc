@@ -163,7 +163,7 @@ namespace Morula
       points.subdivided = true;
       points.offsets.push_back(0);
       std::size_t k = 0;
-      for (const auto &cell : space.cells())
+      for (const auto &cell : space.grid_cells())
         {
           const GridIndex<dim> index = box.index(cell.number);
           for (; k < order.size() && numbers[order[k]] == cell.number; ++k)
@@ -192,9 +192,10 @@ namespace Morula
                      }).offsets;
     points.h       = space.box().spacing();
     points.xi.reserve(tissue.cells().order().size());
-    for (unsigned int c = 0; c < space.cells().size(); ++c)
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
-        const GridIndex<dim> index = space.box().index(space.cells()[c].number);
+        const GridIndex<dim> index =
+          space.box().index(space.grid_cells()[c].number);
         for (unsigned int p = points.offsets[c]; p < points.offsets[c + 1]; ++p)
           points.xi.push_back(
             space.box().unit_position(tissue.cells().order()[p]->get_location(),

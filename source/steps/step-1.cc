@@ -14,9 +14,9 @@
 // The rooms of the library that this program visits: `particles` for the cells
 // that fill the disc, `grid` for the splines around them. There is no mechanics
 // here. The scene is read and checked by `program` as in every other program.
-#include <morula/seeding/seeding.h>
 #include <morula/particles/tissue.h>
 #include <morula/program/program.h>
+#include <morula/seeding/seeding.h>
 
 #include <deal.II/base/convergence_table.h>
 #include <deal.II/base/mpi.h>
@@ -132,8 +132,8 @@ namespace Step1
   void
   Projection::for_each_cell(const Visit &visit) const
   {
-    auto grid_cell = space->cells().begin();
-    for (const auto &group : tissue.cells().cells())
+    auto grid_cell = space->grid_cells().begin();
+    for (const auto &group : tissue.cells().grid_cells())
       {
         while (grid_cell->number != group.number)
           ++grid_cell;

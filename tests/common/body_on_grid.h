@@ -140,7 +140,7 @@ namespace Morula
         by_cell[grid.box().number(grid.box().locate(points[i]))].push_back(i);
       PointGroups groups;
       groups.offsets.push_back(0);
-      for (const auto &cell : space->cells())
+      for (const auto &cell : space->grid_cells())
         {
           const auto &list = by_cell[cell.number];
           groups.points.insert(groups.points.end(), list.begin(), list.end());
@@ -220,7 +220,7 @@ namespace Morula
                                   comm);
       ghosted = u;
       std::vector<LocalField<dim>> result;
-      for (const auto &cell : space->cells())
+      for (const auto &cell : space->grid_cells())
         {
           const unsigned int m = cell.unknowns.size();
           LocalField<dim>    field;

@@ -64,18 +64,18 @@ namespace
     for (unsigned int number = 0; number < grid.box().size(); ++number)
       {
         EXPECT_LT(grid.owner(number), n_ranks);
-        const auto cell = grid.cell(number);
-        EXPECT_EQ(cell != grid.triangulation().end(),
+        const auto grid_cell = grid.grid_cell(number);
+        EXPECT_EQ(grid_cell != grid.triangulation().end(),
                   grid.owner(number) == rank);
         if (grid.owner(number) != rank)
           continue;
         ++n_owned;
-        EXPECT_TRUE(cell->is_locally_owned());
+        EXPECT_TRUE(grid_cell->is_locally_owned());
         const auto i = grid.box().index(number);
-        EXPECT_LT(cell->center().distance(grid.box().center(i)), 1e-10);
-        EXPECT_NEAR(cell->extent_in_direction(0), h, 1e-10);
+        EXPECT_LT(grid_cell->center().distance(grid.box().center(i)), 1e-10);
+        EXPECT_NEAR(grid_cell->extent_in_direction(0), h, 1e-10);
         for (unsigned int d = 0; d < dim; ++d)
-          EXPECT_NEAR(cell->center()[d],
+          EXPECT_NEAR(grid_cell->center()[d],
                       grid_parameters().offset[d] + (i[d] + 0.5) * h,
                       1e-10);
       }

@@ -32,12 +32,13 @@ namespace
   /** Σ|e| in each direction by distance from the block's nearest spline. */
   template <int dim>
   double
-  sum_of_magnitudes(const GridIndex<dim> &spline, const GridIndex<dim> &cell)
+  sum_of_magnitudes(const GridIndex<dim> &spline,
+                    const GridIndex<dim> &grid_cell)
   {
     double product = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double k = std::max(0, std::abs(spline[d] - cell[d]) - 1);
+        const double k = std::max(0, std::abs(spline[d] - grid_cell[d]) - 1);
         product *= (2. * k * k + 4. * k + 1.); // 1, 7, 17, 31, ...
       }
     return product;
@@ -86,10 +87,11 @@ namespace
     SplineCopy copy{box.number(spline), 0, false, 0};
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
-        GridIndex<dim> cell = spline;
+        GridIndex<dim> grid_cell = spline;
         for (unsigned int d = 0; d < dim; ++d)
-          cell[d] += BSpline<dim>::offset(a, d);
-        if (box.contains(cell) && is_active(classes[box.number(cell)]))
+          grid_cell[d] += BSpline<dim>::offset(a, d);
+        if (box.contains(grid_cell) &&
+            is_active(classes[box.number(grid_cell)]))
           copy.support |= 1u << a;
       }
     return copy;
@@ -133,15 +135,17 @@ namespace
               continue;
             std::vector<unsigned int> best;
             double best_sum = std::numeric_limits<double>::max();
-            for (unsigned int cell = 0; cell < box.size(); ++cell)
-              if (classes[cell] == GridCellClass::inner)
+            for (unsigned int grid_cell = 0; grid_cell < box.size();
+                 ++grid_cell)
+              if (classes[grid_cell] == GridCellClass::inner)
                 {
                   const double sum =
-                    sum_of_magnitudes<dim>(box.index(spline), box.index(cell));
+                    sum_of_magnitudes<dim>(box.index(spline),
+                                           box.index(grid_cell));
                   if (sum < best_sum)
                     best.clear();
                   if (sum <= best_sum)
-                    best.push_back(cell);
+                    best.push_back(grid_cell);
                   best_sum = std::min(best_sum, sum);
                 }
             EXPECT_EQ(search.blocks(copy), best) << "spline " << spline;
@@ -199,8 +203,8 @@ TEST(Extension, TakesAllBlocksThatTie)
                            box.number({{{0, 2}}}),
                            box.number({{{4, 2}}}),
                            box.number({{{2, 4}}})};
-  for (const unsigned int cell : ring)
-    classes[cell] = GridCellClass::inner;
+  for (const unsigned int grid_cell : ring)
+    classes[grid_cell] = GridCellClass::inner;
   classes[box.number({{{0, 0}}})] = GridCellClass::inner; // 49 against 7
   ExtensionSearch<2> search(box, classes);
   EXPECT_EQ(search.blocks(whole(box, classes, {{{2, 2}}})), ring);

@@ -179,19 +179,19 @@ namespace
       {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const auto cut = body<dim>(random_body<dim>(seed));
-        for (const auto &cell : cut.space->cells())
+        for (const auto &grid_cell : cut.space->grid_cells())
           {
-            const unsigned int m = cell.unknowns.size();
+            const unsigned int m = grid_cell.unknowns.size();
             for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
               {
-                double sum = cell.weights.empty() ? 1. : 0.;
-                if (!cell.weights.empty())
+                double sum = grid_cell.weights.empty() ? 1. : 0.;
+                if (!grid_cell.weights.empty())
                   for (unsigned int s = 0; s < m; ++s)
-                    sum += cell.weights[a * m + s];
+                    sum += grid_cell.weights[a * m + s];
                 EXPECT_NEAR(sum, 1., 1e-11);
               }
-            EXPECT_TRUE(
-              std::is_sorted(cell.unknowns.begin(), cell.unknowns.end()));
+            EXPECT_TRUE(std::is_sorted(grid_cell.unknowns.begin(),
+                                       grid_cell.unknowns.end()));
           }
       }
   }
@@ -237,8 +237,8 @@ namespace
     expect_affine(both, generator);
 
     std::set<unsigned int> found;
-    for (const auto &cell : space.cells())
-      found.insert(space.piece(cell.number));
+    for (const auto &grid_cell : space.grid_cells())
+      found.insert(space.piece(grid_cell.number));
     for (const unsigned int piece : found)
       EXPECT_LT(piece, 2u);
     EXPECT_EQ(space.pieces_of_unknowns().size(), space.owned().n_elements());
@@ -275,13 +275,14 @@ namespace
         const auto  alone  = body<dim>(points, MPI_COMM_SELF);
         const auto &space  = *shared.space;
         EXPECT_EQ(space.n_unknowns(), alone.space->n_unknowns());
-        EXPECT_EQ(space.n_active_cells(), alone.space->n_active_cells());
+        EXPECT_EQ(space.n_active_grid_cells(),
+                  alone.space->n_active_grid_cells());
         EXPECT_EQ(space.n_inner_splines(), alone.space->n_inner_splines());
         EXPECT_EQ(space.n_outer_splines(), alone.space->n_outer_splines());
         EXPECT_EQ(space.n_pieces(), alone.space->n_pieces());
-        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.cells().size(),
+        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.grid_cells().size(),
                                                     MPI_COMM_WORLD),
-                  alone.space->n_active_cells());
+                  alone.space->n_active_grid_cells());
         EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.owned().n_elements(),
                                                     MPI_COMM_WORLD) *
                     dim,
@@ -300,7 +301,8 @@ namespace
         unsigned int k      = 0;
         for (unsigned int c = 0; c < fields.size(); ++c)
           {
-            while (alone.space->cells()[k].number != space.cells()[c].number)
+            while (alone.space->grid_cells()[k].number !=
+                   space.grid_cells()[c].number)
               ++k;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
@@ -375,10 +377,10 @@ namespace
     const auto           &space = *raw.space;
     EXPECT_EQ(space.n_unknowns(),
               dim * (space.n_inner_splines() + space.n_outer_splines()));
-    for (const auto &cell : space.cells())
+    for (const auto &grid_cell : space.grid_cells())
       {
-        EXPECT_EQ(cell.unknowns.size(), BSpline<dim>::n);
-        for (const double weight : cell.weights)
+        EXPECT_EQ(grid_cell.unknowns.size(), BSpline<dim>::n);
+        for (const double weight : grid_cell.weights)
           EXPECT_TRUE(weight == 0. || weight == 1.);
       }
     std::mt19937         generator(5);
@@ -456,14 +458,14 @@ TEST(SplineSpace, ArmsAcrossAnEmptyLayerDoNotShareSplines)
   const auto  body  = blocks_with_gap(1, true);
   const auto &space = *body.space;
   EXPECT_EQ(space.n_pieces(), 1u);
-  const auto sides_of = [&](const SplineSpace<2>::Cell &cell) {
-    return space.box().index(cell.number)[0] < 0 ? 1 : 2;
+  const auto sides_of = [&](const SplineSpace<2>::GridCell &grid_cell) {
+    return space.box().index(grid_cell.number)[0] < 0 ? 1 : 2;
   };
   std::vector<unsigned int> sides(space.relevant().n_elements(), 0);
-  for (const auto &cell : space.cells())
-    if (space.box().index(cell.number)[1] >= 2)
-      for (const unsigned int unknown : cell.unknowns)
-        sides[unknown] |= sides_of(cell);
+  for (const auto &grid_cell : space.grid_cells())
+    if (space.box().index(grid_cell.number)[1] >= 2)
+      for (const unsigned int unknown : grid_cell.unknowns)
+        sides[unknown] |= sides_of(grid_cell);
   for (const unsigned int both : sides)
     EXPECT_LT(both, 3u);
   EXPECT_EQ(blocks_with_gap(8, true).space->n_pieces(), 1u);

@@ -22,25 +22,25 @@ namespace
     static constexpr unsigned int n      = BSpline<dim>::n;
     static constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
 
-    typename SplineSpace<dim>::Cell cell;
-    FullMatrix<double>              C; // n_dofs x dim m
+    typename SplineSpace<dim>::GridCell grid_cell;
+    FullMatrix<double>                  C; // n_dofs x dim m
 
     /** A sparse C of random weights; none: the identity. */
     Problem(const unsigned int m, const bool weights, std::mt19937 &generator)
       : C(n_dofs, dim * m)
     {
       std::uniform_real_distribution<double> uniform(-5., 5.);
-      cell.number = 0;
+      grid_cell.number = 0;
       for (unsigned int s = 0; s < m; ++s)
-        cell.unknowns.push_back(3 * s);
+        grid_cell.unknowns.push_back(3 * s);
       if (weights)
-        cell.weights.assign(n * m, 0.);
+        grid_cell.weights.assign(n * m, 0.);
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int s = 0; s < m; ++s)
           {
             double weight = a == s ? 1. : 0.;
             if (weights)
-              cell.weights[a * m + s] = weight =
+              grid_cell.weights[a * m + s] = weight =
                 generator() % 3 == 0 ? uniform(generator) : 0.;
             for (unsigned int i = 0; i < dim; ++i)
               C(i * n + a, i * m + s) = weight;
@@ -73,7 +73,7 @@ namespace
         SCOPED_TRACE(std::to_string(m) + " unknowns");
         const Problem<dim>      problem(m, weights, generator);
         const auto             &C = problem.C;
-        const Condensation<dim> condensation(problem.cell);
+        const Condensation<dim> condensation(problem.grid_cell);
         ASSERT_EQ(condensation.m(), m);
 
         const auto          coefficients = random_values(dim * m, generator);

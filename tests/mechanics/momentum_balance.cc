@@ -349,7 +349,7 @@ namespace
                                               MPI_COMM_WORLD);
     for (unsigned int c = 0; c < fields.size(); ++c)
       {
-        const auto field = displacement.on_cell(c);
+        const auto field = displacement.on_grid_cell(c);
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
             EXPECT_NEAR(field.coefficient[i][a],

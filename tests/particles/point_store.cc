@@ -24,7 +24,7 @@ namespace
   {
     expect_same_points(store.copy(), owned(all, grid));
     unsigned int end = 0, last_number = 0;
-    for (const auto &cell : store.cells())
+    for (const auto &cell : store.grid_cells())
       {
         EXPECT_TRUE(end == 0 || cell.number > last_number);
         EXPECT_EQ(cell.begin, end);
@@ -62,7 +62,7 @@ namespace
     // Again, from one rank only, and in two portions.
     expect_same_points(store.take(), owned(all, grid));
     EXPECT_TRUE(store.order().empty());
-    EXPECT_TRUE(store.cells().empty());
+    EXPECT_TRUE(store.grid_cells().empty());
     const auto portion = [&](const std::size_t begin, const std::size_t end) {
       return selected(all, [&](const std::size_t i) {
         return i >= begin && i < end &&

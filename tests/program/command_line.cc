@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/command_line.h>
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_file.h>
+#include <morula/program/command_line.h>
 
 #include <gtest/gtest.h>
 

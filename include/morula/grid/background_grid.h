@@ -73,7 +73,7 @@ namespace Morula
 
     /** The triangulation's cell; only for grid cells that this rank owns. */
     CellIterator
-    cell(const unsigned int number) const;
+    grid_cell(const unsigned int number) const;
 
     const Triangulation<dim> &
     triangulation() const;
@@ -97,7 +97,7 @@ namespace Morula
     parallel::distributed::Triangulation<dim> tria;
     std::vector<unsigned int>                 weights_;
     std::vector<unsigned int>                 owners;
-    std::vector<CellIterator>                 cells;
+    std::vector<CellIterator>                 grid_cells;
   };
 } // namespace Morula
 

@@ -49,7 +49,7 @@ namespace Morula
     /** Which copy of the spline centred on @p spline the active grid cell
      *  @p cell of its support uses: a position in list(). */
     unsigned int
-    at(const GridIndex<dim> &spline, const GridIndex<dim> &cell) const;
+    at(const GridIndex<dim> &spline, const GridIndex<dim> &grid_cell) const;
 
     /** The piece of an active grid cell, 0, ..., n_pieces() - 1 in the order of
      *  their lowest grid cells. */
@@ -61,7 +61,7 @@ namespace Morula
 
     /** Lowest grid cell of a piece. */
     unsigned int
-    lowest_cell(const unsigned int piece) const;
+    lowest_grid_cell(const unsigned int piece) const;
 
   private:
     void

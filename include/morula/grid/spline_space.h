@@ -36,7 +36,7 @@ namespace Morula
   {
   public:
     /** One of this rank's active grid cells. */
-    struct Cell
+    struct GridCell
     {
       unsigned int number; // of the grid cell in the box
       /** Unknowns: positions in relevant(), increasing. */
@@ -52,8 +52,8 @@ namespace Morula
                 const GridParameters      &parameters);
 
     /** This rank's active grid cells, by number. */
-    const std::vector<Cell> &
-    cells() const;
+    const std::vector<GridCell> &
+    grid_cells() const;
 
     /** Unknown splines this rank owns. */
     const IndexSet &
@@ -74,7 +74,7 @@ namespace Morula
     unsigned int
     n_unknowns() const; // splines times dim
     unsigned int
-    n_active_cells() const;
+    n_active_grid_cells() const;
     unsigned int
     n_inner_splines() const;
     unsigned int
@@ -128,9 +128,9 @@ namespace Morula
     /** What the grid cells of a piece hold. */
     struct Extent
     {
-      bool           inner       = false;
-      std::uint64_t  n_particles = 0;
-      unsigned int   n_cells     = 0;
+      bool           inner        = false;
+      std::uint64_t  n_particles  = 0;
+      unsigned int   n_grid_cells = 0;
       Point<dim>     lower, upper;   // of the tissue, µm
       Tensor<1, dim> sum_of_centers; // of the grid cells, µm
     };
@@ -146,9 +146,9 @@ namespace Morula
     void
     number_unknowns(const BackgroundGrid<dim> &grid);
     void
-    express_cells(const BackgroundGrid<dim> &grid);
+    express_grid_cells(const BackgroundGrid<dim> &grid);
     void
-    add_cell(const unsigned int number, const std::vector<Terms> &rows);
+    add_grid_cell(const unsigned int number, const std::vector<Terms> &rows);
     void
     find_relevant();
 
@@ -164,7 +164,7 @@ namespace Morula
     std::vector<unsigned int>  numbers; // by copy: unknown's number
     std::vector<unsigned int>  pieces_of_unknowns_;
     std::map<unsigned int, PolynomialField> small_pieces;
-    std::vector<Cell>                       cells_;
+    std::vector<GridCell>                   grid_cells_;
     IndexSet     owned_, relevant_, owned_dofs_, relevant_dofs_;
     unsigned int n_splines = 0;
     unsigned int n_active  = 0;

@@ -24,7 +24,7 @@ namespace Morula
   {
   public:
     /** Keeps a reference to the grid cell. */
-    explicit Condensation(const typename SplineSpace<dim>::Cell &cell);
+    explicit Condensation(const typename SplineSpace<dim>::GridCell &grid_cell);
 
     /** Number m of unknowns. */
     unsigned int
@@ -68,7 +68,7 @@ namespace Morula
                const unsigned int         n_columns,
                std::vector<double>       &result) const;
 
-    const typename SplineSpace<dim>::Cell &cell;
+    const typename SplineSpace<dim>::GridCell &grid_cell;
   };
 } // namespace Morula
 

@@ -31,7 +31,7 @@ namespace Morula
 
     /** Coefficients of the splines of one active grid cell. */
     LocalField<dim>
-    on_cell(const unsigned int cell) const;
+    on_grid_cell(const unsigned int grid_cell) const;
 
     /**
      * Calls action(p, field, splines) for each point of a store in order:
@@ -54,13 +54,13 @@ namespace Morula
                                     const Action          &action) const
   {
     unsigned int c = 0;
-    for (const auto &cell : store.cells())
+    for (const auto &grid_cell : store.grid_cells())
       {
-        while (space.cells()[c].number != cell.number)
+        while (space.grid_cells()[c].number != grid_cell.number)
           ++c;
-        const LocalField<dim> field = on_cell(c);
-        const GridIndex<dim>  index = space.box().index(cell.number);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
+        const LocalField<dim> field = on_grid_cell(c);
+        const GridIndex<dim>  index = space.box().index(grid_cell.number);
+        for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
           action(p,
                  field,
                  SplineValues<dim>(space.box().unit_position(

@@ -43,7 +43,7 @@ namespace Morula
       const bool                 foresee = true);
 
     void
-    add(const unsigned int     cell,
+    add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
@@ -51,7 +51,7 @@ namespace Morula
     /** The mean ϑ of ln J_e over the points of active grid cell @p cell with
      *  the growth at t + dt; 0 without points. */
     double
-    mean_log_volume_ratio(const unsigned int     cell,
+    mean_log_volume_ratio(const unsigned int     grid_cell,
                           const LocalField<dim> &field) const;
 
   private:
@@ -59,7 +59,7 @@ namespace Morula
      *  false at the first that @p system does not admit. */
     template <typename Visit>
     bool
-    for_each_point(const unsigned int     cell,
+    for_each_point(const unsigned int     grid_cell,
                    const LocalField<dim> &field,
                    const GrowthAt         growth,
                    LocalSystem<dim>      &system,
@@ -68,13 +68,13 @@ namespace Morula
     // Add energy and residual or, if there is one, to the blocks (i, j), i <=
     // j, of the tangent; false if a point is inverted.
     bool
-    add_pointwise(const unsigned int     cell,
+    add_pointwise(const unsigned int     grid_cell,
                   const LocalField<dim> &field,
                   const GrowthAt         growth,
                   double                *tangent,
                   LocalSystem<dim>      &system) const;
     bool
-    add_projected(const unsigned int     cell,
+    add_projected(const unsigned int     grid_cell,
                   const LocalField<dim> &field,
                   const GrowthAt         growth,
                   double                *tangent,
@@ -82,7 +82,7 @@ namespace Morula
 
     /** Collects the points of a grid cell; false if one is inverted. */
     bool
-    project(const unsigned int     cell,
+    project(const unsigned int     grid_cell,
             const LocalField<dim> &field,
             const GrowthAt         growth,
             LocalSystem<dim>      &system,
@@ -90,7 +90,7 @@ namespace Morula
 
     /** ϑ for the tangent at @p field; remembers this one for the next. */
     double
-    foreseen(const unsigned int          cell,
+    foreseen(const unsigned int          grid_cell,
              const LocalField<dim>      &field,
              const GrowthAt              growth,
              const ProjectedPoints<dim> &projected) const;

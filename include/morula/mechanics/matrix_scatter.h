@@ -40,7 +40,7 @@ namespace Morula
      * the grid cell's s-th unknown, m their number.
      */
     void
-    add(const unsigned int cell, const std::vector<double> &cell_matrix);
+    add(const unsigned int grid_cell, const std::vector<double> &cell_matrix);
 
     /** Adds what was added to other ranks' rows to these. Collective. */
     void

@@ -179,7 +179,7 @@ namespace Morula
      * @param growth which growth to use
      */
     virtual void
-    add(const unsigned int     cell,
+    add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const = 0;

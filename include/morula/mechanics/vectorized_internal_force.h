@@ -22,7 +22,7 @@ namespace Morula
                             const VectorKernels<dim>  &kernels);
 
     void
-    add(const unsigned int     cell,
+    add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;

@@ -4,8 +4,8 @@
 #ifndef morula_output_condition_h
 #define morula_output_condition_h
 
-#include <morula/solver/condition_estimate.h>
 #include <morula/output/appended_csv.h>
+#include <morula/solver/condition_estimate.h>
 
 namespace Morula
 {

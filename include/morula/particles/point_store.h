@@ -29,7 +29,7 @@ namespace Morula
       typename Particles::ParticleHandler<dim>::particle_iterator;
 
     /** The points of one grid cell: `order()[begin...end)`. */
-    struct Cell
+    struct GridCell
     {
       unsigned int number; // of the grid cell in the box
       unsigned int begin, end;
@@ -88,8 +88,8 @@ namespace Morula
     copy() const;
 
     /** Grid cells of this rank that hold points, by number. */
-    const std::vector<Cell> &
-    cells() const;
+    const std::vector<GridCell> &
+    grid_cells() const;
 
     /** All points of this rank in the canonical order. */
     const std::vector<Iterator> &
@@ -120,7 +120,7 @@ namespace Morula
     std::size_t                     n_disordered = 0;
     MappingQ1<dim>                  mapping;
     Particles::ParticleHandler<dim> handler;
-    std::vector<Cell>               cells_;
+    std::vector<GridCell>           grid_cells_;
     std::vector<Iterator>           order_;
   };
 

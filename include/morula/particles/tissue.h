@@ -140,10 +140,10 @@ namespace Morula
   {
     PointGroups groups;
     groups.offsets.push_back(0);
-    auto cell = store.cells().begin();
-    for (const auto &active : space.cells())
+    auto cell = store.grid_cells().begin();
+    for (const auto &active : space.grid_cells())
       {
-        if (cell != store.cells().end() && cell->number == active.number)
+        if (cell != store.grid_cells().end() && cell->number == active.number)
           {
             for (unsigned int p = cell->begin; p < cell->end; ++p)
               if (select(store.order()[p]))

@@ -4,9 +4,9 @@
 #ifndef morula_scene_catalogue_h
 #define morula_scene_catalogue_h
 
+#include <morula/base/parameter_keys.h>
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/growth/growth_law.h>
-#include <morula/base/parameter_keys.h>
 
 #include <deal.II/base/parameter_handler.h>
 

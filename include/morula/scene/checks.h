@@ -4,8 +4,8 @@
 #ifndef morula_scene_checks_h
 #define morula_scene_checks_h
 
-#include <morula/seeding/seeding.h>
 #include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
 
 #include <mpi.h>
 

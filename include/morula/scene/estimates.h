@@ -4,8 +4,8 @@
 #ifndef morula_scene_estimates_h
 #define morula_scene_estimates_h
 
-#include <morula/seeding/seeding.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/seeding.h>
 
 namespace Morula
 {

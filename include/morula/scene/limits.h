@@ -4,8 +4,8 @@
 #ifndef morula_scene_limits_h
 #define morula_scene_limits_h
 
-#include <morula/seeding/seeding.h>
 #include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
 
 #include <mpi.h>
 

@@ -4,17 +4,17 @@
 #ifndef morula_scene_scene_h
 #define morula_scene_scene_h
 
-#include <morula/scene/catalogue.h>
-#include <morula/effects/forces/body_force.h>
-#include <morula/effects/surface/boundary_conditions.h>
-#include <morula/effects/growth/isotropic.h>
+#include <morula/base/method.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/forces/body_force.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
-#include <morula/solver/solver_parameters.h>
-#include <morula/base/method.h>
 #include <morula/output/output_parameters.h>
+#include <morula/scene/catalogue.h>
 #include <morula/seeding/seeding.h>
+#include <morula/solver/solver_parameters.h>
 
 #include <map>
 #include <memory>

@@ -4,8 +4,8 @@
 #ifndef morula_scene_unit_warnings_h
 #define morula_scene_unit_warnings_h
 
-#include <morula/seeding/seeding.h>
 #include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
 
 #include <mpi.h>
 

@@ -4,18 +4,18 @@
 #ifndef morula_simulation_simulation_h
 #define morula_simulation_simulation_h
 
-#include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/surface/boundary_terms.h>
 #include <morula/grid/piece_watch.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
-#include <morula/solver/newton.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/run_files.h>
 #include <morula/scene/scene.h>
+#include <morula/simulation/run_files.h>
 #include <morula/simulation/stop_signals.h>
 #include <morula/simulation/time_steps.h>
+#include <morula/solver/newton.h>
 
 #include <deal.II/base/timer.h>
 

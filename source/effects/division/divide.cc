@@ -3,9 +3,9 @@
 
 #include <morula/effects/division/divide.h>
 #include <morula/effects/division/numbering.h>
+#include <morula/effects/division/wall_distance.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/effects/division/wall_distance.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/point_bins.h>
 #include <morula/effects/division/wall_distance.h>
+#include <morula/particles/point_bins.h>
 
 #include <algorithm>
 #include <cmath>

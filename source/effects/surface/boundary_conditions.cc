@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/base/unit_vector.h>
+#include <morula/effects/surface/boundary_conditions.h>
 
 #include <algorithm>
 

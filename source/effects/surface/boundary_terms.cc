@@ -52,11 +52,11 @@ namespace Morula
       GroupedPoints<dim> points;
       points.offsets = groups.offsets;
       points.h       = space.box().spacing();
-      for (unsigned int c = 0; c < space.cells().size(); ++c)
+      for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
         for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
           points.xi.push_back(space.box().unit_position(
             tissue.boundary_points().order()[groups.points[k]]->get_location(),
-            space.box().index(space.cells()[c].number)));
+            space.box().index(space.grid_cells()[c].number)));
       return points;
     }
 

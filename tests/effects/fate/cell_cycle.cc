@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/random.h>
-#include <morula/base/input_error.h>
 
 #include <gtest/gtest.h>
 

@@ -99,7 +99,7 @@ namespace
     {
       LocalField<dim> rest{};
       Sums            result;
-      for (unsigned int c = 0; c < space->cells().size(); ++c)
+      for (unsigned int c = 0; c < space->grid_cells().size(); ++c)
         {
           LocalSystem<dim> system(LocalSystem<dim>::energy_and_residual);
           term.add(c, rest, at, system);

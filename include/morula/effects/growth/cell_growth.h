@@ -5,8 +5,8 @@
 #define morula_effects_growth_cell_growth_h
 
 #include <morula/effects/division/division_rule.h>
-#include <morula/effects/growth/growth_law.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/growth/growth_law.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>

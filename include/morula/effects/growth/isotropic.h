@@ -4,8 +4,8 @@
 #ifndef morula_effects_growth_isotropic_h
 #define morula_effects_growth_isotropic_h
 
-#include <morula/effects/growth/growth_law.h>
 #include <morula/base/expression.h>
+#include <morula/effects/growth/growth_law.h>
 
 #include <deal.II/base/parameter_handler.h>
 

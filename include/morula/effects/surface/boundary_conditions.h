@@ -4,8 +4,8 @@
 #ifndef morula_effects_surface_boundary_conditions_h
 #define morula_effects_surface_boundary_conditions_h
 
-#include <morula/effects/surface/nitsche.h>
 #include <morula/base/expression.h>
+#include <morula/effects/surface/nitsche.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -174,7 +174,7 @@ namespace Morula
 
     /**
      * Adds what @p system wants of this term on one active grid cell.
-     * @param cell   active grid cell
+     * @param grid_cell   active grid cell
      * @param field  displacement since the beginning of the step
      * @param growth which growth to use
      */

@@ -69,25 +69,23 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/example-project
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${share_directory})
 
-# contrib/report as morula-report, and so on: links to where the tools find
-# their modules. (morula_runs/places.py tells an installation from the tree.)
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/tools)
-set(tools accuracy cell-shapes migrate render report sweep)
-foreach(tool ${tools})
-  install(PROGRAMS ${PROJECT_SOURCE_DIR}/contrib/${tool}
-    DESTINATION ${share_directory}/contrib)
-  file(RELATIVE_PATH link
-    ${CMAKE_INSTALL_FULL_BINDIR}
-    ${CMAKE_INSTALL_FULL_DATADIR}/morula/contrib/${tool})
-  file(CREATE_LINK ${link} ${PROJECT_BINARY_DIR}/tools/morula-${tool} SYMBOLIC)
-  install(FILES ${PROJECT_BINARY_DIR}/tools/morula-${tool}
+# The Python package, and for each tool of it a script: morula-report calls the
+# launcher beside the package, as contrib/report does in this tree.
+set(python_directory ${share_directory}/python)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/contrib/python/launch
+  DESTINATION ${python_directory})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python/morula
+  DESTINATION ${python_directory}
+  PATTERN __pycache__ EXCLUDE)
+file(RELATIVE_PATH launch
+  ${CMAKE_INSTALL_FULL_BINDIR}
+  ${CMAKE_INSTALL_FULL_DATADIR}/morula/python/launch)
+foreach(tool accuracy cell-shapes migrate render report sweep)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/tool.in
+    ${PROJECT_BINARY_DIR}/tools/morula-${tool} @ONLY)
+  install(PROGRAMS ${PROJECT_BINARY_DIR}/tools/morula-${tool}
     DESTINATION ${CMAKE_INSTALL_BINDIR})
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python
-  DESTINATION ${share_directory}/contrib
-  PATTERN __pycache__ EXCLUDE
-  PATTERN reference_manual EXCLUDE
-  PATTERN step_pictures EXCLUDE)
 
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${pages_directory})

@@ -9,9 +9,9 @@ import re
 import statistics
 import subprocess
 
-from processes import ROOT, overrides
-import scaling
-from runs import environment
+from tests.benchmarks import scaling
+from tests.benchmarks.runs import environment
+from tests.common.processes import ROOT, overrides
 
 NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
 # What happens once, whatever the number of steps or cells.

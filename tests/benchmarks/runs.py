@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
-from processes import ENVIRONMENT, ROOT, overrides
+from tests.common.processes import ENVIRONMENT, ROOT, overrides
 
 
 @dataclass

@@ -3,7 +3,7 @@
 """For tests of what is installed, and of programs that are built with it."""
 from pathlib import Path
 
-from processes import ROOT, call
+from tests.common.processes import ROOT, call
 
 EXAMPLE = ROOT / "contrib/example-project"
 
@@ -18,8 +18,10 @@ class Installation:
         self.home.mkdir()
 
     def call(self, *words, cwd=None, code=0):
-        """What a command prints, with a home of its own."""
-        found, text = call(["env", f"HOME={self.home}", *words],
+        """What a command prints, with a home of its own, and without this
+        tree's packages for Python."""
+        found, text = call(["env", "-u", "PYTHONPATH", f"HOME={self.home}",
+                            *words],
                            cwd=cwd or self.work)
         self.assertEqual(found, code, f"{' '.join(map(str, words))}\n{text}")
         return text

@@ -4,13 +4,13 @@
 import sys
 from pathlib import Path
 
+from morula.run import Run
 from program import SCENES, ProgramTest, overrides
+from selenium.webdriver.common.by import By
+
+from tests.common.browser import Browser
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from browser import Browser  # noqa: E402
-from morula_runs.run import Run  # noqa: E402
-from selenium.webdriver.common.by import By  # noqa: E402
 
 SCENE = SCENES.parent / "programs/small-cube.prm"
 KEYS = {"Time/End time": "2", "Time/Step": "0.25", "Output/Formats": "vtu",

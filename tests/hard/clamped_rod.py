@@ -8,10 +8,11 @@ ends are squeezed to what the clamps leave. Half the rod, x >= 0; the bent shape
 is symmetric about the middle like the straight one.
 """
 import numpy
-from finite_elements import Axis, Block
 from scipy.optimize import brentq
 from scipy.sparse.linalg import eigsh, spsolve
-from stability import lame
+
+from tests.hard.stability import lame
+from tests.verification.finite_elements import Axis, Block
 
 DEGREE = 4
 EDGES = numpy.array([0, .3, .55, .75, .88, .95, .985, 1])  # finer at the clamp

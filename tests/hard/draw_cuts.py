@@ -13,10 +13,9 @@ import matplotlib
 import numpy
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
+from matplotlib import pyplot
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes/checks"))
-from results import read_csv  # noqa: E402
+from tests.common.results import read_csv
 
 SWEEPS = {"disc-paper-s-keys-y": ("the paper's clamp, y", "C1", "o-"),
           "disc-y": ("consistent clamp, y", "C0", "o-"),

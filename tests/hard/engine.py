@@ -4,8 +4,9 @@
 import re
 
 import numpy
-from case import Figures
-from results import positions, read_csv
+
+from tests.common.results import positions, read_csv
+from tests.hard.case import Figures
 
 NOT_A_NUMBER = re.compile(r"(^|,)\s*[-+]?(nan|inf)", re.IGNORECASE)
 TIME = r"[Aa]t t = [-+.0-9e]+ day"

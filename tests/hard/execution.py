@@ -7,12 +7,12 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from case import Run
-from engine import (different_cells, figures, numbers_missing, wrong_end,
-                    wrong_resume)
-from processes import (ROOT, call, digest, files_of_scene, overrides,
-                       program_stamp)
-from results import Results
+from tests.common.processes import (ROOT, call, digest, files_of_scene,
+                                    overrides, program_stamp)
+from tests.common.results import Results
+from tests.hard.case import Run
+from tests.hard.engine import (different_cells, figures, numbers_missing,
+                               wrong_end, wrong_resume)
 
 HERE = Path(__file__).resolve().parent
 SCENES = ROOT / "prm/hard"

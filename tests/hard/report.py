@@ -4,8 +4,8 @@
 import math
 import re
 
-import tables
-from tables import aligned, number
+from tests.common import tables
+from tests.common.tables import aligned, number
 
 HEADER = ["trial", "outcome", "steps", "Newton/step", "linear/Newton",
           "condition", "rejected", "smallest J_e", "error"]

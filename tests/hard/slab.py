@@ -4,8 +4,9 @@
 (doc/exact-solutions.md)."""
 import math
 
-from material import lame
 from scipy.optimize import brentq
+
+from tests.verification.material import lame
 
 
 def slab(theta, E=1.0, nu=0.4):

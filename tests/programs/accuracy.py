@@ -8,16 +8,14 @@ import csv
 import math
 import shutil
 import statistics
-import sys
 from pathlib import Path
 
+from morula import columns
 from program import ProgramTest, main, read_csv
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "contrib/python"), str(ROOT / "tests/verification")]
+from tests.verification.radial import GrowingBall, Layer
 
-from morula_runs import columns  # noqa: E402
-from radial import GrowingBall, Layer  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 # A disc whose cells divide at random.
 DISC = """

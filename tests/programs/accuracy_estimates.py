@@ -5,28 +5,24 @@
 noise and fronts are known: no run of the program.
 """
 import math
-import sys
 import unittest
 from pathlib import Path
 
 import numpy
+from morula.accuracy import arithmetic, offsets
+from morula.accuracy.estimate import center_of, estimate
+from morula.accuracy.front import Wanted, cheapest, pareto, read_wanted
+from morula.accuracy.limits import (DEFAULT_KINDS, limit_of, observed_order,
+                                    size_of)
+from morula.accuracy.measures import read_measure
+from morula.accuracy.request import output_interval
+from morula.ladder import Plan, read_ladder, read_seeds
+from morula.prm import parse
+from morula.scene import normal
 from program import main
+from upkeep import accuracy as documentation
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-
-from morula_accuracy import (arithmetic, documentation,  # noqa: E402
-                             offsets)
-from morula_accuracy.estimate import center_of, estimate  # noqa: E402
-from morula_accuracy.front import (Wanted, cheapest, pareto,  # noqa: E402
-                                   read_wanted)
-from morula_accuracy.limits import (DEFAULT_KINDS, limit_of,  # noqa: E402
-                                    observed_order, size_of)
-from morula_accuracy.measures import read_measure  # noqa: E402
-from morula_accuracy.request import output_interval  # noqa: E402
-from morula_runs.ladder import Plan, read_ladder, read_seeds  # noqa: E402
-from morula_runs.prm import parse  # noqa: E402
-from morula_runs.scene import normal  # noqa: E402
 
 
 class MadeUpScene:

@@ -8,9 +8,8 @@ import contextlib
 import io
 
 from accuracy import DISC, AccuracyTest
+from morula.accuracy import tool
 from program import main
-
-from morula_accuracy import tool
 
 SPACING = ["--vary", "Grid/Spacing=80,40"]
 MEASURE = ["--measure", "xmax,total_volume"]

@@ -4,17 +4,14 @@
 """Every scene of prm/ runs: one step, on a coarser lattice and grid where it has
 many cells, so that no scene rots. The figures they are for are judged elsewhere."""
 import math
-import sys
 from pathlib import Path
 
+from morula.prm import parse
 from program import ProgramTest, main, overrides, read_csv
 
+from tests.hard.cases import small_and_thin
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "contrib/python"), str(ROOT / "tests/hard"),
-                str(ROOT / "tests/hard/cases")]
-# flake8: noqa: E402
-import small_and_thin
-from morula_runs.prm import parse
 
 MOST_CELLS = 3000
 

@@ -7,17 +7,15 @@ tests/common/refusals.py, those of a resumed run in resume_refusals.py.
 """
 import re
 import resource
-import sys
 from pathlib import Path
 
+from morula.keys import keys_of
 from program import ProgramTest, main, overrides
 
+from tests.common import refusals
+from tests.common.refusals import CYCLE
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-# flake8: noqa: E402
-from morula_runs.keys import keys_of
-import refusals
-from refusals import CYCLE
 
 SCENE = ROOT / "tests/programs/small-cube.prm"
 

@@ -3,21 +3,20 @@
 # Copyright (C) 2026 by the Morula authors
 """contrib/cell-shapes: regions are those of closed forms, fill the tissue, and
 do not overlap. cell_shapes_files is about its files and options."""
-import sys
 from pathlib import Path
 
 import numpy as np
+from morula.run import Run
+from morula.shapes.cutting import cut
+from morula.shapes.polyhedra import SURFACE
+from morula.shapes.regions import LEAST_WALL, places
+from morula.shapes.voronoi import voronoi_regions
 from program import SCENES, ProgramTest, main, overrides
 from scipy.spatial import ConvexHull, HalfspaceIntersection, cKDTree
-from shapes_file import POLYGON, POLYHEDRON, ShapesFile, face_area
+
+from tests.common.shapes_file import POLYGON, POLYHEDRON, ShapesFile, face_area
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_runs.run import Run  # noqa: E402
-from morula_shapes.cutting import cut  # noqa: E402
-from morula_shapes.polyhedra import SURFACE  # noqa: E402
-from morula_shapes.regions import LEAST_WALL, places  # noqa: E402
-from morula_shapes.voronoi import voronoi_regions  # noqa: E402
 
 CUBE = SCENES.parent / "programs/small-cube.prm"
 

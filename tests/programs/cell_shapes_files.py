@@ -6,19 +6,18 @@ with --shapes. cell_shapes is about the regions themselves."""
 import os
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
+from morula.refusal import Refused
+from morula.run import Run
+from morula.shapes.condition import cells_where
 from program import SCENES, ProgramTest, main, overrides
-from shapes_file import ShapesFile
+
+from tests.common.shapes_file import ShapesFile
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_runs.refusal import Refused  # noqa: E402
-from morula_runs.run import Run  # noqa: E402
-from morula_shapes.condition import cells_where  # noqa: E402
 
 CUBE = SCENES.parent / "programs/small-cube.prm"
 

@@ -4,16 +4,14 @@
 """Which planes cut which region, on surfaces that make it hard: a gap, a hole,
 a re-entrant edge, cells that are outside. No run: cells and boundary points are
 made here."""
-import sys
 from pathlib import Path
 
 import numpy as np
+from morula.shapes.boundary import Boundary
+from morula.shapes.regions import regions_of
 from program import ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_shapes.boundary import Boundary  # noqa: E402
-from morula_shapes.regions import regions_of  # noqa: E402
 
 EDGE = 10.0  # um, of the cells of all lattices
 

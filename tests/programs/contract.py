@@ -8,7 +8,8 @@ import re
 from pathlib import Path
 
 from program import SCENES, ProgramTest, main, overrides, read_csv
-from results import read_keys
+
+from tests.common.results import read_keys
 
 HERE = Path(__file__).resolve().parent
 CUBE = HERE / "small-cube.prm"

@@ -4,7 +4,6 @@
 """contrib/doxygen: no warning, pages whole; what is wrong makes it fail."""
 import re
 import shutil
-import subprocess
 from html import unescape
 from urllib.parse import unquote
 

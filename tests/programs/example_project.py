@@ -11,8 +11,7 @@ import shutil
 import numpy
 from program import ProgramTest, main, read_csv
 
-# flake8: noqa: E402 (program.py knows where the module is)
-from installation import EXAMPLE, Installation
+from tests.common.installation import EXAMPLE, Installation
 
 
 class ExampleProject(Installation, ProgramTest):

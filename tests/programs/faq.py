@@ -3,12 +3,10 @@
 # Copyright (C) 2026 by the Morula authors
 """doc/faq.md: the messages it quotes are those of the sources, and all."""
 import re
-import unittest
 
 from program import ProgramTest, main
 
-# flake8: noqa: E402 (program.py knows where the modules are)
-from messages import ROOT, all_literals, said_at_once
+from tests.common.messages import ROOT, all_literals, said_at_once
 
 
 def quoted():

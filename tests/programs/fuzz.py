@@ -17,7 +17,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 from program import SCENES, ProgramTest, main
 

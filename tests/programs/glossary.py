@@ -4,14 +4,11 @@
 """doc/glossary.md has every key, every column and every section of timings."""
 import csv
 import re
-import sys
 
+from morula.keys import keys_of
 from program import TESTS, ProgramTest, main
 
 ROOT = TESTS.parent
-sys.path.insert(0, str(ROOT / "contrib/python"))
-# flake8: noqa: E402
-from morula_runs.keys import keys_of
 
 # Every effect, on a tissue of some cells.
 SCENE = """

@@ -4,13 +4,11 @@
 """The engine of the hard cases notices what is wrong: a program of a few lines
 takes Morula's place and misbehaves as it is told to.
 """
-import sys
 
-from program import TESTS, ProgramTest, main
+from program import ProgramTest, main
 
-sys.path.insert(0, str(TESTS / "hard"))
-from case import Finding, Trial
-from execution import Execution
+from tests.hard.case import Finding, Trial
+from tests.hard.execution import Execution
 
 SCENE = "cut-sphere.prm"
 FAILED = "At t = 0.5 day: did not converge.\n... --resume"

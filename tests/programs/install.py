@@ -9,8 +9,7 @@ import shutil
 
 from program import TESTS, ProgramTest, main
 
-# flake8: noqa: E402 (program.py knows where the module is)
-from installation import EXAMPLE, Installation
+from tests.common.installation import EXAMPLE, Installation
 
 ROOT = TESTS.parent
 
@@ -88,8 +87,14 @@ class Install(Installation, ProgramTest):
         self.call(tools / "morula-sweep", scene, "--seeds", "1-2",
                   "--vary", "Grid/Spacing=35,40", "-s", "Time/End time=0.125")
         self.assertTrue((self.work / "output/sweep/small-cube").is_dir())
-        self.assertIn("--reference", self.call(tools / "morula-accuracy",
-                                               "--help"))
+        self.call(tools / "morula-accuracy", scene, "--vary",
+                  "Grid/Spacing=60,50,40", "--measure", "total_volume",
+                  "-s", "Time/End time=0.125", "--output", self.work / "cost")
+        self.assertIn("Grid/Spacing", (self.work / "cost/table.md").read_text())
+        package = self.call(moved / "share/morula/python/launch", "-c",
+                            "import morula.run; print(morula.__file__)")
+        self.assertEqual(package.strip(), str(
+            moved / "share/morula/python/morula/__init__.py"))
         run = self.work / "run"
         self.call(tools / "morula", scene, "-s", "Time/End time=0.125",
                   "-s", f"Output directory={run}")

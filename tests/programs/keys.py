@@ -3,16 +3,13 @@
 # Copyright (C) 2026 by the Morula authors
 """The keys: doc/parameters.md has them all as they are; units; former names."""
 import subprocess
-import sys
 from pathlib import Path
 
+from morula.keys import RENAMES, keys_of, parse_keys
+from morula.migrate import migrate
 from program import ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-# flake8: noqa: E402
-from morula_runs.keys import RENAMES, keys_of, parse_keys
-from morula_runs.migration import migrate
 
 # A table of renames for tests alone.
 TEST_RENAMES = {"Grid/Mesh size": "Grid/Spacing",

@@ -4,17 +4,14 @@
 """The key Method: what a run does with it, writes of it, and resumes with it;
 and that the tools complete a scene as the program does.
 """
-import sys
 from pathlib import Path
 
+from morula.prm import parse
+from morula.program import Program
+from morula.scene import normal
 from program import ProgramTest, main, overrides, read_csv, without_wall_time
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-# flake8: noqa: E402
-from morula_runs.prm import parse
-from morula_runs.program import Program
-from morula_runs.scene import normal
 
 FORM = "Boundary conditions/Nitsche form"
 PENALTY = "Boundary conditions/Nitsche penalty"

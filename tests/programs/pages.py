@@ -6,15 +6,13 @@ of "Your first tissue" in README.md, and those of the step programs' pages, in
 a directory with the names of the tree."""
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
+from morula.run import Run
 from program import TESTS, ProgramTest, main
 
 ROOT = TESTS.parent
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_runs.run import Run  # noqa: E402
 
 STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
 COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)

@@ -12,13 +12,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from tests.common.processes import overrides
+from tests.common.results import read_csv
+
 TESTS = Path(__file__).resolve().parents[1]
 SCENES = TESTS / "scenes"
-
-sys.path[:0] = [str(SCENES / "checks"), str(TESTS / "common")]
-# flake8: noqa: E402, F401 (also for the tests that import them)
-from processes import overrides
-from results import read_csv
 
 
 def without_wall_time(run):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""morula_runs.run: a run read from CSV, from VTU and on two ranks is the same,
+"""morula.run: a run read from CSV, from VTU and on two ranks is the same,
 and its lineage is what the file says, row by row."""
 import csv
 import importlib.util
@@ -9,19 +9,17 @@ import math
 import os
 import re
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
+from morula.refusal import Refused
+from morula.run import Run, as_frame
+from morula.states import NoStates
 from program import SCENES, ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_runs.refusal import Refused  # noqa: E402
-from morula_runs.run import Run, as_frame  # noqa: E402
-from morula_runs.states import NoStates  # noqa: E402
 
 SCENE = SCENES.parent / "programs/small-cube.prm"
 
@@ -125,10 +123,9 @@ class ReadingRuns(ProgramTest):
         text = (ROOT / "doc/looking-at-results.md").read_text()
         code = re.search(r"<!-- example: clone -->\n```python\n(.*?)```", text,
                          re.DOTALL)[1]
-        (self.work / "contrib").symlink_to(ROOT / "contrib")
         (self.work / "example.py").write_text(code)
         said = subprocess.run(
-            [sys.executable, "example.py"], cwd=self.work, text=True,
+            [ROOT / "contrib/python/launch", "example.py"], cwd=self.work, text=True,
             env={**os.environ, "MPLBACKEND": "Agg"}, check=True,
             stdout=subprocess.PIPE).stdout
         founder, cells, alive = map(int, re.findall(r"\d+", said))

@@ -6,17 +6,15 @@ does not keep the others from being renewed, and that short runs change no page.
 """
 import re
 import shutil
-import sys
 from pathlib import Path
 
+from upkeep.measured import PAGES, Page
+from upkeep.renew import COPIED, Renewal, commit
 from program import TESTS, ProgramTest, main
 
+from tests.common.tables import renew
+
 ROOT = TESTS.parent
-sys.path.insert(0, str(ROOT / "contrib/python"))
-# flake8: noqa: E402
-from morula_renew.pages import PAGES, Page
-from morula_renew.tool import COPIED, Renewal, commit
-from tables import renew
 
 MADE = "<!-- table made -->\n<!-- end -->\n"
 

@@ -6,21 +6,19 @@ it packs and fits. report_page and report_view open its page."""
 import base64
 import json
 import re
-import sys
 import zlib
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+from morula.report import growth_fit, selection, shell
+from morula.report.accuracy import BEST, FEWEST
+from morula.report.packing import packed, quantised
+from morula.run import Run
 from PIL import Image
 from program import SCENES, ProgramTest, main, overrides
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from morula_report import growth_fit, selection, shell  # noqa: E402
-from morula_report.accuracy import BEST, FEWEST  # noqa: E402
-from morula_report.packing import packed, quantised  # noqa: E402
-from morula_runs.run import Run  # noqa: E402
 
 CUBE = SCENES.parent / "programs/small-cube.prm"
 

@@ -9,10 +9,10 @@ import re
 
 import numpy as np
 from program import SCENES, main
-
-from report_test import KEYS, TABS, ReportTest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+from tests.common.report_test import KEYS, TABS, ReportTest
 
 
 def contrast(one, other):

@@ -10,8 +10,8 @@ from pathlib import Path
 from PIL import Image
 from program import main, overrides
 
-from browser import Browser  # noqa: I100 (program.py finds it)
-from report_test import KEYS, ROOT, SCENE, TABS, ReportTest
+from tests.common.browser import Browser  # noqa: I100 (program.py finds it)
+from tests.common.report_test import KEYS, ROOT, SCENE, TABS, ReportTest
 
 # Each would run if it became an element. The second ends elements of the page,
 # and begins a comment that would hide all that follows.

@@ -7,16 +7,16 @@ import base64
 
 import numpy as np
 from matplotlib.colors import to_rgb
+from morula.draw.colours import NAMED, palette_of, style_of
 from program import main
-
-from browser import image_of  # noqa: I100 (program.py finds it)
-from report_test import ReportTest
-from drawing.colours import NAMED, palette_of, style_of
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+from tests.common.browser import image_of  # noqa: I100 (program.py finds it)
+from tests.common.report_test import ReportTest
 
 BACKGROUND = 255  # of the light page
 

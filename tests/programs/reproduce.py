@@ -3,17 +3,16 @@
 # Copyright (C) 2026 by the Morula authors
 """contrib/reproduce on coarse scenes, and what it computes from runs."""
 import math
-import sys
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
+from morula import fits
+from morula.draw.surface import triangles_of
 from program import ProgramTest, main, overrides, read_csv
+from reproduction import catalogue, outline, renewal
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "contrib/python"))
-from drawing.surface import triangles_of  # noqa: E402
-from paper import catalogue, fits, outline, renewal  # noqa: E402
 
 CUBE = overrides({"Tissue/Cell spacing": "40", "Tissue/Boundary points": "150",
                   "Grid/Spacing": "100"})
@@ -142,7 +141,7 @@ class Reproduce(ProgramTest):
 
     def reproduce(self, *arguments, code=0):
         return self.run_words(
-            [sys.executable, ROOT / "contrib/reproduce", "--morula",
+            [ROOT / "contrib/reproduce", "--morula",
              self.options.morula, "--output", self.work, *arguments], code)
 
     def assert_pictures(self, *names):

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from program import TESTS, ProgramTest, main
 
-# flake8: noqa: E402 (program.py knows where the module is)
-from processes import call
+from tests.common.processes import call
 
 ROOT = TESTS.parent
 

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import h5py
 from program import ProgramTest, main, overrides
-from sealing import seal
+
+from tests.common.sealing import seal
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 ESTIMATE = overrides({"Output/Condition estimate": "true"})

@@ -11,8 +11,7 @@ import shutil
 
 from program import TESTS, ProgramTest, main
 
-# flake8: noqa: E402 (program.py knows where the module is)
-from processes import call
+from tests.common.processes import call
 
 ROOT = TESTS.parent
 SETUP = ROOT / "contrib/setup"

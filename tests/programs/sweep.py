@@ -13,20 +13,17 @@ import shutil
 import signal
 import statistics
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 from accuracy import DISC
+from morula.program import cores
+from morula.sweep import tool
+from morula.sweep.ensemble import summary
 from PIL import Image
 from program import ProgramTest, main, overrides, read_csv
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "contrib/python")]
-
-from morula_runs.program import cores  # noqa: E402
-from morula_sweep import tool  # noqa: E402
-from morula_sweep.ensemble import summary  # noqa: E402
 
 RATE = "Proliferation/Cell cycle/G0 exit rate"
 VARY = ["--vary", f"{RATE}=1,2", "--vary", "Grid/Spacing=80,40"]

@@ -6,7 +6,6 @@
 No run of the program: the references are compared with published values, closed
 forms and finite differences, before they judge anything.
 """
-import sys
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,17 +14,15 @@ import numpy
 from program import main
 from scipy.integrate import trapezoid
 
-VERIFICATION = Path(__file__).resolve().parents[1] / "verification"
-sys.path[:0] = [str(VERIFICATION), str(VERIFICATION / "cases")]
+from tests.common.results import Results
+from tests.verification import layouts
+from tests.verification.cases import self_weight, vortex
+from tests.verification.finite_elements import Axis, Block
+from tests.verification.ladder import SCENES, Ladder, Measured, rungs
+from tests.verification.material import cauchy, lame
+from tests.verification.radial import GrowingBall, Layer
 
-import layouts  # noqa: E402
-import self_weight  # noqa: E402
-import vortex  # noqa: E402
-from finite_elements import Axis, Block  # noqa: E402
-from ladder import SCENES, Ladder, Measured, rungs  # noqa: E402
-from material import cauchy, lame  # noqa: E402
-from radial import GrowingBall, Layer  # noqa: E402
-from results import Results  # noqa: E402
+VERIFICATION = Path(__file__).resolve().parents[1] / "verification"
 
 
 class Material(unittest.TestCase):

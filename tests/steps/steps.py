@@ -8,12 +8,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from upkeep.step_tables import tables
 
-sys.path[:0] = [str(ROOT / "tests/programs"), str(ROOT / "contrib/python")]
-# flake8: noqa: E402, F401 (also for the tests that import them)
-from morula_runs.org_tables import tables
-from program import ProgramTest, overrides, read_csv
+from tests.programs.program import ProgramTest, overrides, read_csv
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class StepTest(ProgramTest):

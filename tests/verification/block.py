@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Blocks in plane strain whose reference are body-fitted finite elements."""
 import numpy
-from errors import field_errors
-from material import cauchy, lame
+
+from tests.verification.errors import field_errors
+from tests.verification.material import cauchy, lame
 
 DEGREES = 6, 8
 CONVERGED = 1e-6  # relative difference of the displacements of both degrees

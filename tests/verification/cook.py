@@ -11,10 +11,12 @@ singular. By hand, the table of results and what changes with degree and levels:
     tests/verification/cook.py
 """
 import numpy
-from finite_elements import NEWTON_TOLERANCE, Axis, Block, lagrange
-from material import lame
 from numpy.polynomial import legendre
 from scipy.sparse.linalg import spsolve
+
+from tests.verification.finite_elements import (NEWTON_TOLERANCE, Axis, Block,
+                                                lagrange)
+from tests.verification.material import lame
 
 CORNERS = numpy.array([[[0.0, 0.0], [48.0, 44.0]], [[0.0, 44.0], [48.0, 60.0]]])
 TRACTION = 0.025  # kPa, upwards

@@ -2,7 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """Errors of a run against an exact motion, in the L2 norm over the cells."""
 import numpy
-from results import initial_positions, positions, stresses
+
+from tests.common.results import initial_positions, positions, stresses
 
 
 def norm(values, weights):

@@ -8,10 +8,11 @@ import shutil
 from pathlib import Path
 
 import numpy
-from ladder import SCENES, Measured
-from processes import (call, digest, files_of_scene, overrides,
-                       program_stamp)
-from results import Results
+
+from tests.common.processes import (call, digest, files_of_scene, overrides,
+                                    program_stamp)
+from tests.common.results import Results
+from tests.verification.ladder import SCENES, Measured
 
 HERE = Path(__file__).resolve().parent
 

@@ -2,10 +2,11 @@
 # Copyright (C) 2026 by the Morula authors
 """What the growing spheres and discs have in common: their errors."""
 import numpy
-from errors import field_errors
-from material import cauchy, lame
-from radial import GrowingBall
-from results import initial_positions, positions
+
+from tests.common.results import initial_positions, positions
+from tests.verification.errors import field_errors
+from tests.verification.material import cauchy, lame
+from tests.verification.radial import GrowingBall
 
 RADIUS = 250  # µm
 

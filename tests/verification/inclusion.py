@@ -9,9 +9,10 @@ db/dR = (exp(a - b) - 1)/R are two ordinary differential equations; s follows by
 shooting for r(1) = 1.
 """
 import numpy
-from material import lame
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+
+from tests.verification.material import lame
 
 CORE = 0.5
 

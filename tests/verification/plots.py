@@ -4,11 +4,12 @@
 a picture of the vortex."""
 import matplotlib
 import numpy
-from execution import run
-from results import initial_positions, positions
+
+from tests.common.results import initial_positions, positions
+from tests.verification.execution import run
 
 matplotlib.use("Agg")
-from matplotlib import pyplot, ticker  # noqa: E402
+from matplotlib import pyplot, ticker
 
 # One colour a case in all figures: Okabe & Ito's without yellow, two more.
 COLOURS = {"vortex": "#0072B2", "self_weight": "#E69F00",

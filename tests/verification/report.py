@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Tables of errors and orders, for the terminal and for the documentation."""
 import numpy
-import tables
-from tables import aligned, number
+
+from tests.common import tables
+from tests.common.tables import aligned, number
 
 
 def table(measured):

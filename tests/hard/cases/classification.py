@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Grid cells that change their class while tissue grows through them."""
 import numpy
-from case import Case, Finding, Trial
-from slab import slab
+
+from tests.hard.case import Case, Finding, Trial
+from tests.hard.slab import slab
 
 SCENE, L_P = "growing-column.prm", 4.0
 RATIOS = (1, 1.5, 2, 3.3, 5, 10)  # h / L_p

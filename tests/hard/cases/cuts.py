@@ -6,9 +6,10 @@ import math
 import re
 
 import numpy
-from case import Case, Finding, Trial
-from results import positions
-from slab import slab
+
+from tests.common.results import positions
+from tests.hard.case import Case, Finding, Trial
+from tests.hard.slab import slab
 
 N = 20  # offsets
 IN_CTEST = (0, 4, 8, 13, 16)

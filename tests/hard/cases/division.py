@@ -4,9 +4,10 @@
 import itertools
 
 import numpy
-from case import Case, Finding, Trial
-from results import positions
 from scipy.spatial import cKDTree
+
+from tests.common.results import positions
+from tests.hard.case import Case, Finding, Trial
 
 LENGTH = 10.0  # of a founder, µm
 

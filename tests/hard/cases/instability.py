@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Growth that ends in buckling, wrinkling and creasing."""
-import clamped_rod
 import numpy
-from case import Case, Finding, Trial
-from results import read_csv
-from stability import Part, half_space, layers, rings
+
+from tests.common.results import read_csv
+from tests.hard import clamped_rod
+from tests.hard.case import Case, Finding, Trial
+from tests.hard.stability import Part, half_space, layers, rings
 
 ROD = 2 * numpy.pi / 400  # wave number of the modes of both rods, 1/µm
 COARSE_ROD = {"Tissue/Cell spacing": "5", "Grid/Spacing": "20"}

@@ -4,7 +4,7 @@
 generations, and steps far too long or too short."""
 import numpy
 
-from case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Trial
 
 E, NU = 1.0, 0.4
 LAMBDA = E * NU / ((1 + NU) * (1 - 2 * NU))

@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Bodies that nothing holds, or not enough."""
 import numpy
-from case import Case, Finding, Trial
-from results import initial_positions, positions, read_csv
+
+from tests.common.results import initial_positions, positions, read_csv
+from tests.hard.case import Case, Finding, Trial
 
 ANGLES = 0.5, 1.0  # of the turned layouts, radians
 SHIFT = 40.0, -60.0  # µm, whole grid cells

@@ -7,11 +7,12 @@ The seed of a scene stands in the names of its trials.
 import random
 
 import numpy
-from case import Case, Finding, Trial
-from random_scenes import (AlignedScene, LatticeScene, PointsScene,
-                           quarter_turns_and_mirrors, rotation)
-from results import initial_positions, positions, read_csv
 from scipy.spatial import cKDTree
+
+from tests.common.results import initial_positions, positions, read_csv
+from tests.hard.case import Case, Finding, Trial
+from tests.hard.random_scenes import (AlignedScene, LatticeScene, PointsScene,
+                                      quarter_turns_and_mirrors, rotation)
 
 SCENE = "properties.prm"
 N_QUICK, N_FULL = 3, 20

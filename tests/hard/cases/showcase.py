@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """From 27 cells to 100,000."""
 import numpy
-from case import Case, Finding, Trial
-from results import positions, read_csv, stresses
+
+from tests.common.results import positions, read_csv, stresses
+from tests.hard.case import Case, Finding, Trial
 
 RATE = 0.3748  # 1/day: the root of 2 exp(-r) / (1 + r) = 1
 

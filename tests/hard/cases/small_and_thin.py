@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Tissue smaller than what the grid resolves: clusters, rods, sheets, necks."""
 import numpy
-from case import Case, Finding, Trial
-from results import initial_positions, positions
+
+from tests.common.results import initial_positions, positions
+from tests.hard.case import Case, Finding, Trial
 
 SHAPES = {"1 cell": "10, 10, 10", "2 cells": "20, 10, 10",
           "8 cells": "20, 20, 20", "27 cells": "30, 30, 30",

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Tolerances at the limit of rounding, and expressions that lose their value in
 mid-run."""
-from case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Trial
 
 # No number between t = 0.9 and 1.6; but at 0 and at End time, where scenes are
 # checked before they run.

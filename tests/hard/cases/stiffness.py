@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Nearly incompressible tissue, and soft cells beside stiff ones."""
-import inclusion
 import numpy
-from case import Case, Finding, Trial
-from cook import REFERENCE
-from material import lame
-from radial import GrowingBall, Layer
 from scipy.optimize import brentq
+
+from tests.hard.case import Case, Finding, Trial
+from tests.verification import inclusion
+from tests.verification.cook import REFERENCE
+from tests.verification.material import lame
+from tests.verification.radial import GrowingBall, Layer
 
 NU = (0.4, 0.49, 0.499, 0.4999)
 COARSE = {"Grid/Spacing": "8", "Tissue/Cell spacing": "2",

@@ -11,7 +11,9 @@ normal's axis; then the tolerance relative to sum V |sigma|.
 import sys
 
 import numpy
-from results import (Results, agree, initial_positions, positions, stresses)
+
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  stresses)
 
 results = Results(sys.argv[1])
 support, tolerance = sys.argv[2], float(sys.argv[3])

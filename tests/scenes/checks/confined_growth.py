@@ -10,8 +10,9 @@ that published values give, if any.
 import sys
 
 import numpy
-from results import (Results, agree, initial_positions, positions, root,
-                     stresses)
+
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  root, stresses)
 
 results = Results(sys.argv[1])
 lame_lambda, mu = results.lame()

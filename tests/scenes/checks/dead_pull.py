@@ -8,8 +8,9 @@ tau_xx = a t_x, and tau_yy = 0.
 import sys
 
 import numpy
-from results import Results, agree
 from scipy.optimize import fsolve
+
+from tests.common.results import Results, agree
 
 results = Results(sys.argv[1])
 lame_lambda, mu = results.lame()

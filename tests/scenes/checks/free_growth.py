@@ -7,7 +7,9 @@ The centre, weighted with the initial volumes, stays.
 import sys
 
 import numpy
-from results import Results, agree, initial_positions, positions, stresses
+
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  stresses)
 
 results = Results(sys.argv[1])
 cells = results.last_cells()

@@ -7,7 +7,8 @@ or the axis of the normal of the only slip plane.
 import sys
 
 import numpy
-from results import Results, agree, initial_positions, positions
+
+from tests.common.results import Results, agree, initial_positions, positions
 
 results = Results(sys.argv[1])
 support = sys.argv[2]

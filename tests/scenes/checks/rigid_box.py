@@ -9,7 +9,9 @@ b_e,zz = 1.
 import sys
 
 import numpy
-from results import Results, agree, initial_positions, positions, stresses
+
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  stresses)
 
 results = Results(sys.argv[1])
 lame_lambda, mu = results.lame()

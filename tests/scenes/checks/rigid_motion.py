@@ -6,7 +6,8 @@ The motion is the key Displacement itself, here for all cells.
 """
 import sys
 
-from results import Results, agree, initial_positions, positions, stresses
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  stresses)
 
 results = Results(sys.argv[1])
 cells = results.last_cells()

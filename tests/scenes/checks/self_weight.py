@@ -11,9 +11,10 @@ cells) and of the settling of the top cells (relative).
 import sys
 
 import numpy
-from results import (Results, agree, initial_positions, positions, root,
-                     stresses)
 from scipy.integrate import trapezoid
+
+from tests.common.results import (Results, agree, initial_positions, positions,
+                                  root, stresses)
 
 results = Results(sys.argv[1])
 lame_lambda, mu = results.lame()

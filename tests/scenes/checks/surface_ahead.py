@@ -5,7 +5,8 @@ largest displacement of a cell and a grid spacing."""
 import sys
 
 import numpy
-from results import Results, initial_positions, positions
+
+from tests.common.results import Results, initial_positions, positions
 
 results = Results(sys.argv[1])
 cells, surface = (

@@ -3,10 +3,11 @@
 """A cantilever bent by its own weight."""
 from functools import lru_cache
 
-import block
-from finite_elements import Axis, Block
-from ladder import Case, Ladder, rungs, spacing, spacing_and_cut
-from material import lame
+from tests.verification import block
+from tests.verification.finite_elements import Axis, Block
+from tests.verification.ladder import (Case, Ladder, rungs, spacing,
+                                       spacing_and_cut)
+from tests.verification.material import lame
 
 PLANE, SPACE = ("cantilever-2d.prm",), ("cantilever-3d.prm",)
 SMOOTH = {"displacement": 1.9, "stress": 0.9}

@@ -3,10 +3,11 @@
 """Uniform growth between slip walls: exact on aligned grids, near it on cut
 ones."""
 import numpy
-from errors import field_errors
-from ladder import Case, Ladder, cut, rungs, spacing_and_cut
-from material import cauchy, lame
 from scipy.optimize import brentq
+
+from tests.verification.errors import field_errors
+from tests.verification.ladder import Case, Ladder, cut, rungs, spacing_and_cut
+from tests.verification.material import cauchy, lame
 
 THETA = 1.4
 PLANE, SPACE = ("confined-growth-2d.prm",), ("confined-growth-3d.prm",)

@@ -3,11 +3,10 @@
 """Free sphere and disc of which only the core grows."""
 from functools import partial
 
-import growing_ball
-import layouts
-from growing_ball import RADIUS
-from ladder import Case, Ladder, rungs, spacing
-from radial import Layer
+from tests.verification import growing_ball, layouts
+from tests.verification.growing_ball import RADIUS
+from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.radial import Layer
 
 CORE = RADIUS / 2
 LAYERS = [Layer(0, CORE, lambda R: 1.4 + 0 * R, lambda R: 0.0),

@@ -3,10 +3,11 @@
 """Nitsche's conditions against a mesh that fits the body."""
 from functools import lru_cache
 
-import block
-from finite_elements import Axis, Block
-from ladder import Case, Ladder, cut, rungs, spacing, spacing_and_cut
-from material import lame
+from tests.verification import block
+from tests.verification.finite_elements import Axis, Block
+from tests.verification.ladder import (Case, Ladder, cut, rungs, spacing,
+                                       spacing_and_cut)
+from tests.verification.material import lame
 
 PLANE, SPACE = ("fitted-2d.prm",), ("fitted-3d.prm",)
 SMOOTH = {"displacement": 1.9, "stress": 0.9}

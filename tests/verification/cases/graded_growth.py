@@ -3,11 +3,10 @@
 """Free sphere and disc with smoothly graded growth, theta = 1 ... 1.4."""
 from functools import partial
 
-import growing_ball
-import layouts
-from growing_ball import RADIUS
-from ladder import Case, Ladder, rungs, spacing
-from radial import Layer
+from tests.verification import growing_ball, layouts
+from tests.verification.growing_ball import RADIUS
+from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.radial import Layer
 
 LAYERS = [Layer(0, RADIUS, lambda R: 1 + 0.4 * (R / RADIUS)**2,
                 lambda R: 0.8 * R / RADIUS**2)]

@@ -3,10 +3,11 @@
 """Patch tests: affine and rigid motions and free growth, for any cut of the
 grid."""
 import numpy
-from errors import norm
-from ladder import Case, Ladder, rungs, spacing
-from material import cauchy, lame
-from results import initial_positions, positions, stresses
+
+from tests.common.results import initial_positions, positions, stresses
+from tests.verification.errors import norm
+from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.material import cauchy, lame
 
 PLANE, SPACE = ("patch-2d.prm",), ("patch-3d.prm",)
 EXACT = {"displacement": 1e-8, "stress [kPa]": 1e-8}

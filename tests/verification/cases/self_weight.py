@@ -2,9 +2,11 @@
 # Copyright (C) 2026 by the Morula authors
 """A column under its own weight between slip walls."""
 import numpy
-from errors import field_errors
-from ladder import Case, Ladder, cut, rungs, spacing, spacing_and_cut
-from material import cauchy, lame
+
+from tests.verification.errors import field_errors
+from tests.verification.ladder import (Case, Ladder, cut, rungs, spacing,
+                                       spacing_and_cut)
+from tests.verification.material import cauchy, lame
 
 WEIGHT, LENGTH = 5e-3, 200  # kPa/µm, µm
 LAMBDA, MU = lame()

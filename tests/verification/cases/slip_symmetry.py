@@ -2,9 +2,11 @@
 # Copyright (C) 2026 by the Morula authors
 """Half a body on a slip plane against the whole body."""
 import numpy
-from errors import norm
-from ladder import Case, Ladder, rungs, spacing, spacing_and_cut
-from results import initial_positions, positions, stresses
+
+from tests.common.results import initial_positions, positions, stresses
+from tests.verification.errors import norm
+from tests.verification.ladder import (Case, Ladder, rungs, spacing,
+                                       spacing_and_cut)
 
 PLANE = ("slip-half-2d.prm", "slip-full-2d.prm")
 SPACE = ("slip-half-3d.prm", "slip-full-3d.prm")

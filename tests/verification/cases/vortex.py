@@ -2,9 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """Generalised vortex (Kamojjala & Brannon 2015; de Vaucorbeil et al. 2020)."""
 import numpy
-from errors import field_errors
-from ladder import Case, Ladder, rungs, spacing
-from material import cauchy, lame
+
+from tests.verification.errors import field_errors
+from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.material import cauchy, lame
 
 
 def angle(R, t):

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The words of the command line."""
+import argparse
+
+from morula.command_line import Parser, add_run_options
+
+
+def parser():
+    result = Parser(
+        prog="contrib/accuracy", allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Runs a scene over ladders of its keys and draws error "
+        "against wall time,\nunknowns and memory.",
+        epilog="""examples:
+  contrib/accuracy prm/paper/fig-2b.prm --vary "Grid/Spacing=100,75,50,33" \\
+      --vary "Time/Step=2,1,0.5" --measure zmax,total_volume --wanted 1%
+  contrib/accuracy my.prm --measure "cells:p99(energy_density)" \\
+      --vary "Grid/Spacing,Tissue/Cell spacing=100:20,50:10,25:5" --seeds 1..8
+  contrib/accuracy my.prm --measure zmax --offsets 16
+
+doc/accuracy-and-cost.md explains the results.""")
+    add = result.add_argument
+    add("scene", metavar="SCENE.prm")
+    add("--vary", action="append", default=[], metavar="KEY=VALUES",
+        help="a ladder: values separated by commas ('|' where they contain "
+        "some); KEY,KEY=VALUE:VALUE,... changes keys together; 'NAME: KEY=...' "
+        "names it in the figures; may be repeated")
+    add("--measure", required=True, metavar="LIST",
+        help="columns of statistics.csv, or cells:reduction(column), "
+        "surface:reduction(column)")
+    add("--at", metavar="DAYS", help="times of the comparison; default: the "
+        "scene's end. Runs end at the last of them")
+    add("--seeds", metavar="1..8", help="means over these random seeds")
+    add("--offsets", metavar="N", help="every run at N positions of the grid, "
+        "spread through one grid cell: how far do results depend on where it "
+        "lies? Needs no --vary")
+    add("--grid", action="store_true", help="every combination of the "
+        "ladders, instead of each alone round the scene's own values")
+    add("--reference", metavar="FILE.csv", help="right values, in columns "
+        "named like the measures, MEASURE_error, time")
+    add("--reference-column", action="append", default=[],
+        metavar="NEW=EXPRESSION", help="names or computes a column of the "
+        "reference file, e.g. zmax=apex or time=10*(theta-1)")
+    add("--limit", action="append", default=[], metavar="KEY=KIND",
+        help="how a key becomes finer: zero, large, tolerance, none")
+    add("--wanted", metavar="ERROR", help="1%%, 0.5um, zmax=0.5um,...: marks "
+        "the cheapest run that is as good")
+    add("--repeat", default="1", metavar="N", help="times that each run is "
+        "done; the shortest counts")
+    add_run_options(add, "output/accuracy/SCENE")
+    return result

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Where the package stands: in Morula's tree, in contrib/python; below an
+installation's prefix, in share/morula/python; or in a Python of somebody's."""
+import shutil
+from pathlib import Path
+
+_PYTHON = Path(__file__).resolve().parents[1]
+ROOT = _PYTHON.parents[1]  # of the tree
+INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
+
+
+def _program():
+    if not INSTALLED:
+        return ROOT / "build/morula"
+    beside = _PYTHON.parents[2] / "bin/morula"
+    return beside if beside.is_file() else Path(
+        shutil.which("morula") or "morula")
+
+
+MORULA = _program()
+OUTPUT = Path("output") if INSTALLED else ROOT / "output"

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The command contrib/render."""
+import os
+import sys
+
+from morula.draw.screen import on_virtual_screen, run_on_virtual_screen
+from morula.refusal import Refused
+from morula.states import NoStates
+from PIL import Image
+
+from .frames import Frames
+from .request import Request, arguments
+
+
+def main(words=None):
+    options = arguments(words)
+    try:
+        request = Request(options)
+        if options.shapes and not on_virtual_screen():
+            # VTK draws polyhedra; spheres need no screen.
+            return run_on_virtual_screen(
+                [sys.executable, "-P", "-m", "morula", *sys.argv])
+        draw(request)
+    except (Refused, NoStates, OSError) as error:
+        print(f"render: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def draw(request):
+    frames = Frames(request)
+    options = request.options
+    if request.film:
+        # half a film must not replace a good one
+        unfinished = request.path.with_name(
+            f".{request.path.stem}.part{request.path.suffix}")
+        try:
+            request.film((picture for _, picture in frames), unfinished)
+            os.replace(unfinished, request.path)
+        finally:
+            unfinished.unlink(missing_ok=True)
+        print(f"render: {request.path}, {len(request.states)} states")
+        return
+    for number, picture in frames:
+        path = (request.path / f"{options.field}-{number:04}.png"
+                if options.all else request.path)
+        Image.fromarray(picture).save(path, "PNG")
+        print(f"render: {path}", flush=True)

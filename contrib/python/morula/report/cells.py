@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The states of the cells and of the surface, small enough for a page.
+
+Positions are written with 16 bits a coordinate of the box round all states,
+radii and fields with 8 bits of their range. Cells stand in order of their ids,
+which the page finds from the lineage."""
+import matplotlib
+import numpy as np
+from morula.columns import POINTS, STRESS, unit_in
+from morula.draw.colours import (FIELDS, NAMED, WHOLE_NUMBERS, limits_of,
+                                 palette_of, style_of)
+from morula.draw.points import radii_of
+from morula.states import NoStates
+
+from . import selection, shell
+from .packing import block, packed, quantised
+
+PERCENTILES = (0.5, 99.5)
+NO_FIELDS = ("time", "id", "parent", "X", "Y", "Z")
+STEPS = 255
+
+
+def scalar_fields(columns):
+    return [name for name, values in columns.items()
+            if np.ndim(values) == 1 and name not in NO_FIELDS]
+
+
+def label_of(name, dimension):
+    """With its unit; the unit goes into the label of the colour bar."""
+    unit = POINTS["cells"].get(name)
+    if unit is None and ("pressure" in name or "stress" in name):
+        unit = STRESS
+    unit = unit_in(unit or "", dimension).replace("um", "µm").replace(
+        "^3", "³").replace("^2", "²")
+    words = FIELDS.get(name, (name.replace("_", " "),))[0]
+    words = words.split(" [")[0].replace("$J_e$", "").replace("$J_g$", "")
+    return words.strip(), unit
+
+
+class Packed:
+    """Blocks of the page, and what the page must know of them (`about`)."""
+
+    def __init__(self, run, fields, wanted, limit):
+        self.run, self.blocks = run, []
+        flat = run.dimension == 2
+        counts = [self._count(i) for i in range(len(run.times))]
+        per_cell = self._bytes_per_cell(fields)
+        self.selection = selection.choose(run, counts, per_cell, fields,
+                                          wanted, limit)
+        self._measure(flat)
+        states = [self._pack(shown, i, flat) for shown, i in
+                  enumerate(self.selection.states)]
+        self.about = {
+            "flat": flat, "low": self.low.tolist(),
+            "size": (self.high - self.low).tolist(), "radii": self.radii,
+            "stride": self.selection.stride, "states": states,
+            "fields": [self._field(name) for name in fields]}
+
+    def _count(self, i):
+        row = np.argmin(np.abs(self.run.statistics["time"]
+                               - self.run.times[i]))
+        return int(self.run.statistics["cells"][row])
+
+    def _bytes_per_cell(self, fields):
+        """In the page, from the last state, the most disordered one."""
+        cells = self.run.cells(-1)
+        size = 0
+        for values, dtype in [(cells[c], np.uint16) for c in "xyz"] + [
+                (cells[name], np.uint8) for name in ("volume", *fields)]:
+            size += len(packed(quantised(values, values.min(), values.max(),
+                                         dtype)))
+        return size / len(cells["x"])
+
+    def _measure(self, flat):
+        """Ranges over all states that are shown."""
+        lows, highs, radii, self.ranges = [], [], [], {}
+        samples = {name: [] for name in self.selection.fields}
+        for i in self.selection.states:
+            cells = self.run.cells(i)
+            positions = [np.array([cells[c] for c in "xyz"])]
+            surface = self._surface(i)
+            if surface is not None:
+                positions.append(np.array([surface[c] for c in "xyz"]))
+            lows += [p.min(axis=1) for p in positions]
+            highs += [p.max(axis=1) for p in positions]
+            r = radii_of(cells["volume"], flat)
+            radii += [r.min(), r.max()]
+            for name, values in samples.items():
+                values.append(np.asarray(cells[name], dtype=float))
+        self.low, self.high = np.min(lows, axis=0), np.max(highs, axis=0)
+        self.radii = [float(min(radii)), float(max(radii))]
+        for name, values in samples.items():
+            self.ranges[name] = range_of(name, np.concatenate(values))
+
+    def _surface(self, i):
+        """The boundary points, or None: a tissue of points has none."""
+        try:
+            surface = self.run.surface(i)
+        except NoStates:
+            return None
+        return surface if len(surface["id"]) else None
+
+    def _positions(self, columns, stride=1):
+        return [quantised(columns[c][::stride], self.low[k], self.high[k],
+                          np.uint16) for k, c in enumerate("xyz")]
+
+    def _pack(self, shown, i, flat):
+        cells, surface = self.run.cells(i), self._surface(i)
+        every = self.selection.stride
+        radii = radii_of(cells["volume"][::every], flat)
+        seen, depth = shell.of(np.array([cells[c] for c in "xyz"]).T,
+                               cells["volume"], flat or every > 1)
+        self.blocks.append(block(f"cells-{shown}", packed(
+            *self._positions(cells, every),
+            quantised(radii, *self.radii, np.uint8),
+            seen[::every].astype(np.uint8))))
+        for name in self.selection.fields:
+            low, high = self.ranges[name][:2]
+            self.blocks.append(block(f"field-{name}-{shown}", packed(
+                quantised(cells[name][::every], low, high, np.uint8))))
+        if surface is not None:
+            self.blocks.append(block(f"surface-{shown}", packed(
+                *self._positions(surface),
+                surface["condition"].astype(np.uint8))))
+        return {"number": int(i), "time": float(self.run.times[i]),
+                "cells": len(cells["id"]), "shown": len(radii),
+                "shell": depth,
+                "surface": 0 if surface is None else len(surface["id"]),
+                "divisions": self._divisions(cells["id"])}
+
+    def _divisions(self, ids):
+        """How many divisions of the lineage came before a state, or None if
+        its cells are not those that the lineage then has."""
+        try:
+            lineage = self.run.lineage
+        except NoStates:
+            return None
+        born = int(ids.max()) + 1
+        mothers = lineage.parent[lineage.founders:born]
+        alive = np.setdiff1d(np.arange(born), mothers)
+        if not np.array_equal(alive, ids):
+            return None
+        return (born - lineage.founders) // 2
+
+    def _field(self, name):
+        low, high, smallest, largest = self.ranges[name]
+        label, unit = label_of(name, self.run.dimension)
+        return {"name": name, "label": label, "unit": unit, "low": low,
+                "high": high, "min": smallest, "max": largest,
+                "whole": name in WHOLE_NUMBERS, "palette": style_of(name)[1],
+                "names": {number: word for number, (word, _)
+                          in NAMED.get(name, {}).items()}}
+
+
+def range_of(name, values):
+    """Low and high end of the 255 steps, smallest and largest value."""
+    smallest, largest = float(values.min()), float(values.max())
+    if name in NAMED:
+        return min(NAMED[name]), max(NAMED[name]), smallest, largest
+    low, high = limits_of(name, values, PERCENTILES)
+    if name in WHOLE_NUMBERS:
+        high = max(high, low + 1)
+    return low, high, smallest, largest
+
+
+def palettes(names):
+    """256 colours each, as hexadecimal digits. Of a palette that names
+    numbers, from the first to the last, each has its part of them."""
+    found = {}
+    for name in sorted({*names, "hsv"}):
+        if name in NAMED:
+            low, high = min(NAMED[name]), max(NAMED[name])
+            numbers = low + np.arange(256) * (high - low + 1) // 256
+            colours = matplotlib.colors.to_rgba_array(
+                [NAMED[name].get(n, ("", "grey"))[1] for n in numbers])
+        else:
+            colours = palette_of(name)(np.arange(256))
+        found[name] = (255 * colours[:, :3]).round().astype(np.uint8) \
+            .tobytes().hex()
+    return found

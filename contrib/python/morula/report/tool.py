@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The command contrib/report."""
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from morula.places import MORULA
+from morula.program import Program
+from morula.refusal import Refused
+from morula.run import Run
+from morula.states import NoStates
+
+from .cells import scalar_fields
+from .document import page
+
+DESCRIPTION = """Makes one HTML page about a run.
+
+    contrib/report output/bud                  writes output/bud/report.html
+    contrib/report output/bud --states 5 --fields energy_density,phase
+
+The page holds everything, the cells in 3-D too, opens from the disk and needs
+no network. doc/looking-at-results.md shows one.
+"""
+
+
+def arguments(words):
+    parser = argparse.ArgumentParser(
+        prog="report", description=DESCRIPTION,
+        formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("directory", type=Path,
+                        help="output directory of a run")
+    parser.add_argument("--output", type=Path, metavar="FILE.html",
+                        help="default: report.html in that directory")
+    parser.add_argument("--states", type=int, metavar="N", help="at most so "
+                        "many states in 3-D; 0: no 3-D view; default: all\n"
+                        "that stay below --limit")
+    parser.add_argument("--fields", metavar="A,B,...", help="columns of the "
+                        "cells that can give the colour")
+    parser.add_argument("--limit", type=float, default=30, metavar="MB",
+                        help="of the cells in the page, MB; default: 30")
+    parser.add_argument("--no-pictures", dest="pictures",
+                        action="store_false", help="no still pictures")
+    parser.add_argument("--morula", type=Path, help="the executable, for the "
+                        "defaults of the keys; default:\nbuild/morula, or "
+                        "the one in the path, if there is one")
+    return parser.parse_args(words)
+
+
+def check(run, options):
+    """Throws Refused for what cannot be done, before any work."""
+    if options.states is not None and options.states < 0:
+        raise Refused("--states", options.states, "a number >= 0")
+    if not options.limit > 0:
+        raise Refused("--limit", options.limit, "a number of MB > 0")
+    options.output = options.output or run.directory / "report.html"
+    if options.output.is_dir() or not options.output.parent.is_dir():
+        raise Refused("--output", options.output, "a file in a directory "
+                      "that exists")
+    if options.fields is not None:
+        options.fields = [f.strip() for f in options.fields.split(",")]
+        if not len(run.times):
+            raise Refused("--fields", ",".join(options.fields), "nothing for "
+                          "a run without cells", "Leave it out.")
+        there = scalar_fields(run.cells(-1))
+        for field in options.fields:
+            if field not in there:
+                raise Refused("--fields", field, "a column of the cells: "
+                              + ", ".join(there))
+
+
+def find_program(wanted):
+    """The program that was named, or the one that is found, or None."""
+    if wanted is not None:
+        return Program(wanted)
+    found = shutil.which("morula")
+    for file in (MORULA, *([Path(found)] if found else [])):
+        if os.access(file, os.X_OK) and file.is_file():
+            try:
+                program = Program(file)
+                program.defaults  # an executable of another machine fails
+                return program
+            except (Refused, OSError):
+                continue
+    return None
+
+
+def write(text, file):
+    """Written aside and renamed, so that no half page replaces a good one. A
+    file's name need not be UTF-8: the page is."""
+    with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", errors="replace", dir=file.parent,
+            prefix=f".{file.name}.", delete=False) as stream:
+        try:
+            stream.write(text)
+            stream.flush()
+            os.chmod(stream.name, 0o644)
+            os.replace(stream.name, file)
+        except BaseException:
+            os.unlink(stream.name)
+            raise
+
+
+def main(words=None):
+    sys.stdout.reconfigure(errors="backslashreplace")
+    options = arguments(words)
+    try:
+        run = Run(options.directory)
+        check(run, options)
+        program = find_program(options.morula)
+        content = page(run, program, options,
+                       lambda line: print(line, file=sys.stderr))
+        write(content, options.output)
+    except (Refused, NoStates) as refusal:
+        print(f"report: {refusal}", file=sys.stderr)
+        return 1
+    size = options.output.stat().st_size / 1e6
+    print(f"report: {options.output}, {size:.1f} MB")
+    return 0

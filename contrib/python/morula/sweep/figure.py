@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Columns of statistics.csv against time: a line for each combination, with a
+band of one standard deviation over the seeds."""
+from morula.style import COLOURS, RC, colour, plt
+
+from .report import unit
+
+MAX_NAMES = 24  # of combinations beside the panels
+
+
+def draw(request, ensembles, file):
+    """Ensembles without any finished run are left out."""
+    shown = [ensemble for ensemble in ensembles if ensemble.tables]
+    n = len(request.columns)
+    rows = -(-n // 2) if n > 3 else 1
+    columns = -(-n // rows)
+    with plt.rc_context(RC):
+        figure, panels = plt.subplots(
+            rows, columns, squeeze=False, layout="constrained",
+            figsize=(4.2 * columns + 2.4, 3.6 * rows))
+        for axes in panels.flat[n:]:
+            axes.remove()
+        for axes, column in zip(panels.flat, request.columns):
+            _panel(request, axes, shown, column)
+        _legend(panels[0, -1], shown)
+        figure.suptitle(f"{request.scene.name}: mean, and standard deviation "
+                        "over the seeds", fontsize=10)
+        aside = file.with_name(file.name + ".tmp")
+        figure.savefig(aside, format="png")
+        plt.close(figure)
+    aside.replace(file)
+
+
+def _panel(request, axes, shown, column):
+    for number, ensemble in enumerate(shown):
+        times, mean, deviation = ensemble.course(column)
+        ink = _colour(number, len(shown))
+        axes.plot(times, mean, color=ink, linewidth=1.4, label=ensemble.label)
+        axes.fill_between(times, mean - deviation, mean + deviation,
+                          color=ink, alpha=0.18, linewidth=0)
+    name = column.replace("_", " ")
+    found = unit(request, column)
+    pretty = found.replace("um", "µm").replace("^2", "²").replace("^3", "³")
+    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty}" if found else name)
+
+
+def _colour(number, total):
+    if total <= len(COLOURS):
+        return colour(number)
+    return plt.get_cmap("viridis")(0.95 * number / (total - 1))
+
+
+def _legend(axes, shown):
+    """Right of the panel."""
+    handles, names = axes.get_legend_handles_labels()
+    if len(handles) > MAX_NAMES:
+        handles = handles[:MAX_NAMES]
+        names = names[:MAX_NAMES - 1] + [f"... {len(shown) - MAX_NAMES + 1} "
+                                         "more, see table.md"]
+    axes.legend(handles, names, loc="upper left", bbox_to_anchor=(1.02, 1),
+                fontsize=7)

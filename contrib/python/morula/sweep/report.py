@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The tables: Markdown to read, CSV to go on with."""
+import csv
+import math
+import shlex
+
+from morula.columns import STATISTICS, unit_in
+
+from .request import COLUMNS
+
+
+def write_tables(request, ensembles, directory):
+    """table.csv, runs.csv and table.md; each replaces the old one as a
+    whole."""
+    keys = request.plan.keys
+    _write_csv(directory / "table.csv", [
+        [*keys, "column", "unit", "runs", "failed", "mean",
+         "standard_deviation", "standard_error", "smallest", "largest"],
+        *_rows_of_ends(request, ensembles)])
+    _write_csv(directory / "runs.csv", [
+        [*keys, "seed", "directory", "exit", *COLUMNS],
+        *_rows_of_runs(request, ensembles)])
+    _replace(directory / "table.md", markdown(request, ensembles))
+
+
+def _rows_of_ends(request, ensembles):
+    for ensemble in ensembles:
+        for column in COLUMNS:
+            end = ensemble.end(column)
+            numbers = (end.mean, end.deviation, end.error, end.smallest,
+                       end.largest)
+            yield [*ensemble.point, column, unit(request, column), end.n,
+                   len(ensemble.records) - end.n,
+                   *(format(number, ".10g") for number in numbers)]
+
+
+def _rows_of_runs(request, ensembles):
+    """The last row of statistics.csv of every run, nan if it failed."""
+    for ensemble in ensembles:
+        for seed, record in zip(seeds(request), ensemble.records):
+            table = record.statistics() if record.finished else None
+            yield [*ensemble.point, seed,
+                   record.output.relative_to(request.output),
+                   record.repeats[-1]["exit"],
+                   *(format(table[column][-1] if record.finished else math.nan,
+                            ".10g") for column in COLUMNS)]
+
+
+def seeds(request):
+    return request.seeds or [request.scene["Random seed"]]
+
+
+def unit(request, column):
+    """Empty for numbers, and for scenes of which some are two-dimensional."""
+    known = {"time": "day", "dt": "day", "wall_seconds": "s", **STATISTICS}
+    dimensions = request.plan.values("Dimension")
+    if len(dimensions) > 1:
+        return ""
+    return unit_in(known.get(column, ""), int(*dimensions))
+
+
+def markdown(request, ensembles):
+    words = shlex.join(["contrib/sweep", *request.options.words])
+    n_runs = sum(len(ensemble.records) for ensemble in ensembles)
+    sections = [f"# Sweep of {request.scene.name}", f"    {words}",
+                f"{request.scene.program.version}; {len(ensembles)} "
+                f"combinations, seeds {', '.join(map(str, seeds(request)))}: "
+                f"{n_runs} runs. Values at the end of each run; mean, "
+                "standard deviation of a run, standard error of the mean."]
+    for column in request.columns:
+        sections += [f"## {_title(request, column)}",
+                     _table(request, ensembles, column)]
+    failures = list(failed_runs(request, ensembles))
+    if failures:
+        sections += ["## Failed", "\n".join(f"- {line}" for line in failures)]
+    return "\n\n".join(sections) + "\n"
+
+
+def _title(request, column):
+    found = unit(request, column)
+    return f"{column}, {found}" if found else column
+
+
+def _table(request, ensembles, column):
+    head = [*(request.plan.keys or ["scene"]), "runs", "mean",
+            "standard deviation", "standard error"]
+    lines = [head, ["---"] * len(request.plan.keys or [1]) + ["---:"] * 4]
+    for ensemble in ensembles:
+        end = ensemble.end(column)
+        runs = (f"{end.n}" if end.n == len(ensemble.records)
+                else f"{end.n} of {len(ensemble.records)}")
+        lines.append([*(ensemble.point or [request.scene.name]), runs,
+                      *map(_number, (end.mean, end.deviation, end.error))])
+    # '|' would end a column of the table
+    return "\n".join("| " + " | ".join(word.replace("|", "\\|")
+                                       for word in line) + " |"
+                     for line in lines)
+
+
+def _number(value):
+    return f"{value:.6g}" if math.isfinite(value) else "–"
+
+
+def failed_runs(request, ensembles):
+    """A line for each."""
+    for ensemble in ensembles:
+        for seed, record in zip(seeds(request), ensemble.records):
+            if not record.finished:
+                yield (f"{ensemble.label}, seed {seed}: {record.summary()} "
+                       f"({record.directory.relative_to(request.output)})")
+
+
+def _write_csv(path, rows):
+    aside = path.with_name(path.name + ".tmp")
+    with aside.open("w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows(rows)
+    aside.replace(path)
+
+
+def _replace(path, text):
+    aside = path.with_name(path.name + ".tmp")
+    aside.write_text(text, encoding="utf-8")
+    aside.replace(path)

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""What is asked for, checked before anything is computed."""
+import difflib
+
+from morula import columns
+from morula.command_line import output_directory, ranks_and_jobs
+from morula.ensemble import Run, run_name
+from morula.ladder import (Plan, check_method, check_seeds, read_ladder,
+                           read_seeds)
+from morula.places import OUTPUT
+from morula.program import Program
+from morula.refusal import Refused
+from morula.scene import Scene, as_number
+
+# Columns of statistics.csv whose values at the end are told.
+COLUMNS = ("time", *columns.STATISTICS,
+           *(name for name in columns.EFFORT if name not in ("time", "step")))
+
+# Keys that cannot be varied, and why.
+NOT_VARIED = {"Random seed": "Use --seeds.", "Output directory": "Use --output."}
+
+# Snapshots in a run of a scene that asks for none before its end: what an
+# interruption may lose.
+N_SNAPSHOTS = 10
+
+
+class Request:
+    """Everything asked for, and found to make sense but for what the program
+    itself says of each combination."""
+
+    def __init__(self, options):
+        self.options = options
+        self.ranks, self.jobs = ranks_and_jobs(options)
+        program = Program(options.morula, options.mpiexec)
+        self.scene = Scene(options.scene, program, options.set)
+        self.seeds = read_seeds(options.seeds)
+        self.columns = read_columns(options.columns)
+        self.plan = Plan(self.scene, self._ladders(), full_grid=True)
+        check_method(self.plan)
+        check_seeds(self.plan, self.seeds, options.seeds)
+        self.output = output_directory(
+            options, OUTPUT / "sweep" / self.scene.name)
+
+    def _ladders(self):
+        if not self.options.vary and not self.seeds:
+            raise Refused("--vary", "", "at least one key with its values, or "
+                          "--seeds", "For instance --vary "
+                          '"Grid/Spacing=60,40" --seeds 1-5.')
+        ladders = [read_ladder(text, self.scene) for text in self.options.vary]
+        for ladder in ladders:
+            for key in ladder.keys:
+                if key in NOT_VARIED or key.startswith("Output/"):
+                    raise Refused("--vary", key, "a key that changes results",
+                                  NOT_VARIED.get(key, "-s sets it for all "
+                                                      "runs."))
+        return ladders
+
+    def label(self, point):
+        """A combination in few words."""
+        return ", ".join(f"{key.split('/')[-1]} = {value}" for key, value
+                         in zip(self.plan.keys, point)) or self.scene.name
+
+    def run(self, point, seed):
+        """The run of a combination and a seed (None: the scene's)."""
+        special = list(zip(self.plan.keys, point))
+        if seed is not None:
+            special.append(("Random seed", str(seed)))
+        overrides = (*self.scene.overrides, *special,
+                     *self._snapshots({**self.scene.keys, **dict(special)}))
+        return Run(run_name(special, overrides), overrides,
+                   ("cells", "surface", "snapshot"))
+
+    @staticmethod
+    def _snapshots(keys):
+        """Without snapshots nothing could be resumed; they never change the
+        steps."""
+        end = as_number(keys["Time/End time"])
+        if as_number(keys["Output/Snapshot interval"]) != 0 or not end:
+            return ()
+        return (("Output/Snapshot interval",
+                 format(end / N_SNAPSHOTS, ".6g")),)
+
+
+def read_columns(text):
+    """--columns."""
+    names = [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in COLUMNS[1:]:
+            near = difflib.get_close_matches(name, COLUMNS[1:], 1)
+            raise Refused("--columns", name, "a column of statistics.csv: "
+                          + ", ".join(COLUMNS[1:]),
+                          f"Did you mean '{near[0]}'?" if near else "")
+    if len(set(names)) < len(names):
+        raise Refused("--columns", text, "each column once")
+    return names

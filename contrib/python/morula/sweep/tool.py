@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""From the request to tables and the picture."""
+import sys
+
+from morula.command_line import run_tool
+from morula.ensemble import Runner
+
+from .ensemble import Ensemble
+from .figure import draw
+from .options import parser
+from .report import failed_runs, write_tables
+from .request import Request
+
+
+def main(words=None):
+    """Exit code 0; 1 for what makes no sense; 2 if a run failed."""
+    def tool():
+        options = parser().parse_args(words)
+        options.words = sys.argv[1:] if words is None else words
+        return sweep(Request(options))
+    return run_tool("sweep", tool)
+
+
+def sweep(request):
+    """Checks all combinations, does the runs, writes what they say."""
+    seeds = request.seeds or [None]
+    points = request.plan.points
+    runs = [request.run(point, seed) for point in points for seed in seeds]
+    runner = Runner(request.scene, request.output / "runs", request.ranks,
+                    request.jobs, again=request.options.again, resume=True,
+                    say=_say)
+    runner.check(runs[::len(seeds)])
+    if request.options.plan:
+        for run in runs:
+            _say(run.name)
+        return 0
+    records = runner.run(runs)
+    n = len(seeds)
+    ensembles = [Ensemble(point, request.label(point),
+                          records[i * n:(i + 1) * n])
+                 for i, point in enumerate(points)]
+    write_tables(request, ensembles, request.output)
+    failures = list(failed_runs(request, ensembles))
+    for line in failures:
+        print(f"sweep: {line}", file=sys.stderr)
+    if len(failures) < len(records):
+        draw(request, ensembles, request.output / "sweep.png")
+    _say(f"{len(records) - len(failures)} of {len(records)} runs finished; "
+         f"tables and figure in {request.output}")
+    return 2 if failures else 0
+
+
+def _say(text):
+    print(text, flush=True)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Writes doc/parameters.md, the table of all keys, from `morula --parameters`.
+
+    contrib/parameters            writes it
+    contrib/parameters --check    exit code 1 if it is not up to date
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from morula.keys import keys_of
+
+ROOT = Path(__file__).resolve().parents[3]
+PAGE = ROOT / "doc/parameters.md"
+
+HEAD = """# Keys of a scene
+
+Every key of a `.prm` file. This page is written by `contrib/parameters` from
+`build/morula --parameters`, which prints the same as a scene to start from. In a
+file, each part of a path but the last is a `subsection`; on the command line it is
+`-s "Grid/Spacing=50"`. [theory.md](theory.md) says what the symbols mean,
+[glossary.md](glossary.md) the words.
+
+`Method` decides the defaults of the keys that have two here; whatever the scene itself
+sets wins, and `--explain` says what each of them is in the end.
+
+Expressions are muParser's: functions of X, Y, Z (initial position, um) and, where the
+meaning says so, t (day); components are separated by `;`. *um* is µm.
+"""
+
+
+def cell(text):
+    """Text that may stand in a table."""
+    return text.replace("|", "\\|").replace("<", "&lt;")
+
+
+def allowed(key):
+    if key.allowed:
+        return cell(key.allowed)
+    is_expression = re.search("xpression|functions? of", key.meaning)
+    return "an expression" if is_expression else "any text"
+
+
+def page(keys):
+    lines, section = [HEAD], None
+    for key in keys:
+        place = key.path.rpartition("/")[0]
+        if place != section:
+            section = place
+            lines.append(f"\n## {section or 'Outside all subsections'}\n\n"
+                         "| key | default | unit | allowed | meaning |\n"
+                         "| --- | --- | --- | --- | --- |\n")
+        default = f"`{key.default}`" if key.default else "(empty)"
+        if key.consistent is not None:
+            default += f"; `Method = consistent`: `{key.consistent}`"
+        former = "".join(f" Formerly `{path}`." for path in key.former)
+        lines.append(f"| `{key.path}` | {cell(default)} | {key.unit or '—'} | "
+                     f"{allowed(key)} | {cell(key.meaning)}{former} |\n")
+    return "".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="write nothing")
+    parser.add_argument("--morula", type=Path, default=ROOT / "build/morula",
+                        help="the executable")
+    options = parser.parse_args()
+    if not options.morula.is_file():
+        parser.error(f"{options.morula} is missing; contrib/build makes it")
+    text = page(keys_of(options.morula.resolve()))
+    if options.check:
+        if not PAGE.is_file() or PAGE.read_text() != text:
+            sys.exit("doc/parameters.md is not up to date: call "
+                     "contrib/parameters, and commit it.")
+        return
+    PAGE.write_text(text)
+    print("written:", PAGE.relative_to(ROOT))

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Renews the pages of doc/ whose tables and figures are measured, without
+anybody there: builds, calls the tools, and writes into each page with which
+commit and on which machine that was done. A page that fails does not keep the
+others from being renewed; output/renew/report.txt says at the end what became
+of each, output/renew/PAGE.log what its tools said.
+
+    contrib/renew                      all pages: some hours
+    contrib/renew verification steps   these
+    contrib/renew --short              a few small runs through the tools of
+                                       each, in minutes, in a copy of the tree
+                                       below output/renew: no page changes
+    contrib/renew --list               the pages and their commands
+
+Look at what has changed (git diff doc) before it is committed: the text around
+the tables is nobody's but yours.
+"""
+import argparse
+import datetime
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from morula.program import Program, cores, environment
+
+from tests.common.tables import renew
+
+from .measured import PAGES
+
+ROOT = Path(__file__).resolve().parents[3]
+
+# What a scratch copy of the tree holds: all that the tools read or write. The
+# build directory is the tree's own.
+COPIED = ("contrib", "doc", "include", "prm", "source", "tests")
+
+# What the figures of a page depend on, for git.
+MEASURED = ("CMakeLists.txt", "contrib", "include", "prm", "source", "tests")
+
+
+class Renewal:
+    """Pages of a tree, with the commands `full` or `short` of each. Short runs
+    do not belong into the pages: they are done in a copy of the tree."""
+
+    def __init__(self, root, pages, short=False, say=print):
+        self.root, self.pages, self.short, self.say = root, pages, short, say
+        self.output = root / "output/renew"
+        self.tree = self.output / "tree" if short else root
+        self.report = []
+
+    def run(self, names):
+        """Renews these pages; 1 if one of them failed."""
+        self.output.mkdir(parents=True, exist_ok=True)
+        if self.short:
+            self._copy_tree()
+        made = made_with(self.root)
+        self.say(made)
+        failed = []
+        for name in names:
+            start = time.monotonic()
+            outcome = self._page(name, made)
+            minutes = (time.monotonic() - start) / 60
+            self.report.append(f"{name}: {outcome}, {minutes:.1f} min")
+            self.say(self.report[-1])
+            if outcome.startswith("FAILED"):
+                failed.append(name)
+        text = "\n".join([made, *self.report]) + "\n"
+        (self.output / "report.txt").write_text(text, encoding="utf-8")
+        self.say(f"renew: {len(names) - len(failed)} of {len(names)} pages; "
+                 f"{self.output / 'report.txt'}"
+                 + (f"; FAILED: {', '.join(failed)}" if failed else ""))
+        return 1 if failed else 0
+
+    def commands(self, name):
+        return self.pages[name].short if self.short else self.pages[name].full
+
+    def _page(self, name, made):
+        """Renews a page; what became of it, in words."""
+        page = self.pages[name]
+        if self.short and not page.short:
+            return "has no short runs"
+        log = self.output / f"{name}.log"
+        with log.open("w", encoding="utf-8") as stream:
+            for words in self.commands(name):
+                self.say(f"{name}: {shlex.join(words)}")
+                code = call([self.tree / words[0], *words[1:]], self.tree,
+                            stream)
+                if code:
+                    return (f"FAILED, {words[0]} ended with exit code {code}: "
+                            f"see {log}")
+        try:
+            if page.after:
+                page.after(self.tree, renew)
+            if name != "parameters":  # has no figures
+                renew(self.tree / "doc" / page.file, {"made": f"*{made}*"})
+        except (OSError, RuntimeError, ValueError) as error:
+            return f"FAILED, {error}"
+        return "renewed" if not self.short else "its tools work"
+
+    def _copy_tree(self):
+        shutil.rmtree(self.tree, ignore_errors=True)
+        for name in COPIED:
+            shutil.copytree(self.root / name, self.tree / name,
+                            symlinks=True)
+        (self.tree / "build").symlink_to(self.root / "build")
+
+
+def call(words, directory, log):
+    """The exit code of a command whose words go to a log. If this process is
+    asked to end, so is the command."""
+    child = subprocess.Popen([str(word) for word in words], cwd=directory,
+                             stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                             env=environment())
+    try:
+        return child.wait()
+    except BaseException:
+        child.send_signal(signal.SIGTERM)
+        child.wait()
+        raise
+
+
+def made_with(root):
+    """With what the figures of a page are made, in a sentence."""
+    program = Program(root / "build/morula")
+    today = datetime.date.today().isoformat()
+    return (f"Figures of {today}: {commit(root)}, {program.version}, "
+            f"{processor()}, {cores()} cores.")
+
+
+def commit(root):
+    """The commit of a tree, and whether what is measured differs from it."""
+    try:
+        short = git(root, "rev-parse", "--short", "HEAD")
+        changed = git(root, "status", "--porcelain", "--", *MEASURED)
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown commit"
+    return f"commit {short}" + (" with changes" if changed else "")
+
+
+def git(root, *words):
+    return subprocess.run(["git", "-C", root, *words], check=True, text=True,
+                          stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL).stdout.strip()
+
+
+def processor():
+    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        if line.startswith("model name"):
+            return line.split(":")[1].strip()
+    return "unknown processor"
+
+
+def stop_like_ctrl_c():
+    """SIGTERM ends the command that is at work, too."""
+    def stop(*_):
+        raise KeyboardInterrupt
+    signal.signal(signal.SIGTERM, stop)
+    signal.signal(signal.SIGHUP, stop)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("pages", nargs="*", metavar="PAGE",
+                        help="default: all; " + ", ".join(PAGES))
+    parser.add_argument("--short", action="store_true",
+                        help="try the tools with small runs; needs a build")
+    parser.add_argument("--list", action="store_true",
+                        help="print the pages and their commands")
+    options = parser.parse_args()
+    unknown = [name for name in options.pages if name not in PAGES]
+    if unknown:
+        parser.error(f"there is no page '{unknown[0]}'; there are "
+                     + ", ".join(PAGES))
+    if options.short and not (ROOT / "build/morula").is_file():
+        parser.error("build/morula is missing; contrib/build all makes it")
+    return options
+
+
+def listing(options):
+    for name, page in PAGES.items():
+        if not options.pages or name in options.pages:
+            print(f"doc/{page.file} ({name})")
+            for words in page.short if options.short else page.full:
+                print("    " + shlex.join(words))
+
+
+def renew_pages(options):
+    """Exit code 0; 1 if a page could not be renewed; 130 if it was stopped."""
+    stop_like_ctrl_c()
+    try:
+        if not options.short:
+            subprocess.run([ROOT / "contrib/build", "all"], check=True)
+        names = options.pages or [name for name in PAGES if
+                                  PAGES[name].short or not options.short]
+        return Renewal(ROOT, PAGES, options.short,
+                       lambda text: print(text, flush=True)).run(names)
+    except subprocess.CalledProcessError as error:
+        print(f"renew: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("renew: stopped; runs that are finished are used again where the "
+              "tool does so.", file=sys.stderr)
+        return 130
+
+
+def main():
+    options = arguments()
+    return listing(options) if options.list else renew_pages(options)

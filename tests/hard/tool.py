@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Runs the hard cases: scenes that break plain methods.
+
+    contrib/hard-cases                     every case, at the size of ctest
+    contrib/hard-cases cuts                these cases
+    contrib/hard-cases --document          renews the tables of
+                                           doc/hard-cases.md
+    contrib/hard-cases cuts --full         the full size of a case
+    contrib/hard-cases --build build-debug with another build
+    contrib/hard-cases --list              the cases
+
+Prints figures and findings, and ends with exit code 1 if something is not as
+the case asserts. Runs that are there already are not repeated.
+"""
+import argparse
+import importlib
+import traceback
+from pathlib import Path
+
+from tests.common.tables import renew
+from tests.hard.execution import Execution
+from tests.hard.report import markdown, print_case
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def arguments(names):
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("cases", nargs="*", metavar="case",
+                        help="default: all")
+    parser.add_argument("--full", action="store_true",
+                        help="the full sizes, and trials that take long")
+    parser.add_argument("--list", action="store_true", help="list the cases")
+    parser.add_argument("--document", action="store_true",
+                        help="renew the tables of these cases in\n"
+                        "doc/hard-cases.md")
+    parser.add_argument("--build", type=Path, default=ROOT / "build",
+                        help="build directory of the executable")
+    parser.add_argument("--morula", type=Path, help="the executable")
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--output", type=Path, default=ROOT / "output/hard",
+                        help="directory for the runs")
+    options = parser.parse_args()
+    unknown = [name for name in options.cases if name not in names]
+    if unknown:
+        parser.error(f"no case '{unknown[0]}'; there are " + ", ".join(names))
+    options.morula = (options.morula or options.build / "morula").resolve()
+    options.output = options.output.resolve()
+    if not options.list and not options.morula.is_file():
+        parser.error(f"{options.morula} is missing; contrib/build makes it")
+    return options
+
+
+def try_case(name, case, execution):
+    """(runs, findings, what is wrong) of a case, printed."""
+    runs, wrong = {}, []
+    for trial in case.wanted(execution.full):
+        runs[trial.name], found = execution.run(name, trial)
+        wrong += found
+    findings = []
+    try:
+        for finding in case.judge(runs):
+            findings.append(finding)
+    except Exception:  # of any case; the others are still to be judged
+        wrong.append("the case cannot be judged:\n" + traceback.format_exc())
+    if not findings:
+        wrong.append("the case finds nothing")
+    wrong += [f"{finding.text}: {finding.value:.6g}, not {finding.limits()}"
+              for finding in findings if not finding.holds()]
+    print_case(runs, findings)
+    return runs, findings, wrong
+
+
+def main():
+    names = sorted(file.stem for file in
+                   (ROOT / "tests/hard/cases").glob("*.py"))
+    options = arguments(names)
+    execution = Execution(options.morula, options.mpiexec, options.output,
+                          options.full)
+    failures, tables = [], {}
+    for name in options.cases or names:
+        case = importlib.import_module(f"tests.hard.cases.{name}").CASE
+        print(f"{name}: {case.title}", flush=True)
+        if options.list:
+            continue
+        runs, findings, wrong = try_case(name, case, execution)
+        failures += [f"{name}, {text}" for text in wrong]
+        tables[name] = markdown(runs, findings, options.full)
+    if options.list:
+        return 0
+    print("\n".join(["FAILED:", *failures] if failures else ["passed"]))
+    if options.document and not failures:
+        renew(ROOT / "doc/hard-cases.md", tables)
+        print("written:", ROOT / "doc/hard-cases.md")
+    return 1 if failures else 0

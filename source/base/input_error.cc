@@ -9,7 +9,7 @@ namespace Morula
 {
   namespace
   {
-    /** Bytes of a text that messages show. */
+    /** Messages show at most so many bytes of a text. */
     constexpr std::size_t longest = 400;
 
     bool
@@ -22,7 +22,7 @@ namespace Morula
 
 
   std::string
-  shown(const std::string &text)
+  printable(const std::string &text)
   {
     std::size_t end = std::min(text.size(), longest);
     while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80)

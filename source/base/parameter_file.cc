@@ -15,13 +15,13 @@ namespace Morula
 {
   namespace
   {
-    /** Files that include files that ...; more is taken for a circle. */
+    /** Depth of files that include files. More counts as a circle. */
     constexpr unsigned int max_includes = 20;
 
-    /** Sections in sections in ...; no scene has more than three. */
+    /** Depth of sections in sections. No scene has more than three. */
     constexpr unsigned int max_sections = 20;
 
-    /** Characters of a line, also with its continuations. */
+    /** Longest line with its continuations, characters. */
     constexpr std::size_t max_line = 10000;
 
     const std::string byte_order_mark = "\xEF\xBB\xBF";
@@ -97,7 +97,7 @@ namespace Morula
 
     private:
       /**
-       * The next line, of which no more is read than a line may have: the file
+       * Reads the next line, but not more than a line may have, since the file
        * may be anything. Comments may be longer.
        */
       bool
@@ -184,7 +184,7 @@ namespace Morula
                  "Correct the line, or begin it with '#' if it is a comment.");
       }
 
-      /** What a line that is no statement may have been meant to be. */
+      /** What the user may have meant by a line that is no statement. */
       static std::string
       guess(const std::string &line, const std::string &word)
       {
@@ -222,7 +222,7 @@ namespace Morula
                "files that do not include themselves",
                "Break the circle.");
         const auto sibling = std::filesystem::path(name).parent_path() / file;
-        std::error_code error; // the name may be longer than any file's
+        std::error_code error; // the name may be too long for a file
         const bool      here  = std::filesystem::exists(file, error);
         const auto      found = here ? file : sibling.string();
         std::ifstream   stream(found);
@@ -260,7 +260,7 @@ namespace Morula
       const std::string        name;
       std::vector<Statement>  &statements;
       std::vector<std::string> sections; // open ones, the outermost first
-      std::vector<std::string> openings; // where they begin
+      std::vector<std::string> openings; // the lines where they begin
       const unsigned int       depth;
       unsigned int             line_number = 0;
     };

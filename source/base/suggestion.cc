@@ -12,7 +12,8 @@ namespace Morula
 {
   namespace
   {
-    /** Longer words are no misspelt names, and their tables would be large. */
+    /** Characters. A longer word is no misspelt name, and its table would be
+     *  large. */
     constexpr std::size_t longest_word = 200;
 
     std::string
@@ -21,7 +22,8 @@ namespace Morula
       return path.substr(path.rfind('/') + 1);
     }
 
-    /** "subsection Grid", or where the keys outside all subsections stand. */
+    /** "subsection Grid", or the words for the place outside all subsections.
+     */
     std::string
     place_of(const std::string &path)
     {
@@ -36,7 +38,8 @@ namespace Morula
   unsigned int
   edit_distance(const std::string &a, const std::string &b)
   {
-    // rows i - 1, i and i + 1 of the table over the beginnings of both
+    // rows i - 1, i and i + 1 of the table of distances between the beginnings
+    // of both texts
     std::vector<unsigned int> before(b.size() + 1), row(b.size() + 1),
       next(b.size() + 1);
     std::iota(row.begin(), row.end(), 0u);
@@ -64,7 +67,7 @@ namespace Morula
     std::string best;
     if (word.size() > longest_word)
       return best;
-    // a third of the letters, at least one, but never all of them
+    // at most a third of the letters may differ, at least one, but never all
     unsigned int limit = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string &candidate : candidates)
       {

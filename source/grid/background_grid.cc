@@ -12,7 +12,7 @@ namespace Morula
 {
   namespace
   {
-    /** How often a length of so many grid cells, or a few more, is halved. */
+    /** The smallest number k with 2^k >= n. */
     int
     n_halvings(const int n)
     {
@@ -23,10 +23,10 @@ namespace Morula
     }
 
     /**
-     * Two coarse cells of 2^n_refinements grid cells per direction that meet in
-     * the middle of the box. The ranks share out the tree's leaves in its
-     * order: what lies in the middle of the tree is cut by planes
-     * (doc/performance.md, Two ranks).
+     * The two coarse cells of the triangulation, each of 2^n_refinements grid
+     * cells per direction. They meet in the middle of the box. The ranks share
+     * the tree's leaves in the order of the tree; so planes through the middle
+     * of the tree separate their parts (doc/performance.md, Two ranks).
      */
     template <int dim>
     struct CoarseCells
@@ -36,8 +36,9 @@ namespace Morula
         , first(box.first())
       {
         const GridIndex<dim> &n = box.n();
-        // The first direction that is about as long as any: bodies are mostly
-        // held and loaded along their last, and each half shall have its share.
+        // The first direction at least 2/3 as long as the longest. Bodies are
+        // mostly held and loaded along their last direction; a cut across an
+        // earlier one gives each half a part of what is held and loaded.
         const int    longest = *std::max_element(n.begin(), n.end());
         unsigned int split   = 0;
         while (3 * n[split] < 2 * longest)
@@ -50,8 +51,8 @@ namespace Morula
 
         for (unsigned int d = 0; d < dim; ++d)
           {
-            // A short direction is put in the middle of a descendant that just
-            // holds it, so that it is cut after the long ones.
+            // A short direction lies in the middle of the smallest descendant
+            // that holds it. So it is cut after the long directions.
             const int middle =
               d == split ? 1 << n_refinements : (1 << n_halvings(n[d])) / 2;
             first[d] += n[d] / 2 - middle;
@@ -64,7 +65,8 @@ namespace Morula
       GridIndex<dim>            first, end;
     };
 
-    /** Whether a cell of any level holds grid cells of the box. */
+    /** Whether the triangulation's cell, of any level, holds grid cells of the
+     *  box. */
     template <int dim>
     bool
     overlaps(const typename Triangulation<dim>::cell_iterator &grid_cell,

@@ -8,7 +8,7 @@ namespace Morula
 {
   namespace
   {
-    /** Of an active grid cell. */
+    /** Whether an active grid cell is inner. */
     template <int dim>
     bool
     is_inner(const Occupancy<dim> &occupancy,
@@ -17,14 +17,14 @@ namespace Morula
     {
       const GridBox<dim> &box  = occupancy.box();
       const bool          thin = occupancy.is_thin(number);
-      if (thin && !occupancy.leads_thin_rows(number))
+      if (thin && !occupancy.is_inner_candidate(number))
         return false;
       double       largest  = 0.;
       unsigned int n_points = 0;
       box.for_neighbors(box.index(number),
                         1,
                         [&](const unsigned int neighbor, const auto &) {
-                          if (!thin || occupancy.leads_thin_rows(neighbor))
+                          if (!thin || occupancy.is_inner_candidate(neighbor))
                             largest =
                               std::max(largest, occupancy.fill(neighbor));
                           n_points += occupancy.n_quadrature_points(neighbor);

@@ -102,7 +102,7 @@ namespace Morula
     for (int radius = 2;; ++radius)
       {
         const auto list = connected(copy, radius);
-        best.clear(); // a larger window holds the smaller one's
+        best.clear(); // the larger window finds them again
         for (const unsigned int number : list)
           if (classes[number] == GridCellClass::inner)
             {
@@ -113,8 +113,9 @@ namespace Morula
                 best.push_back(number);
               best_sum = std::min(best_sum, sum);
             }
-        // A farther block can beat a nearer one on the diagonal (Σ|e| = 17
-        // against 7·7·7); those outside of this window have at least this sum.
+        // A farther block can have a smaller sum than a nearer one on the
+        // diagonal (Σ|e| = 17 against 7·7·7). Blocks outside of this window
+        // have at least the sum `least`.
         const double least = 2. * (radius + 1) * (radius + 1) - 1.;
         if (best_sum < least || (radius > 2 && list.size() == n_before))
           {

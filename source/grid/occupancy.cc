@@ -9,18 +9,18 @@ namespace Morula
 {
   namespace
   {
-    /** Fill in units of 2^-40; a grid cell can be overfull a million times. */
+    /** Units of fill per full grid cell, 2^40. A grid cell can be overfull a
+     *  million times before the integers overflow. */
     constexpr double resolution = 1099511627776.;
 
-    /** Thinner than so many cells, tissue counts as one or as two cells thick.
-     */
+    /** Tissue thinner than so many cells counts as one or two cells thick. */
     constexpr double one_layer = 1.5, two_layers = 2.5;
 
-    /** Rows are thin whose tissue ends within so many grid spacings. */
+    /** A row of tissue shorter than so many grid spacings is thin. */
     constexpr double thin_row = 1.5;
 
-    /** Grid cells with so much of the fullest one's volume are about as full.
-     */
+    /** A grid cell with at least this part of the fullest one's volume counts
+     *  as equally full. */
     constexpr double about_equal = 0.8;
   } // namespace
 
@@ -93,7 +93,7 @@ namespace Morula
     thicknesses.assign(box_.size(), 1.f);
     lengths.assign(box_.size(), 2.f);
     n_thin.assign(box_.size(), 0);
-    leads.assign(box_.size(), 1);
+    candidates.assign(box_.size(), 1);
     unsigned int              stride = 1;
     std::vector<unsigned int> row;
     for (unsigned int d = 0; d < dim; ++d)
@@ -127,12 +127,12 @@ namespace Morula
     for (const unsigned int number : row)
       {
         sum += volumes[number];
-        if (leads[number])
+        if (candidates[number])
           largest = std::max(largest, volumes[number]);
       }
     const float thickness  = sum / resolution / cross_section(row, direction);
     const float row_length = length(row, direction);
-    bool        led        = false;
+    bool        found      = false;
     for (const unsigned int number : row)
       {
         thicknesses[number] = std::min(thicknesses[number], thickness);
@@ -140,13 +140,13 @@ namespace Morula
           continue;
         lengths[number] = std::min(lengths[number], row_length);
         ++n_thin[number];
-        leads[number] =
-          leads[number] && !led && volumes[number] >= about_equal * largest;
-        led = led || leads[number];
+        candidates[number] = candidates[number] && !found &&
+                             volumes[number] >= about_equal * largest;
+        found = found || candidates[number];
       }
   }
 
-  /** From the first to the last tissue in a row, by h. */
+  /** Distance from the first to the last tissue of a row, in units of h. */
   template <int dim>
   double
   Occupancy<dim>::length(const std::vector<unsigned int> &row,
@@ -203,7 +203,7 @@ namespace Morula
     const double       side   = domain.side();
     const bool         rod    = n_thin[number] > 1; // or a cluster
     const auto         below  = [&](const double n_layers) {
-      // Most are thick: the neighbours are not looked at.
+      // Most tissue is thick: the first test spares the neighbours' one.
       return thicknesses[number] * box_.spacing() < n_layers * side &&
              thickness(number) < n_layers * side;
     };
@@ -236,7 +236,7 @@ namespace Morula
     return n_thin[number] > 0 && largest_around(lengths, number) < thin_row;
   }
 
-  /** Of a grid cell and its neighbours with tissue. */
+  /** The largest value of a grid cell and its neighbours with tissue. */
   template <int dim>
   float
   Occupancy<dim>::largest_around(const std::vector<float> &values,
@@ -299,9 +299,9 @@ namespace Morula
 
   template <int dim>
   bool
-  Occupancy<dim>::leads_thin_rows(const unsigned int number) const
+  Occupancy<dim>::is_inner_candidate(const unsigned int number) const
   {
-    return leads[number];
+    return candidates[number];
   }
 
   template <int dim>

@@ -13,7 +13,7 @@ namespace Morula
   {
     constexpr unsigned int none = numbers::invalid_unsigned_int;
 
-    /** Whether a piece of @p space holds grid cells of two former ones. */
+    /** Whether a piece of @p space holds grid cells of two former pieces. */
     template <int dim>
     bool
     any_joined(const SplineSpace<dim>          &space,
@@ -32,8 +32,8 @@ namespace Morula
       return false;
     }
 
-    /** The middle between the nearest two grid cells of one piece that were of
-     *  two; there are such. */
+    /** The middle between the two nearest grid cells of one piece that belonged
+     *  to two former pieces. There must be such grid cells. */
     template <int dim>
     Point<dim>
     middle(const SplineSpace<dim>          &space,
@@ -42,8 +42,9 @@ namespace Morula
       const GridBox<dim> &box      = space.box();
       double              shortest = std::numeric_limits<double>::max();
       Point<dim>          place;
-      // What is within a radius along each axis is nearer than all beyond it
-      // times the root of dim: one radius more than the first that finds any.
+      // A pair found at one radius can be farther apart, by the diagonal, than
+      // a pair of the next radius. So the search goes one radius further than
+      // the first that finds a pair.
       int last = std::numeric_limits<int>::max();
       for (int radius = 1; radius <= last; ++radius)
         for (unsigned int number = 0; number < former.size(); ++number)

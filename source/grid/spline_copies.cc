@@ -17,8 +17,8 @@ namespace Morula
   {
     constexpr unsigned int none = numbers::invalid_unsigned_int;
 
-    /** Bits of the grid cells, among the 3^dim of a spline's support, that
-     *  touch a given one; also itself. */
+    /** For each of the 3^dim grid cells of a spline's support, the bits of
+     *  those that it touches, including itself. */
     template <int dim>
     std::array<std::uint32_t, BSpline<dim>::n>
     make_touching()
@@ -37,7 +37,7 @@ namespace Morula
       return table;
     }
 
-    /** The part of @p cells that is connected to its lowest. */
+    /** The part of @p grid_cells that is connected to the lowest of them. */
     template <int dim>
     std::uint32_t
     first_part(const std::uint32_t grid_cells)
@@ -54,7 +54,7 @@ namespace Morula
       return part;
     }
 
-    /** Calls visit(a, number) for the grid cells of a spline's support that are
+    /** Calls visit(a, number) for the grid cells of a spline's support that lie
      *  in the box. */
     template <int dim, typename Visit>
     void

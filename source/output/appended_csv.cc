@@ -24,7 +24,7 @@ namespace Morula
     };
 
     /**
-     * The header and the first complete rows of a file, as many as there are in
+     * The header and the first complete rows of a file, as many rows as in
      * @p kept.
      * @throws InputError
      */
@@ -55,7 +55,7 @@ namespace Morula
       for (std::uint64_t row = 0; row < kept.n_rows; ++row)
         {
           std::getline(in, line);
-          // a last line without its newline was torn
+          // a last line without its newline is incomplete
           if (in.eof() || !in)
             throw InputError("--resume",
                              path,

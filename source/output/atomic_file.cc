@@ -19,8 +19,8 @@ namespace Morula
     constexpr std::size_t buffer_size = 1 << 20;
 
     /**
-     * Makes a rename last. Not every file system can; the file itself is safe
-     * by then, so that errors do not matter.
+     * Forces a rename to the disk. Not every file system can do that. Errors
+     * do not matter, since the file's content is already on the disk.
      */
     void
     sync_directory_of(const std::string &path)
@@ -39,7 +39,7 @@ namespace Morula
     void
     take_name(const std::string &path)
     {
-      if (std::rename(path_aside(path).c_str(), path.c_str()) != 0)
+      if (std::rename(temporary_path(path).c_str(), path.c_str()) != 0)
         {
           const int reason = errno;
           throw std::runtime_error("cannot replace the file '" + path +
@@ -50,7 +50,7 @@ namespace Morula
   } // namespace
 
   std::string
-  path_aside(const std::string &path)
+  temporary_path(const std::string &path)
   {
     return path + ".tmp";
   }
@@ -58,7 +58,7 @@ namespace Morula
   void
   publish(const std::string &path)
   {
-    PosixFile file(path_aside(path), PosixFile::Mode::change);
+    PosixFile file(temporary_path(path), PosixFile::Mode::change);
     file.sync();
     file.close();
     take_name(path);
@@ -66,13 +66,13 @@ namespace Morula
 
   AtomicFile::AtomicFile(const std::string &path)
     : path(path)
-    , file(path_aside(path), PosixFile::Mode::create)
+    , file(temporary_path(path), PosixFile::Mode::create)
   {}
 
   AtomicFile::~AtomicFile()
   {
     if (!committed)
-      std::remove(path_aside(path).c_str());
+      std::remove(temporary_path(path).c_str());
   }
 
   void
@@ -83,7 +83,7 @@ namespace Morula
         buffer += text;
         return;
       }
-    // Large pieces are not copied.
+    // Large pieces are written at once, without a copy in the buffer.
     file.write(buffer);
     buffer.clear();
     file.write(text);

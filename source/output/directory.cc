@@ -24,10 +24,10 @@ namespace Morula
   {
     const char *const key = "Output directory";
 
-    /** A run that took longer is not replaced by the next one, seconds. */
-    constexpr double longest_unasked = 3600.;
+    /** The next run does not replace one that took longer, seconds. */
+    constexpr double longest_replaceable = 3600.;
 
-    /** With the error of the system; the path is the one it concerns. */
+    /** Throws an InputError about a path, with the system's reason. */
     [[noreturn]] void
     refuse(const fs::path &path, const std::error_code &error)
     {
@@ -38,7 +38,7 @@ namespace Morula
                        "Choose another one, or change its permissions.");
     }
 
-    /** Number of a file in a series; -1: not of a series. */
+    /** Number of a file in a series; -1 if the file is of no series. */
     long long
     series_number(const std::string &name)
     {
@@ -50,7 +50,7 @@ namespace Morula
 
     /** Whether a run of Morula writes a file of this name. */
     bool
-    is_ours(const std::string &name)
+    is_run_file(const std::string &name)
     {
       static const std::regex pattern(
         "(?:parameters\\.prm|log\\.txt|(?:cells|surface)\\.pvd|"
@@ -88,7 +88,7 @@ namespace Morula
     refuse_to_remove_inputs(const std::vector<fs::path>    &files,
                             const std::vector<std::string> &inputs)
     {
-      std::error_code ignored; // a missing input is not in the way
+      std::error_code ignored; // a missing input cannot be removed
       for (const fs::path &file : files)
         for (const std::string &input : inputs)
           if (fs::equivalent(file, input, ignored))
@@ -100,8 +100,8 @@ namespace Morula
                              "Choose another directory.");
     }
 
-    /** Whether a Morula that wrote no record was at work here: to be told from
-     *  files that only have the names. */
+    /** Whether the directory holds a run of an old Morula, which wrote no
+     *  record, and not just files with such names. */
     bool
     holds_older_run(const std::string &directory)
     {
@@ -113,7 +113,8 @@ namespace Morula
              fs::exists(parameters_file(directory), ignored);
     }
 
-    /** @param why a run that is there would be a loss */
+    /** @param why a clause after "there is one" that says why the old run must
+     *    not be lost */
     [[noreturn]] void
     refuse_to_replace(const std::string &directory,
                       const std::string &why,
@@ -129,7 +130,7 @@ namespace Morula
 
     void
     write_parameters(const std::string &directory,
-                     const ComingRun   &run,
+                     const RunSetup    &run,
                      RunRecord          record)
     {
       record.scene = recorded_name(directory, run.scene_file);
@@ -157,7 +158,7 @@ namespace Morula
                        "the path of a directory",
                        "Name one, for instance 'output'.");
 
-    // the path itself, or the nearest directory above it that is there
+    // the path itself, or the nearest directory above it that exists
     std::error_code error;
     fs::path        existing = fs::absolute(directory, error);
     while (!error && !fs::exists(existing, error) && !error &&
@@ -195,8 +196,8 @@ namespace Morula
       return;
     const std::vector<fs::path> files =
       files_with(directory, [](const std::string &name) {
-        // this one is there when a run was killed as it began
-        return is_ours(name) && name != "parameters.prm.tmp";
+        // a run that was killed at its very beginning leaves this file
+        return is_run_file(name) && name != "parameters.prm.tmp";
       });
     if (files.empty())
       return;
@@ -230,7 +231,7 @@ namespace Morula
                            "--resume goes on with it; " :
                            "It has no snapshot to go on from; ") +
                           delete_it);
-    if (record->wall_seconds > longest_unasked)
+    if (record->wall_seconds > longest_replaceable)
       refuse_to_replace(directory,
                         "that took " + duration(record->wall_seconds),
                         delete_it);
@@ -238,15 +239,15 @@ namespace Morula
 
   void
   prepare_directory(const std::string &directory,
-                    const ComingRun   &run,
+                    const RunSetup    &run,
                     const MPI_Comm     comm)
   {
     on_root(comm, [&]() {
       create_directory(directory);
       check_replaceable(directory, run.scene_file, run.replace);
-      std::vector<fs::path> old_run = files_with(directory, is_ours);
+      std::vector<fs::path> old_run = files_with(directory, is_run_file);
       refuse_to_remove_inputs(old_run, run.inputs);
-      // First, so that a run that is killed here leaves no files without it.
+      // First, so that a run killed here leaves no files without a record.
       write_parameters(directory, run, {});
       old_run.erase(std::remove_if(old_run.begin(),
                                    old_run.end(),
@@ -260,7 +261,7 @@ namespace Morula
 
   void
   prepare_resume(const std::string &directory,
-                 const ComingRun   &run,
+                 const RunSetup    &run,
                  const unsigned int first_number,
                  const MPI_Comm     comm)
   {
@@ -275,7 +276,7 @@ namespace Morula
 
   void
   note_finished(const std::string &directory,
-                const ComingRun   &run,
+                const RunSetup    &run,
                 const double       wall_seconds,
                 const MPI_Comm     comm)
   {

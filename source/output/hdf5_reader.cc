@@ -19,7 +19,7 @@ namespace Morula
       return result;
     }
 
-    /** Collects what H5Literate and H5Aiterate show. */
+    /** Collects the names that H5Literate and H5Aiterate visit. */
     template <typename Info>
     herr_t
     append_name(hid_t, const char *name, const Info *, void *names)

@@ -24,7 +24,8 @@ namespace Morula
               H5Fclose};
     }
 
-    /** A string of fixed length; HDF5 has none of length zero. */
+    /** The type of a string of fixed length, at least 1: HDF5 has no strings of
+     *  length zero. */
     Hdf5Handle
     string_type(const std::size_t length)
     {
@@ -116,7 +117,7 @@ namespace Morula
                    const hsize_t      n_columns)
   {
     const unsigned long long n_local = n_local_rows;
-    unsigned long long       before  = 0; // on rank 0 left as it is
+    unsigned long long       before  = 0; // MPI_Exscan leaves rank 0's
     const int                ierr =
       MPI_Exscan(&n_local, &before, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm);
     AssertThrowMPI(ierr);
@@ -153,7 +154,7 @@ namespace Morula
                              H5Dclose);
     note(dataset >= 0);
 
-    // there is no place in the file for a data set without any value
+    // a data set without any value has no place in the file
     const auto has_no_values = [](const std::vector<hsize_t> &size) {
       return std::find(size.begin(), size.end(), hsize_t(0)) != size.end();
     };

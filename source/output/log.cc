@@ -32,7 +32,7 @@ namespace Morula
       }
     catch (const std::exception &)
       {
-        // what went wrong before is worth more than this
+        // the error that is being reported matters more than this one
       }
   }
 } // namespace Morula

@@ -87,7 +87,7 @@ namespace Morula
   void
   PosixFile::sync()
   {
-    // pipes and some special files cannot be synchronised, and need not
+    // pipes and some special files cannot be synchronised, which is no error
     if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
       fail("write");
   }

@@ -30,7 +30,7 @@ namespace Morula
       return text;
     }
 
-    /** Columns of a terminal; 0: it has none, or is no terminal. */
+    /** Width of a terminal in characters; 0 if unknown or no terminal. */
     unsigned int
     columns_of(const int descriptor)
     {
@@ -39,9 +39,9 @@ namespace Morula
     }
 
     /**
-     * Columns of the terminal behind stdout; 0: the output goes elsewhere. Open
-     * MPI's mpirun gives its processes a terminal without a size, also when it
-     * writes into a file itself; then its own stdout is looked at.
+     * Width of the terminal behind stdout; 0 if the output goes elsewhere. Open
+     * MPI's mpirun gives its processes a terminal without a size, even where
+     * mpirun itself writes into a file. Then the stdout of mpirun tells.
      */
     unsigned int
     terminal_columns()
@@ -59,7 +59,7 @@ namespace Morula
       return columns_of_parent;
     }
 
-    /** A name and its value, the values below each other. */
+    /** A name and its value, padded so that the values align. */
     std::string
     summary_line(const char *name, const std::string &value)
     {
@@ -105,7 +105,7 @@ namespace Morula
     constexpr std::size_t brackets_and_space = 3;
     constexpr std::size_t with_bar = smallest_bar + brackets_and_space;
 
-    // most wanted first
+    // the most important part first
     const std::vector<std::string> parts = {
       seconds_left >= 0. ? duration(seconds_left) + " left" : "",
       format("day %.4g of %.4g", report.time, end_time),
@@ -126,7 +126,7 @@ namespace Morula
   }
 
   std::string
-  summary_block(const RunSummary &summary)
+  summary_block(const FinalReport &summary)
   {
     std::vector<std::pair<std::string, double>> sections;
     for (const auto &section : summary.sections)
@@ -172,7 +172,7 @@ namespace Morula
                      const MPI_Comm     comm)
     : start_time(start_time)
     , end_time(end_time)
-    , speaks(Utilities::MPI::this_mpi_process(comm) == 0)
+    , is_root(Utilities::MPI::this_mpi_process(comm) == 0)
     , time_left(start_time, end_time)
     , log(log_path, resume, comm)
   {}
@@ -181,7 +181,7 @@ namespace Morula
   Progress::message(const std::string &text)
   {
     clear_bar();
-    if (speaks)
+    if (is_root)
       std::cout << text << std::endl;
     log.write(text);
   }
@@ -193,23 +193,23 @@ namespace Morula
     const double      seconds_left = time_left.seconds();
     const std::string line = progress_line(report, end_time, seconds_left);
 
-    const unsigned int columns = speaks ? terminal_columns() : 0;
+    const unsigned int columns = is_root ? terminal_columns() : 0;
     if (columns > 0)
       {
-        // "\033[K" clears what a longer bar has left behind
+        // "\033[K" clears the rest of a longer bar
         std::cout
           << '\r'
           << progress_bar(report, start_time, end_time, seconds_left, columns)
           << "\033[K" << std::flush;
         bar_shown = true;
       }
-    else if (speaks)
+    else if (is_root)
       std::cout << line << std::endl;
     log.write(line);
   }
 
   void
-  Progress::finish(const RunSummary &summary)
+  Progress::finish(const FinalReport &summary)
   {
     if (bar_shown)
       std::cout << std::endl;

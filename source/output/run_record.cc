@@ -14,7 +14,7 @@ namespace Morula
 
   namespace
   {
-    /** From the root on, without links as far as the path exists. */
+    /** The absolute path, with links resolved as far as the path exists. */
     fs::path
     full_path(const std::string &path, std::error_code &error)
     {
@@ -69,7 +69,7 @@ namespace Morula
   bool
   is_own_parameters(const std::string &directory, const std::string &scene_file)
   {
-    std::error_code ignored; // what is not there is another file
+    std::error_code ignored; // a missing file is another file
     return fs::equivalent(parameters_file(directory), scene_file, ignored);
   }
 

@@ -16,8 +16,8 @@ namespace Morula
     const std::string first_line = "Morula snapshot\n";
 
     /**
-     * The seal that the rest of a stream deserves.
-     * @param in stands behind the seal
+     * The seal for the rest of a stream.
+     * @param in stream whose position is behind the seal
      */
     std::string
     seal_of_rest(std::istream &in)
@@ -71,8 +71,8 @@ namespace Morula
       return SealState::plain_hdf5;
     if (!begins_with(found, first_line))
       return SealState::foreign;
-    // Where the file ends within the seal, or cannot be read to its end, the
-    // number of bytes tells.
+    // If the file ends within the seal or cannot be read to its end, the number
+    // of bytes differs.
     return found == seal_of_rest(in) ? SealState::whole : SealState::damaged;
   }
 } // namespace Morula

@@ -256,7 +256,7 @@ namespace Morula
     const std::size_t size = size_in_file(data, shared, comm);
     on_root(comm, [&]() { AtomicFile(path).reserve(size); });
 
-    Hdf5Writer file(path_aside(path), comm);
+    Hdf5Writer file(temporary_path(path), comm);
     file.attribute("/", format_name, snapshot_format);
     file.attribute("/", "dimension", dim);
     file.attribute("/", "time", shared.time);
@@ -278,12 +278,12 @@ namespace Morula
     on_root(comm, [&]() {
       if (!written)
         {
-          std::remove(path_aside(path).c_str());
+          std::remove(temporary_path(path).c_str());
           throw std::runtime_error("cannot write the snapshot '" + path +
                                    "': is the disk full? The last good "
                                    "snapshot, if there is one, stays");
         }
-      seal(path_aside(path));
+      seal(temporary_path(path));
       publish(path);
     });
   }

@@ -32,7 +32,7 @@ namespace Morula
     if (last.time >= end)
       return 0.;
 
-    // wall time at half of the simulated time, between the records around it
+    // wall time at half of the simulated time, interpolated between records
     const double half = first.time + 0.5 * done;
     const auto   after =
       std::lower_bound(records.begin() + 1,
@@ -47,8 +47,9 @@ namespace Morula
       before.wall_seconds +
       weight * (after->wall_seconds - before.wall_seconds);
 
-    // two steps say nothing about growth; the bounds are those of set-up
-    // outweighing the first steps, and of doubling cells four times
+    // A few steps say nothing about growth. The lower bound holds where the
+    // set-up outweighs the first steps, the upper one where cells have doubled
+    // four times.
     const double exponent =
       records.size() > 4 && spent_at_half > 0. ?
         std::clamp(std::log2(spent / spent_at_half), 0.5, 4.) :

@@ -13,7 +13,7 @@ namespace Morula
   namespace
   {
     /** How long failed ranks wait for the others. */
-    constexpr std::chrono::seconds patience(5);
+    constexpr std::chrono::seconds waiting_time(5);
 
     /**
      * Whether all ranks arrive here in time. A nonblocking barrier never
@@ -24,7 +24,7 @@ namespace Morula
     {
       MPI_Request request;
       MPI_Ibarrier(comm, &request);
-      const auto end     = std::chrono::steady_clock::now() + patience;
+      const auto end     = std::chrono::steady_clock::now() + waiting_time;
       int        arrived = 0;
       while (true)
         {
@@ -35,8 +35,8 @@ namespace Morula
         }
     }
 
-    /** Messages repeat what the user wrote, which may be long; the end says
-     *  what to do. */
+    /** Longest message, bytes; longer ones lose their middle. A message repeats
+     *  what the user wrote, which may be long, and its end says what to do. */
     constexpr std::size_t longest_message = 2500;
 
     void
@@ -45,16 +45,16 @@ namespace Morula
       if (message.size() > longest_message)
         message = message.substr(0, longest_message / 2) + " [...] " +
                   message.substr(message.size() - longest_message / 2);
-      // one piece, so that ranks do not mix their lines
+      // in one piece, so that the lines of ranks do not mix
       std::cerr << "morula: " + message + "\n" << std::flush;
     }
   } // namespace
 
 
   int
-  end_of_all_ranks(const int          exit_code,
-                   const std::string &message,
-                   const MPI_Comm     comm)
+  end_all_ranks(const int          exit_code,
+                const std::string &message,
+                const MPI_Comm     comm)
   {
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
     if (!all_arrive(comm))
@@ -63,7 +63,7 @@ namespace Morula
         MPI_Abort(comm, exit_code);
       }
 
-    // ranks that stumble over the failure of another one have other messages
+    // a rank that fails because another one did has another message
     std::set<std::string> printed;
     for (const std::string &each :
          dealii::Utilities::MPI::gather(comm, message))

@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
-#include <morula/output/run_lock.h>
+#include <morula/output/directory_lock.h>
 #include <morula/program/command_line.h>
 #include <morula/program/failure.h>
 #include <morula/program/program.h>
@@ -28,11 +28,12 @@ namespace Morula
   namespace
   {
     /**
-     * Gives arrays of 32 MB and more a mapping of their own, which goes back to
-     * the system with them; that is glibc's default. SuperLU_DIST, which
-     * Trilinos may link, switches it off for the whole process as it is loaded,
-     * and the holes that such arrays leave in the heap make 0.6 GB of a million
-     * cells (doc/performance.md, Numbers of cells).
+     * Gives arrays of 32 MB and more a memory mapping of their own, which
+     * returns to the system when they are freed. That is glibc's default, but
+     * SuperLU_DIST, which Trilinos may link, switches it off for the whole
+     * process when it is loaded. The holes that such arrays then leave in the
+     * heap cost 0.6 GB for a million cells (doc/performance.md, Numbers of
+     * cells).
      */
     void
     map_large_arrays()
@@ -49,7 +50,8 @@ namespace Morula
       return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     }
 
-    /** What only the first step's splines can tell --explain. */
+    /** The number of unknowns of the first step, for --explain. It needs the
+     *  splines of that step. */
     template <int dim>
     unsigned int
     n_unknowns(const Scene &scene)
@@ -57,7 +59,8 @@ namespace Morula
       return Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
     }
 
-    /** Prints what was asked for instead of a run; false if that is nothing. */
+    /** Prints help, version or keys if the command line asks for them.
+     *  @return whether it does */
     bool
     print_information(const CommandLine &command, const Catalogue &catalogue)
     {
@@ -75,13 +78,13 @@ namespace Morula
       return true;
     }
 
-    /** Does with a scene what the command line asks for. Sets @p resume_hint
-     *  once the scene is accepted. */
+    /** Checks a scene, and explains or runs it as the command line asks. Sets
+     *  @p resume_hint once the scene is accepted. */
     void
-    obey(const CommandLine &command,
-         const Program     &program,
-         const Scene       &scene,
-         std::string       &resume_hint)
+    check_and_run(const CommandLine &command,
+                  const Program     &program,
+                  const Scene       &scene,
+                  std::string       &resume_hint)
     {
       scene.check();
       if (program.dimension != 0 && scene.dimension != program.dimension)
@@ -107,9 +110,9 @@ namespace Morula
 
     /** Does what the command line asks for. */
     void
-    obey(const CommandLine &command,
-         const Program     &program,
-         std::string       &resume_hint)
+    execute(const CommandLine &command,
+            const Program     &program,
+            std::string       &resume_hint)
     {
       if (print_information(command, program.catalogue))
         return;
@@ -125,7 +128,7 @@ namespace Morula
       scene.replace = command.replace;
       try
         {
-          obey(command, program, scene, resume_hint);
+          check_and_run(command, program, scene, resume_hint);
         }
       catch (const InputError &error)
         {
@@ -138,9 +141,10 @@ namespace Morula
   void
   simulate(const Scene &scene, const bool resume)
   {
-    // Once more when the directory is taken; here, before cells are placed.
+    // RunFiles checks this again when it locks the directory. Here the check
+    // comes before the work of placing cells.
     on_root(MPI_COMM_WORLD, [&]() {
-      RunLock::check_free(scene.output_directory);
+      DirectoryLock::check_free(scene.output_directory);
       if (!resume)
         check_replaceable(scene.output_directory, scene.file, scene.replace);
     });
@@ -166,8 +170,8 @@ namespace Morula
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
     map_large_arrays();
-    // Libraries get the name only: PETSc would complain, on the standard
-    // output, of every option that it does not know.
+    // Libraries get the program's name only: PETSc would complain on the
+    // standard output about every option that it does not know.
     char                            *name[]    = {argv[0], nullptr};
     char                           **only_name = name;
     int                              n_words   = 1;
@@ -179,39 +183,39 @@ namespace Morula
     std::string                    resume_hint;
     try
       {
-        obey(CommandLine::parse(words), *this, resume_hint);
+        execute(CommandLine::parse(words), *this, resume_hint);
         return 0;
       }
     catch (const InputError &error)
       {
-        return end_of_all_ranks(1, error.what(), MPI_COMM_WORLD);
+        return end_all_ranks(1, error.what(), MPI_COMM_WORLD);
       }
-    catch (const RunStopped &stop)
+    catch (const StoppedBySignal &stop)
       {
         stop_signal = stop.signal;
-        return end_of_all_ranks(2,
-                                std::string(stop.what()) + '\n' + resume_hint,
-                                MPI_COMM_WORLD);
+        return end_all_ranks(2,
+                             std::string(stop.what()) + '\n' + resume_hint,
+                             MPI_COMM_WORLD);
       }
     catch (const std::bad_alloc &)
       {
-        return end_of_all_ranks(2,
-                                "The run failed: out of memory. " + resume_hint,
-                                MPI_COMM_WORLD);
+        return end_all_ranks(2,
+                             "The run failed: out of memory. " + resume_hint,
+                             MPI_COMM_WORLD);
       }
     catch (const std::exception &error)
       {
-        return end_of_all_ranks(2,
-                                std::string("The run failed: ") + error.what() +
-                                  "\n" + resume_hint,
-                                MPI_COMM_WORLD);
+        return end_all_ranks(2,
+                             std::string("The run failed: ") + error.what() +
+                               "\n" + resume_hint,
+                             MPI_COMM_WORLD);
       }
     catch (...)
       {
-        return end_of_all_ranks(2,
-                                "The run failed for an unknown reason. " +
-                                  resume_hint,
-                                MPI_COMM_WORLD);
+        return end_all_ranks(2,
+                             "The run failed for an unknown reason. " +
+                               resume_hint,
+                             MPI_COMM_WORLD);
       }
   }
 } // namespace Morula

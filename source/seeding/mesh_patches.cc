@@ -24,14 +24,15 @@ namespace Morula
         3.);
     }
 
-    /** Triangles of the surface, cut or merged or as they are. */
+    /** A part of the surface: a whole triangle, a part of one, or several
+     *  merged ones. */
     struct Piece
     {
       std::vector<Triangle> triangles;
       double                area = 0.;
       Tensor<1, 3>          moment; // area times centroid
       Tensor<1, 3>          vector; // sum of the area vectors
-      // pieces next to this one; merged ones stand for what they went into
+      // the pieces next to this one; see current() for merged ones
       std::vector<std::size_t> neighbors;
       std::size_t              merged_into;
 
@@ -55,9 +56,9 @@ namespace Morula
     }
 
     /**
-     * How many pieces to cut each triangle into. Those at least as large as the
-     * mean patch get their share, rounded such that the rounding errors do not
-     * add up; the others stay whole.
+     * How many pieces to cut each triangle into. A triangle at least as large
+     * as the mean patch gets its share, rounded such that the rounding errors
+     * do not add up. Smaller triangles stay whole.
      */
     std::vector<std::uint64_t>
     count_pieces(const std::vector<SurfaceTriangle> &triangles,
@@ -84,7 +85,8 @@ namespace Morula
       return counts;
     }
 
-    /** Pieces of all triangles; whole ones know the pieces next to them. */
+    /** The pieces of all triangles. Only whole triangles know their neighbours,
+     *  since only they are merged. */
     std::vector<Piece>
     cut(const std::vector<SurfaceTriangle> &triangles,
         const std::vector<std::uint64_t>   &counts)
@@ -104,7 +106,7 @@ namespace Morula
         if (counts[t] == 1)
           for (const unsigned int neighbor : triangles[t].neighbors)
             {
-              // of a cut neighbour, the piece nearest to this triangle
+              // a cut neighbour is represented by its nearest piece
               Piece     &own   = pieces[first[t]];
               const auto begin = pieces.begin() + first[neighbor];
               const auto nearest =
@@ -121,7 +123,7 @@ namespace Morula
       return pieces;
     }
 
-    /** Follows a merged piece to the one that it is part of now. */
+    /** The piece that a merged piece is part of now. */
     std::size_t
     current(std::vector<Piece> &pieces, std::size_t number)
     {
@@ -135,11 +137,11 @@ namespace Morula
     }
 
     /**
-     * The neighbour that @p number is best merged with, or @p number itself if
-     * there are sharp edges all around.
+     * The neighbour to merge the piece @p number with: the one whose centre is
+     * nearest. It is @p number itself if all its edges are sharp.
      */
     std::size_t
-    partner(std::vector<Piece> &pieces, const std::size_t number)
+    best_neighbor(std::vector<Piece> &pieces, const std::size_t number)
     {
       constexpr double cosine_of_sharp_edge = 0.86602540378443865; // 30 degrees
 
@@ -191,7 +193,8 @@ namespace Morula
       gone.merged_into = to;
     }
 
-    /** Merges the smallest pieces until so many are left, or none can be. */
+    /** Merges the smallest pieces until @p n_wished are left, or until no more
+     *  can be merged. */
     void
     merge_smallest(std::vector<Piece> &pieces, const std::uint64_t n_wished)
     {
@@ -207,7 +210,7 @@ namespace Morula
           queue.pop();
           if (current(pieces, number) != number || pieces[number].area != area)
             continue; // merged since it was queued
-          const std::size_t other = partner(pieces, number);
+          const std::size_t other = best_neighbor(pieces, number);
           if (other == number)
             continue;
           const std::size_t kept = std::min(number, other);

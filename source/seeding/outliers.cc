@@ -33,13 +33,14 @@ namespace Morula
       return true;
     }
 
-    /** Mean coordinate of all @p n rows; no sum is larger than the largest. */
+    /** Mean coordinate of all @p n rows. Each is divided by n before it is
+     *  added, so that the sum of large coordinates cannot overflow. */
     template <int dim>
     double
-    mean(const PointRows<dim> &rows,
-         const unsigned int    d,
-         const std::uint64_t   n,
-         const MPI_Comm        comm)
+    mean(const PointsFileRows<dim> &rows,
+         const unsigned int         d,
+         const std::uint64_t        n,
+         const MPI_Comm             comm)
     {
       double mine = 0.;
       for (const Point<dim> &x : rows.positions)
@@ -50,7 +51,7 @@ namespace Morula
 
   template <int dim>
   BoundingBox<dim>
-  bounding_box(const PointRows<dim> &rows, const MPI_Comm comm)
+  bounding_box(const PointsFileRows<dim> &rows, const MPI_Comm comm)
   {
     std::pair<Point<dim>, Point<dim>> corners;
     for (unsigned int d = 0; d < dim; ++d)
@@ -69,7 +70,8 @@ namespace Morula
 
   template <int dim>
   LineProblem
-  find_beyond(const PointRows<dim> &rows, const SeedingLimits<dim> &limits)
+  find_row_beyond_limits(const PointsFileRows<dim> &rows,
+                         const SeedingLimits<dim>  &limits)
   {
     for (std::size_t i = 0; i < rows.positions.size(); ++i)
       {
@@ -96,17 +98,17 @@ namespace Morula
 
   template <int dim>
   LineProblem
-  find_outlier(const PointRows<dim> &rows,
-               const double          extent,
-               const std::uint64_t   n,
-               const MPI_Comm        comm)
+  find_outlier(const PointsFileRows<dim> &rows,
+               const double               extent,
+               const std::uint64_t        n,
+               const MPI_Comm             comm)
   {
     if (n == 0)
       return {};
     const BoundingBox<dim> box = bounding_box(rows, comm);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // halves: the difference of two large numbers may be infinite
+        // of the halves, since the difference of large numbers may overflow
         if (0.5 * box.upper_bound(d) - 0.5 * box.lower_bound(d) <= 0.5 * extent)
           continue;
         const double center   = mean(rows, d, n, comm);
@@ -133,14 +135,14 @@ namespace Morula
     return {};
   }
 
-#define INSTANTIATE(dim)                                             \
-  template BoundingBox<dim> bounding_box(const PointRows<dim> &,     \
-                                         const MPI_Comm);            \
-  template LineProblem      find_beyond(const PointRows<dim> &,      \
-                                        const SeedingLimits<dim> &); \
-  template LineProblem      find_outlier(const PointRows<dim> &,     \
-                                         const double,               \
-                                         const std::uint64_t,        \
+#define INSTANTIATE(dim)                                                        \
+  template BoundingBox<dim> bounding_box(const PointsFileRows<dim> &,           \
+                                         const MPI_Comm);                       \
+  template LineProblem      find_row_beyond_limits(const PointsFileRows<dim> &, \
+                                                   const SeedingLimits<dim> &); \
+  template LineProblem      find_outlier(const PointsFileRows<dim> &,           \
+                                         const double,                          \
+                                         const std::uint64_t,                   \
                                          const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)

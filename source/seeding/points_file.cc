@@ -3,8 +3,8 @@
 
 #include <morula/base/input_error.h>
 #include <morula/seeding/outliers.h>
-#include <morula/seeding/point_rows.h>
 #include <morula/seeding/points_file.h>
+#include <morula/seeding/points_file_rows.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -72,7 +72,7 @@ namespace Morula
           header.data_begin += text.size() + 1;
           if (header.line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0)
             text.erase(0, 3); // the byte order mark of spreadsheets
-          if (is_remark(text))
+          if (is_blank_or_comment(text))
             continue;
           header.columns = read_columns<dim>(text, header.problem);
           if (!header.problem.allowed.empty())
@@ -88,7 +88,7 @@ namespace Morula
 
     /** The lines that begin in this rank's equal share of the file's bytes. */
     template <int dim>
-    PointRows<dim>
+    PointsFileRows<dim>
     read_share(std::ifstream &stream,
                const Header  &header,
                const double   default_volume,
@@ -101,8 +101,8 @@ namespace Morula
       std::uint64_t       at  = header.data_begin + bytes * rank / ranks;
       const std::uint64_t end = header.data_begin + bytes * (rank + 1) / ranks;
 
-      PointRows<dim> rows;
-      std::string    text;
+      PointsFileRows<dim> rows;
+      std::string         text;
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(at - 1));
       // the rest of the line before, at least its end
@@ -114,7 +114,7 @@ namespace Morula
         {
           at += text.size() + 1;
           ++rows.n_lines;
-          if (!is_remark(text))
+          if (!is_blank_or_comment(text))
             read_row(text, header.columns, default_volume, rows);
         }
       return rows;
@@ -164,7 +164,7 @@ namespace Morula
      */
     template <int dim>
     std::vector<BinEntry<dim>>
-    bins(const PointRows<dim> &rows, const MPI_Comm comm)
+    bins(const PointsFileRows<dim> &rows, const MPI_Comm comm)
     {
       double longest = 0.;
       for (const double volume : rows.volumes)
@@ -215,7 +215,7 @@ namespace Morula
      */
     template <int dim>
     LineProblem
-    find_repeated(const PointRows<dim> &rows, const MPI_Comm comm)
+    find_repeated(const PointsFileRows<dim> &rows, const MPI_Comm comm)
     {
       const std::vector<BinEntry<dim>> entries = bins(rows, comm);
       const auto coincide = [](const auto &a, const auto &b) {
@@ -265,7 +265,8 @@ namespace Morula
     const Header header = read_header<dim>(stream);
     throw_first(header.problem, file, comm);
 
-    PointRows<dim> rows = read_share<dim>(stream, header, default_volume, comm);
+    PointsFileRows<dim> rows =
+      read_share<dim>(stream, header, default_volume, comm);
     const std::uint64_t lines_before =
       header.line + sum_below(rows.n_lines, comm);
     for (std::uint64_t &line : rows.lines)
@@ -275,7 +276,7 @@ namespace Morula
     throw_first(rows.problem, file, comm);
     const std::uint64_t n_mine = rows.positions.size();
     const std::uint64_t n      = Utilities::MPI::sum(n_mine, comm);
-    throw_first(find_beyond(rows, limits), file, comm);
+    throw_first(find_row_beyond_limits(rows, limits), file, comm);
     throw_first(find_outlier(rows, limits.extent, n, comm), file, comm);
     if (limits.check_memory && n > 0)
       limits.check_memory(bounding_box(rows, comm),

@@ -45,7 +45,7 @@ namespace Morula
       return text.str();
     }
 
-    /** Polygons as files have them: with no order among each other. */
+    /** The polygons of a file, which does not say which ones are neighbours. */
     struct Soup
     {
       std::vector<Kernel::Point_3>          points;
@@ -63,9 +63,9 @@ namespace Morula
     }
 
     /** Refuses an empty file, and an STL file that ends before its last
-     *  triangle. What is not there is left to the reader. */
+     *  triangle. A missing file is left to the reader. */
     void
-    check_whole(const std::string &file)
+    check_complete(const std::string &file)
     {
       const std::string ending =
         file.substr(std::min(file.rfind('.'), file.size()));
@@ -103,8 +103,8 @@ namespace Morula
                  ". Copy or export it again.");
     }
 
-    /** Refuses coordinates that are no numbers, or too large for areas and
-     *  volumes to be. */
+    /** Refuses coordinates that are no numbers, or so large that areas and
+     *  volumes would overflow. */
     void
     check_finite(const Soup &soup, const std::string &file)
     {
@@ -123,7 +123,7 @@ namespace Morula
     Soup
     read_soup(const std::string &file)
     {
-      check_whole(file);
+      check_complete(file);
       Soup soup;
       bool good = false;
       try
@@ -132,7 +132,7 @@ namespace Morula
         }
       catch (const std::exception &)
         {
-          // what it could not parse is reported below
+          // a file that it could not parse is reported below
         }
       const auto in_range = [&](const std::vector<std::size_t> &polygon) {
         return std::all_of(polygon.begin(),
@@ -154,7 +154,7 @@ namespace Morula
       return soup;
     }
 
-    /** Refuses edges that do not have two polygons each. */
+    /** Refuses a surface with an edge that does not have two polygons. */
     void
     check_edges(const Soup &soup, const std::string &file)
     {
@@ -200,7 +200,7 @@ namespace Morula
       return text + " um";
     }
 
-    /** Refuses triangles whose normal would be lost in rounding. */
+    /** Refuses a triangle so thin that rounding would spoil its normal. */
     void
     check_areas(const Mesh &mesh, const std::string &file)
     {
@@ -222,7 +222,8 @@ namespace Morula
         }
     }
 
-    /** Refuses triangles that cross or touch others which are no neighbours. */
+    /** Refuses triangles that cross or touch other ones than their neighbours.
+     */
     void
     check_intersections(const Mesh &mesh, const std::string &file)
     {

@@ -10,8 +10,8 @@ namespace Morula
 {
   namespace
   {
-    /** Samples in a lattice box that the surface may cut, per direction: about
-     *  as many a box in 2-D as in 3-D. */
+    /** Samples per direction of a lattice box that the surface may cut. A box
+     *  has about as many in 2-D as in 3-D. */
     template <int dim>
     constexpr unsigned int n_samples = dim == 2 ? 32 : 8;
 
@@ -30,7 +30,8 @@ namespace Morula
       }
     };
 
-    /** Calls @p visit(point) for the samples of a box that lie in the shape. */
+    /** Calls @p visit(point) for each sample of a box that lies in the shape.
+     */
     template <int dim, typename Visitor>
     void
     for_samples_inside(const Shape<dim> &shape,
@@ -50,7 +51,7 @@ namespace Morula
         }
     }
 
-    /** The occupied ones of @p sites, ascending. */
+    /** Those of @p sites that are occupied, ascending. */
     template <int dim>
     std::vector<std::uint64_t>
     occupied(const Lattice<dim>        &lattice,
@@ -102,13 +103,13 @@ namespace Morula
           parts[mine - sites.begin()].add(x, volume);
       };
 
-    std::vector<std::uint64_t> empty; // boxes beside mine without a cell
+    std::vector<std::uint64_t> empty; // neighbouring boxes without a cell
     for (const std::uint64_t site : sites)
       {
         const Point<dim> x = lattice.position(site);
         if (shape.contains(x, 3. * half_diagonal))
           {
-            add(site, x, std::pow(side, dim)); // all around it is inside
+            add(site, x, std::pow(side, dim)); // a whole box, inside
             continue;
           }
         for_samples_inside(shape, x, side, [&](const Point<dim> &y) {

@@ -92,19 +92,19 @@ namespace Morula
         StatisticsFile::check(path("statistics.csv"), rows, comm);
         LineageFile<dim>::check(path("lineage.csv"), births, comm);
         if (continues_conditions(resumed_from))
-          ConditionFile::check(path("condition.csv"),
-                               extent_of("condition", *resumed_from),
-                               comm);
+          MatrixConditionFile::check(path("condition.csv"),
+                                     extent_of("condition", *resumed_from),
+                                     comm);
         statistics.emplace(path("statistics.csv"), rows, comm);
         lineage.emplace(path("lineage.csv"), births, comm);
         prepare_resume(scene.output_directory,
-                       coming_run(),
+                       setup(),
                        output_times.size(),
                        comm);
       }
     else
       {
-        prepare_directory(scene.output_directory, coming_run(), comm);
+        prepare_directory(scene.output_directory, setup(), comm);
         statistics.emplace(path("statistics.csv"), comm);
         lineage.emplace(path("lineage.csv"), comm);
       }
@@ -115,15 +115,15 @@ namespace Morula
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
-    if (!lock->complaint().empty())
-      message(lock->complaint());
+    if (!lock->reason_without_lock().empty())
+      message(lock->reason_without_lock());
     if (resumed_from)
-      tell_of_missing_states();
+      warn_of_missing_states();
   }
 
   template <int dim>
-  ComingRun
-  RunFiles<dim>::coming_run() const
+  RunSetup
+  RunFiles<dim>::setup() const
   {
     return {scene.file,
             scene.parameters(),
@@ -133,7 +133,7 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::tell_of_missing_states()
+  RunFiles<dim>::warn_of_missing_states()
   {
     for (const std::string format : {"vtu", "csv"})
       {
@@ -351,7 +351,7 @@ namespace Morula
                       wall_seconds(),
                       section_times(timer, sections_before),
                       scene.output_directory});
-    note_finished(scene.output_directory, coming_run(), wall_seconds(), comm);
+    note_finished(scene.output_directory, setup(), wall_seconds(), comm);
     lock.reset();
   }
 

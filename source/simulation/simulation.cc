@@ -83,7 +83,7 @@ namespace Morula
       {
         throw;
       }
-    catch (const RunStopped &stop)
+    catch (const StoppedBySignal &stop)
       {
         files->fail(stop.what());
         throw;

@@ -83,8 +83,10 @@ namespace Morula
                        2. * cells.largest.f};
     const Moved<dim> surface =
       moved(tissue.boundary_points(), displacement, limit, comm);
-    const std::string reason =
-      why_torn(cells.positions, surface.positions, tissue.grid().box(), comm);
+    const std::string reason = torn_tissue_message(cells.positions,
+                                                   surface.positions,
+                                                   tissue.grid().box(),
+                                                   comm);
     if (!reason.empty())
       give_up(reason + ".");
 

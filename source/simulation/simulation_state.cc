@@ -414,7 +414,7 @@ namespace Morula
       return;
     files->write_snapshot(snapshot(), timer);
     files->write_timings(timer);
-    throw RunStopped(signal, time_steps.time());
+    throw StoppedBySignal(signal, time_steps.time());
   }
 
   template <int dim>

@@ -32,10 +32,10 @@ namespace Morula
 
   template <int dim>
   std::string
-  why_torn(const std::vector<Point<dim>> &cells,
-           const std::vector<Point<dim>> &boundary_points,
-           const GridBox<dim>            &box,
-           const MPI_Comm                 comm)
+  torn_tissue_message(const std::vector<Point<dim>> &cells,
+                      const std::vector<Point<dim>> &boundary_points,
+                      const GridBox<dim>            &box,
+                      const MPI_Comm                 comm)
   {
     constexpr double    infinity = std::numeric_limits<double>::infinity();
     std::vector<double> reach(2 * dim, -infinity);
@@ -67,14 +67,14 @@ namespace Morula
     return text.str();
   }
 
-#define INSTANTIATE(dim)                                         \
-  template bool        inverts(const DisplacementField<dim> &,   \
-                               const PointStore<dim> &,          \
-                               const MPI_Comm);                  \
-  template std::string why_torn(const std::vector<Point<dim>> &, \
-                                const std::vector<Point<dim>> &, \
-                                const GridBox<dim> &,            \
-                                const MPI_Comm);
+#define INSTANTIATE(dim)                                                    \
+  template bool        inverts(const DisplacementField<dim> &,              \
+                               const PointStore<dim> &,                     \
+                               const MPI_Comm);                             \
+  template std::string torn_tissue_message(const std::vector<Point<dim>> &, \
+                                           const std::vector<Point<dim>> &, \
+                                           const GridBox<dim> &,            \
+                                           const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -48,7 +48,7 @@ namespace Morula
     }
   } // namespace
 
-  RunStopped::RunStopped(const int signal, const double time)
+  StoppedBySignal::StoppedBySignal(const int signal, const double time)
     : std::runtime_error(message(signal, time))
     , signal(signal)
   {}

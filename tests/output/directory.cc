@@ -26,7 +26,7 @@ namespace
 
   /** What is said when a run is to go there; empty if it may. */
   std::string
-  complaint(const std::string &directory, const ComingRun &run)
+  complaint(const std::string &directory, const RunSetup &run)
   {
     try
       {
@@ -124,11 +124,11 @@ TEST(Directory, DoesNotLoseTheInputOfTheNewRun)
   on_root(MPI_COMM_WORLD, [&]() {
     write(directory / "statistics.csv", "step,time,dt,cells,total_volume\n");
   });
-  const ComingRun run = {"a.prm",
-                         "",
-                         {directory / "../nothing",
-                          directory / "./cells-0003.csv"},
-                         true};
+  const RunSetup run = {"a.prm",
+                        "",
+                        {directory / "../nothing",
+                         directory / "./cells-0003.csv"},
+                        true};
   EXPECT_NE(complaint(directory / "", run).find("the scene reads '"),
             std::string::npos);
   EXPECT_EQ(
@@ -140,17 +140,17 @@ TEST(Directory, DoesNotLoseTheInputOfTheNewRun)
 TEST(Directory, KeepsRunsThatWouldBeLost)
 {
   const ScratchDirectory directory;
-  const ComingRun        a   = {directory / "a.prm", "set A = 1\n", {}, false};
-  const ComingRun        b   = {directory / "b.prm", "set A = 2\n", {}, false};
+  const RunSetup         a   = {directory / "a.prm", "set A = 1\n", {}, false};
+  const RunSetup         b   = {directory / "b.prm", "set A = 2\n", {}, false};
   const std::string      run = directory / "run";
 
-  const auto refused = [&](const ComingRun &coming) {
-    const std::string said = complaint(run, coming);
+  const auto refused = [&](const RunSetup &setup) {
+    const std::string said = complaint(run, setup);
     MPI_Barrier(MPI_COMM_WORLD);
     return said;
   };
-  const auto says = [&](const ComingRun &coming, const std::string &part) {
-    const std::string said = refused(coming);
+  const auto says = [&](const RunSetup &setup, const std::string &part) {
+    const std::string said = refused(setup);
     EXPECT_NE(said.find(part), std::string::npos) << said;
   };
   EXPECT_EQ(refused(a), "");
@@ -168,8 +168,8 @@ TEST(Directory, KeepsRunsThatWouldBeLost)
 
   note_finished(run, a, 7265., MPI_COMM_WORLD);
   says(a, "that took 2 h 01 min");
-  ComingRun replacing = b;
-  replacing.replace   = true;
+  RunSetup replacing = b;
+  replacing.replace  = true;
   EXPECT_EQ(refused(replacing), "");
   says(a, "of another scene, '../b.prm'");
 
@@ -182,8 +182,8 @@ TEST(Directory, KeepsRunsThatWouldBeLost)
   // somebody's own files
   on_root(MPI_COMM_WORLD,
           [&]() { write(run + "/statistics.csv", "country,people\n"); });
-  for (const ComingRun &coming : {a, replacing})
-    says(coming, "', but no parameters.prm of such a run)");
+  for (const RunSetup &setup : {a, replacing})
+    says(setup, "', but no parameters.prm of such a run)");
 
   // files of these names without a run
   on_root(MPI_COMM_WORLD, [&]() {

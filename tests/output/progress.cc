@@ -101,7 +101,7 @@ TEST(ProgressBar, FitsTheTerminal)
 
 TEST(Summary, NamesTheDearestSections)
 {
-  RunSummary summary;
+  FinalReport summary;
   summary.outcome        = "Finished";
   summary.time           = 4.;
   summary.cells          = 7468;
@@ -129,7 +129,7 @@ TEST(Progress, PutsOneLineAStepIntoTheLog)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "log.txt";
-  RunSummary             summary;
+  FinalReport            summary;
   summary.outcome = "Finished";
   {
     Progress progress(path, false, 0., 4., MPI_COMM_WORLD);

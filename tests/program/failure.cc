@@ -35,7 +35,7 @@ namespace
 TEST(Failure, IsPrintedOnceByTheFirstRank)
 {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(end_of_all_ranks(1, "no grid", MPI_COMM_WORLD), 1);
+  EXPECT_EQ(end_all_ranks(1, "no grid", MPI_COMM_WORLD), 1);
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(text, rank() == 0 ? "morula: no grid\n" : "");
 }
@@ -46,9 +46,9 @@ TEST(Failure, ShowsWhatOtherRanksHaveToSay)
   const unsigned int last = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
   const bool         is_last = rank() == last;
   testing::internal::CaptureStderr();
-  EXPECT_EQ(end_of_all_ranks(is_last ? 2 : 1,
-                             is_last ? "the cause" : "a consequence",
-                             MPI_COMM_WORLD),
+  EXPECT_EQ(end_all_ranks(is_last ? 2 : 1,
+                          is_last ? "the cause" : "a consequence",
+                          MPI_COMM_WORLD),
             2);
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(occurrences(text, "the cause"), rank() == 0 ? 1u : 0u);
@@ -60,9 +60,9 @@ TEST(Failure, ShowsWhatOtherRanksHaveToSay)
 TEST(Failure, ShowsBeginningAndEndOfLongMessages)
 {
   testing::internal::CaptureStderr();
-  end_of_all_ranks(1,
-                   "the key" + std::string(9999, 'a') + "the remedy",
-                   MPI_COMM_WORLD);
+  end_all_ranks(1,
+                "the key" + std::string(9999, 'a') + "the remedy",
+                MPI_COMM_WORLD);
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(occurrences(text, "the key"), rank() == 0 ? 1u : 0u);
   EXPECT_EQ(occurrences(text, "the remedy"), rank() == 0 ? 1u : 0u);

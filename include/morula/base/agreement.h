@@ -11,17 +11,16 @@
 namespace Morula
 {
   /**
-   * Runs @p action on every rank. If it throws on any of them, every rank
-   * throws, with the message of the lowest rank that failed, so that no rank
-   * waits for another one that is gone. The action must not communicate.
-   * Collective.
-   * @throws InputError if that was what the lowest failing rank threw
+   * Runs @p action on every rank. If it throws on any rank, every rank throws
+   * with the message of the lowest rank that failed. So no rank waits for one
+   * that is gone. The action must not communicate. Collective.
+   * @throws InputError if the lowest failing rank threw one
    * @throws std::runtime_error for every other exception
    */
   void
   everywhere(const MPI_Comm comm, const std::function<void()> &action);
 
-  /** The same for an action that only rank 0 runs. */
+  /** The same for an @p action that only rank 0 runs. */
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action);
 } // namespace Morula

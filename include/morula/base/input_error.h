@@ -10,18 +10,18 @@
 namespace Morula
 {
   /**
-   * A text of the user's as messages show it: the beginning of a long one
-   * (without the second half of a character of several bytes), and what cannot
-   * be printed as its hexadecimal code, since a null byte would end the
-   * message.
+   * A text that the user wrote, as messages show it. A long text is cut, but
+   * never within a character of several bytes. Characters that cannot be
+   * printed are replaced by their hexadecimal codes, since a null byte would
+   * end the message.
    */
   std::string
-  shown(const std::string &text);
+  printable(const std::string &text);
 
   /**
-   * Bad input: found before any work is done. The program ends with exit
-   * code 1. The message names the key's full path, the value, what is
-   * allowed, and what to do.
+   * Bad input, found before any work is done. The program ends with exit
+   * code 1. The message names the key's full path, its value, what is allowed,
+   * and what to do.
    */
   class InputError : public std::runtime_error
   {
@@ -29,7 +29,7 @@ namespace Morula
     /**
      * @param key     full path of the key, e.g. "Grid/Spacing", or the file or
      *                command-line word in question
-     * @param value   the value found, shortened by shown()
+     * @param value   the value found, shortened by printable()
      * @param allowed what is allowed, a noun phrase
      * @param remedy  what to do, a full sentence
      */
@@ -37,11 +37,11 @@ namespace Morula
                const std::string &value,
                const std::string &allowed,
                const std::string &remedy)
-      : std::runtime_error(shown(key) + " = '" + shown(value) +
+      : std::runtime_error(printable(key) + " = '" + printable(value) +
                            "': allowed is " + allowed + ". " + remedy)
     {}
 
-    /** With the message of another one. */
+    /** An error with a complete message. */
     explicit InputError(const std::string &message)
       : std::runtime_error(message)
     {}

@@ -22,31 +22,31 @@ namespace Morula
     Kind        kind;
     std::string path;  // full path of the key or section, separated by '/'
     std::string value; // of the key
-    std::string place; // where it stands, "file:line: "
-    // where the subsections around it begin, "file:line", the outermost first
+    std::string place; // of the statement, "file:line: "
+    // the beginnings of the subsections around it, "file:line", outermost first
     std::vector<std::string> around = {};
   };
 
   /**
    * The statements of a .prm file, with the full path of every key, which the
-   * messages of deal.II's ParameterHandler lack. The grammar is its own: set,
-   * subsection ... end, include, comments from '#' on, '\' at the end of a line
-   * that goes on. A file named by include is looked for in the working
-   * directory, then next to the file that includes it.
+   * messages of deal.II's ParameterHandler lack. The grammar is that of
+   * deal.II: set, subsection ... end, include, comments from '#' on, and '\' at
+   * the end of a line that continues. A file named by include is searched in
+   * the working directory, then next to the file that includes it.
    * @throws InputError for a file that cannot be read, a line that is no
-   *         statement, subsections that are not closed (with the line where
-   *         the first of them begins) or not open
+   *         statement, an end without a subsection, and subsections without an
+   *         end (with the line where the first of them begins)
    */
   std::vector<Statement>
   read_statements(const std::string &file);
 
-  /** The same from a stream; @p name stands in the messages. */
+  /** The same from a stream. Messages call it @p name. */
   std::vector<Statement>
   read_statements(std::istream &input, const std::string &name);
 
   /**
-   * The statement of a command line's "Section/Key=value".
-   * @throws InputError without a '='
+   * The statement for the command line's word "Section/Key=value".
+   * @throws InputError if it has no '='
    */
   Statement
   read_override(const std::string &text);

@@ -10,25 +10,25 @@
 namespace Morula
 {
   /**
-   * Number of insertions, deletions, replacements and swaps of two neighbours
-   * that make one text of the other (optimal string alignment). Neither Boost
-   * 1.74 nor deal.II has an edit distance.
+   * The smallest number of insertions, deletions, replacements and swaps of two
+   * neighbours that turn one text into the other (optimal string alignment).
+   * Neither Boost 1.74 nor deal.II has an edit distance.
    */
   unsigned int
   edit_distance(const std::string &a, const std::string &b);
 
   /**
-   * The candidate that the misspelt word most likely stands for, in upper or
-   * lower case; empty if none is similar.
+   * The candidate that the misspelt word most likely stands for; empty if no
+   * candidate is similar. Upper and lower case count as equal.
    */
   std::string
   most_similar(const std::string              &word,
                const std::vector<std::string> &candidates);
 
   /**
-   * What to say about the full path of a key or section that does not exist:
-   * the most similar one, or the sections where its last name stands; empty if
-   * nothing is similar.
+   * A suggestion for the full path of a key or section that does not exist: the
+   * most similar path, or the sections that have a key of its last name. Empty
+   * if nothing is similar.
    * @param wanted     path, separated by '/'
    * @param candidates paths that exist
    */

@@ -13,10 +13,10 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The unit vector along a direction that a key gives as text, two or three
+   * The unit vector along the direction that a key gives as text: two or three
    * numbers separated by ',' or ';'. In 2-D the first two count.
    * @param key full path of the key, for error messages
-   * @throws InputError if it is no vector or has no length
+   * @throws InputError if the text is no vector or the vector is zero
    */
   template <int dim>
   Tensor<1, dim>

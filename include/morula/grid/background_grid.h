@@ -15,16 +15,16 @@ namespace Morula
 {
   /**
    * The background grid: a Cartesian `parallel::distributed::Triangulation`
-   * around the tissue, distributed over the ranks by the number of points in
-   * each grid cell. The user gives a spacing, never a box: the triangulation
-   * is kept while the tissue stays inside its padding, and re-made larger
-   * otherwise. The grid cells of the box are the leaves of an octree of which
-   * it takes the middle; what is left of the tree stays coarse.
+   * around the tissue. The ranks share it by the number of points in each grid
+   * cell. The user gives a spacing and no box: the triangulation is kept while
+   * the tissue stays inside its padding, and is made anew and larger otherwise.
+   * The grid cells of the box are leaves in the middle of an octree; the tree's
+   * other leaves stay coarse.
    *
-   * Tables over the grid cells of the box (owner, fill, ...) are replicated on
-   * all ranks. There are some hundred times fewer grid cells than points, so
-   * that this stays small (8 MB for 10⁶ grid cells, 10⁸ points), and it lets
-   * every rank classify and number the splines by itself, identically.
+   * Every rank has tables over all grid cells of the box (owner, fill, ...).
+   * They are small, since grid cells are some hundred times fewer than points
+   * (8 MB for 10⁶ grid cells, 10⁸ points). With them every rank classifies and
+   * numbers the splines by itself, with the same result.
    */
   template <int dim>
   class BackgroundGrid
@@ -35,32 +35,34 @@ namespace Morula
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm comm);
 
     /**
-     * Whether grid cells first...last and their neighbours lie in the box.
+     * Whether the grid cells first...last and their neighbours lie in the box.
      */
     bool
     covers(const GridIndex<dim> &first, const GridIndex<dim> &last) const;
 
     /**
-     * Makes the triangulation for tissue in grid cells first...last, with
-     * padding.
+     * Makes the triangulation for tissue in the grid cells first...last, with
+     * padding around them.
      */
     void
     enclose(const GridIndex<dim> &first, const GridIndex<dim> &last);
 
     /**
-     * Makes the triangulation of exactly this box (as stored in a snapshot).
+     * Makes the triangulation of exactly this box, e.g. that of a snapshot.
+     * @param first coordinates of the first grid cell
+     * @param n     number of grid cells per direction
      */
     void
     make(const GridIndex<dim> &first, const GridIndex<dim> &n);
 
     /**
-     * Distributes the grid cells over the ranks.
-     * @param weights points per grid cell of the box, the same on all ranks
+     * Distributes the grid cells over the ranks. Collective.
+     * @param weights points per grid cell of the box, equal on all ranks
      */
     void
     partition(const std::vector<unsigned int> &weights);
 
-    /** Weights of the last partition, needed to make it again. */
+    /** Weights of the last partition. With them it can be made again. */
     const std::vector<unsigned int> &
     weights() const;
 
@@ -71,7 +73,7 @@ namespace Morula
     unsigned int
     owner(const unsigned int number) const;
 
-    /** The triangulation's cell; only for grid cells that this rank owns. */
+    /** The triangulation's cell of a grid cell that this rank owns. */
     CellIterator
     grid_cell(const unsigned int number) const;
 
@@ -81,7 +83,8 @@ namespace Morula
     MPI_Comm
     communicator() const;
 
-    /** Grid lines stand at offset + i h; no box needed. */
+    /** Coordinates of the grid cell that holds @p x, in the box or not. The
+     *  grid lines stand at offset + i h. */
     GridIndex<dim>
     locate(const Point<dim> &x) const;
 

@@ -18,15 +18,17 @@ namespace Morula
    * The quadratic B-splines that do not vanish on one grid cell: 3^dim tensor
    * products, numbered x fastest. Spline a is centred on the neighbouring grid
    * cell with coordinates + offset(a). On ξ ∈ [0, 1] the one-dimensional
-   * splines are ½(1-ξ)², ½+ξ-ξ², ½ξ²: doc/theory.md (2.3).
+   * splines are ½(1-ξ)², ½+ξ-ξ², ½ξ²: doc/theory.md (2.3). The displacement is
+   * their sum, u(x) = Σ_a u_a N_a(x): equation (5) of the paper.
    */
   template <int dim>
   struct BSpline
   {
-    /** Splines on a grid cell. */
+    /** Number of splines on a grid cell. */
     static constexpr unsigned int n = Utilities::pow(3, dim);
 
-    /** Coordinates of the spline's centre relative to the grid cell's. */
+    /** Coordinate of spline @p a's grid cell minus that of the grid cell: -1, 0
+     *  or 1. */
     static constexpr int
     offset(const unsigned int a, const unsigned int direction)
     {
@@ -37,7 +39,7 @@ namespace Morula
     }
   };
 
-  /** Values and gradients (1/µm, by direction) of a grid cell's splines. */
+  /** Values and gradients (1/µm) of a grid cell's splines at one point. */
   template <int dim>
   struct SplineValues
   {
@@ -47,7 +49,7 @@ namespace Morula
     double gradient[dim][n];
 
     /**
-     * @param xi position in the unit cell
+     * @param xi position in the grid cell, each coordinate in [0, 1]
      * @param h  grid spacing, µm
      */
     SplineValues(const Point<dim> &xi, const double h)

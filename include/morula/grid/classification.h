@@ -10,13 +10,13 @@
 
 namespace Morula
 {
-  /** What a grid cell is to the splines (doc/theory.md, section 3), in
-   *  increasing order. */
+  /** The role of a grid cell for the splines (doc/theory.md, section 3). The
+   *  order counts: see is_active(). */
   enum class GridCellClass : char
   {
     empty,
-    /** Without points of its own; only boxes of particles reach into it. It
-     *  connects grid cells, and is otherwise like an empty one. */
+    /** Holds no points; only particles' cubes reach into it. It connects grid
+     *  cells with tissue, and is otherwise treated like an empty one. */
     reached,
     cut,
     inner
@@ -31,17 +31,18 @@ namespace Morula
   }
 
   /**
-   * Classifies the grid cells of the box. *Inner* is an active grid cell
+   * Classifies the grid cells of the box. An active grid cell is *inner* if
    *
-   * - whose fill is at least C_C min(1, largest fill among it and its
-   *   neighbours), doc/theory.md (3.2); the minimum lets thin sheets and small
-   *   clusters have inner grid cells;
-   * - that, in thin tissue, leads its rows across (only such
-   *   neighbours count above, then): else a body on both sides of a grid line
-   *   would have inner grid cells whose outermost splines hardly touch it;
-   * - and that holds, together with its neighbours, at least 3^dim quadrature
-   *   points, 2^dim of them itself unless the tissue is thin: fewer cannot tell
-   *   its splines apart.
+   * - its fill is at least C_C min(1, largest fill of it and its neighbours):
+   *   doc/theory.md (3.2). The minimum gives thin sheets and small clusters
+   *   inner grid cells.
+   * - in thin tissue, it is the candidate of its thin rows, see
+   *   Occupancy::is_inner_candidate(). Then only such neighbours count in the
+   *   rule above. Otherwise a thin body on both sides of a grid line would have
+   *   inner grid cells whose outermost splines hardly touch it.
+   * - it and its neighbours hold at least 3^dim quadrature points together,
+   *   and, unless the tissue is thin, it holds 2^dim of them itself. With fewer
+   *   points its splines could not be told apart.
    */
   template <int dim>
   std::vector<GridCellClass>

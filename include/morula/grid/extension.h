@@ -13,25 +13,25 @@
 namespace Morula
 {
   /**
-   * Extension weights of one direction: the three quadratic B-splines of a
-   * block that starts at spline 0, continued to spline @p j:
+   * Extension weights of one direction. They express the coefficient of spline
+   * @p j by those of the three splines 0, 1, 2 of a block:
    * e_i = Π_{m≠i} (j-m)/(i-m), i, m = 0, 1, 2: doc/theory.md (3.3).
-   * Any quadratic with coefficients c_0, c_1, c_2 has c_j = Σ e_i c_i.
+   * A quadratic function with coefficients c_0, c_1, c_2 has c_j = Σ e_i c_i.
    */
   std::array<double, 3>
   extension_weights(const int j);
 
   /**
-   * Weights of an outer spline with respect to the 3^dim splines of the inner
-   * grid cell @p block (numbered as BSpline).
+   * Weights that express an outer spline by the 3^dim splines of the inner grid
+   * cell @p block, in the order of BSpline.
    */
   template <int dim>
   std::array<double, BSpline<dim>::n>
   extension_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block);
 
   /**
-   * Finds the inner grid cells whose splines an outer spline is expressed by.
-   * Holds references: box and classes must outlive it.
+   * Finds the inner grid cells by whose splines an outer spline is expressed.
+   * It keeps references: box and classes must outlive it.
    */
   template <int dim>
   class ExtensionSearch
@@ -41,11 +41,11 @@ namespace Morula
                     const std::vector<GridCellClass> &classes);
 
     /**
-     * Among the inner grid cells connected to the copy's support through grid
-     * cells with tissue (bodies across a gap must not be coupled) all that have
-     * the smallest Σ|e|, by number. The sums are products of integers, so that
-     * equal ones are equal to the last bit. Empty if no inner grid cell is
-     * connected.
+     * The inner grid cells with the smallest Σ|e|, in the order of their
+     * numbers. Only those count that grid cells with tissue connect to the
+     * copy's support: bodies across a gap must not be coupled. The sums are
+     * products of integers, so that equal sums are equal to the last bit. The
+     * list is empty if no inner grid cell is connected.
      */
     std::vector<unsigned int>
     blocks(const SplineCopy &copy);

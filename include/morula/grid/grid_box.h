@@ -16,15 +16,16 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Coordinates (i, j, k) of a grid cell: it spans offset + [i, i+1] h. */
+  /** Coordinates (i, j, k) of a grid cell. Along x it spans
+   *  offset + [i, i+1] h. */
   template <int dim>
   struct GridIndex : public std::array<int, dim>
   {};
 
   /**
-   * A box of grid cells of the infinite Cartesian background grid, and the
-   * arithmetic between positions (µm), coordinates (i, j, k), and the linear
-   * number of a grid cell in the box (x fastest).
+   * A box of grid cells of the infinite Cartesian background grid. It converts
+   * between positions (µm), coordinates (i, j, k), and the number of a grid
+   * cell in the box (x fastest).
    */
   template <int dim>
   class GridBox
@@ -85,7 +86,7 @@ namespace Morula
       return index;
     }
 
-    /** Whether a grid cell is one of the box. */
+    /** Whether a grid cell belongs to the box. */
     bool
     contains(const GridIndex<dim> &index) const
     {
@@ -106,7 +107,7 @@ namespace Morula
       return number;
     }
 
-    /** The index of a grid cell from its number; inverse of number(). */
+    /** The coordinates of a grid cell from its number; inverse of number(). */
     GridIndex<dim>
     index(unsigned int number) const
     {
@@ -129,7 +130,7 @@ namespace Morula
       return x;
     }
 
-    /** Corner with the smallest coordinates. */
+    /** The corner of a grid cell with the smallest coordinates, µm. */
     Point<dim>
     corner(const GridIndex<dim> &index) const
     {
@@ -139,7 +140,8 @@ namespace Morula
       return x;
     }
 
-    /** Position in the unit cell of the grid cell @p index. */
+    /** Position relative to the grid cell @p index, in units of h: inside it,
+     *  each coordinate is in [0, 1]. */
     Point<dim>
     unit_position(const Point<dim> &x, const GridIndex<dim> &index) const
     {
@@ -149,8 +151,9 @@ namespace Morula
       return xi;
     }
 
-    /** Calls @p visit(number, index) for all grid cells of the box within
-     *  @p radius (largest coordinate difference) of @p center, x fastest. */
+    /** Calls @p visit(number, index) for all grid cells of the box whose
+     *  coordinates differ by at most @p radius from those of @p center, x
+     *  fastest. */
     template <typename Visitor>
     void
     for_neighbors(const GridIndex<dim> &center,
@@ -166,8 +169,8 @@ namespace Morula
       for_overlap(lower, upper, visit);
     }
 
-    /** Calls @p visit(number, index) for lower <= index <= upper as far as they
-     *  are of the box, x fastest. */
+    /** Calls @p visit(number, index) for all grid cells of the box with
+     *  lower <= index <= upper, x fastest. */
     template <typename Visitor>
     void
     for_overlap(GridIndex<dim> lower,
@@ -182,7 +185,7 @@ namespace Morula
       for_range(lower, upper, visit);
     }
 
-    /** Calls @p visit(number, index) for lower <= index <= upper, x fastest. */
+    /** The same for a range that lies in the box. */
     template <typename Visitor>
     void
     for_range(const GridIndex<dim> &lower,

@@ -18,14 +18,15 @@ namespace Morula
 {
   /**
    * How full the grid cells are, over all ranks. Each particle's volume is
-   * spread over an axis-parallel cube of side V^(1/dim) around it: counting
-   * points instead would alias (a lattice of five points per grid
-   * spacing grown to θ = 1.4 leaves interior grid cells with fill 0.59).
+   * spread over an axis-parallel cube of side V^(1/dim) around it. Counting
+   * the points instead would alias: a lattice of five points per grid spacing
+   * grown to θ = 1.4 leaves interior grid cells with fill 0.59.
    *
-   * Filled in two rounds: particles and boundary points, sum(), and then the
-   * particles' quadrature points, whose number depends on the first round.
+   * It is filled in two rounds. The first adds particles and boundary points
+   * and ends with sum(). The second adds the particles' quadrature points,
+   * whose number depends on the first round.
    *
-   * Volumes are summed as integers, so that the result, and with it the
+   * Volumes are summed as integers. So the result, and with it the
    * classification, does not depend on the order of the points or on the
    * number of ranks.
    */
@@ -34,10 +35,10 @@ namespace Morula
   {
   public:
     /**
-     * @param points_per_cell least number of quadrature points of a particle
-     *        per edge
+     * @param points_per_cell least number of quadrature points per edge of a
+     *        particle
      * @param share_points whether a quadrature point on a grid line belongs to
-     *        all grid cells around: see SharedPoint
+     *        all grid cells around it; see SharedPoint
      */
     explicit Occupancy(const GridBox<dim> &box,
                        const unsigned int  points_per_cell = 1,
@@ -65,19 +66,21 @@ namespace Morula
     sum_quadrature_points(const MPI_Comm comm);
 
     /**
-     * Quadrature points per edge of a particle: as many as its box and
-     * the scene ask for. Where the tissue is one cell thick, two at least: with
-     * all points of a sheet in one plane, a displacement that is quadratic
-     * across it could change at no cost of energy. The particles would not
-     * notice, but the surface would move. Products of such displacements in
-     * both directions across a rod need three points across it: three in each
-     * cell of a row, two in a rod or a cluster that is two cells thick.
+     * Quadrature points per edge of a particle. The particle's box and the
+     * scene set the number; thin tissue raises it. A sheet that is one cell
+     * thick has at least two: with all points in one plane, a displacement
+     * that is quadratic across the sheet would cost no energy, so the surface
+     * could move although no particle does. A rod needs three points across
+     * it, since products of such displacements in both directions across it
+     * would cost none: three in each cell of a row of cells, two in each cell
+     * of a rod or cluster that is two cells thick.
      */
     typename ParticleDomain<dim>::Numbers
     n_points_per_edge(const ParticleDomain<dim> &domain) const;
 
     /** Calls @p visit(position, n) for each of the n grid cells that a
-     *  quadrature point at @p x belongs to; position is in that grid cell. */
+     *  quadrature point at @p x belongs to. The position lies in that grid
+     *  cell. */
     template <typename Visitor>
     void
     for_each_share(const Point<dim> &x, const Visitor &visit) const
@@ -98,36 +101,37 @@ namespace Morula
     fill(const unsigned int number) const;
 
     /**
-     * Thickness (µm) of the tissue around a grid cell, after sum(). Along a
-     * coordinate, it is the volume in the row of grid cells with tissue that
-     * the grid cell belongs to, divided by the row's cross-section, a rectangle
-     * that the tissue reaches all sides of. Of the coordinates the smallest
-     * counts, and of the grid cell and its neighbours with tissue the largest,
-     * so that the tip of a large body is not thin. At most h.
+     * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
+     * A row is a connected row of grid cells with tissue along one coordinate.
+     * Its thickness is its volume divided by its cross-section, the smallest
+     * rectangle around its tissue. A grid cell has the smallest thickness of
+     * its rows. The result is the largest among the grid cell and its
+     * neighbours with tissue, so that the tip of a large body is not thin.
      */
     double
     thickness(const unsigned int number) const;
 
     /**
-     * Whether the tissue around a grid cell is thin: in the grid cell and each
-     * of its neighbours with tissue, it ends within 1.5 h along one of the
-     * coordinates at least.
+     * Whether the tissue around a grid cell is thin: the grid cell and each
+     * of its neighbours with tissue has a row that is shorter than 1.5 h.
      */
     bool
     is_thin(const unsigned int number) const;
 
     /**
-     * Whether the grid cell leads in each of its rows whose tissue ends within
-     * 1.5 h: the fullest in x leads, of those that lead in x the fullest in y,
-     * and so on. Of grid cells that are about equally full the first leads, so
-     * that a sheet on both sides of a grid line is led from one side
-     * throughout.
+     * Whether the grid cell is the inner candidate of each of its thin rows
+     * (shorter than 1.5 h). A thin row has one candidate: its fullest grid
+     * cell. Rows in x choose first, rows in y choose among what is left, then
+     * rows in z. Of grid cells that are about equally full the first is taken,
+     * so that a sheet on both sides of a grid line has all its candidates on
+     * one side.
      */
     bool
-    leads_thin_rows(const unsigned int number) const;
+    is_inner_candidate(const unsigned int number) const;
 
-    /** Corners (µm) of the smallest box around the particles' boxes in the
-     *  grid cell; without any, its upper corner below its lower one. */
+    /** Corners (µm) of the smallest box around the particles' cubes in the
+     *  grid cell. If there are none, the upper corner is below the lower one.
+     */
     std::pair<Point<dim>, Point<dim>>
     bounds(const unsigned int number) const;
 
@@ -139,8 +143,8 @@ namespace Morula
     unsigned int
     n_quadrature_points(const unsigned int number) const;
 
-    /** Whether more boundary points than a surface needs, 4^dim, share the
-     *  grid cell of @p x, which may lie outside the box. */
+    /** Whether the grid cell of @p x holds more than 4^dim boundary points,
+     *  which is more than a surface needs. @p x may lie outside the box. */
     bool
     crowded(const Point<dim> &x) const;
 
@@ -175,13 +179,13 @@ namespace Morula
     std::vector<std::int64_t> quadrature_points;
     std::vector<std::int64_t> particles;
     std::vector<std::int64_t> boundary_points;
-    /** How far the tissue in a grid cell reaches from its lower and its upper
-     *  end, for each direction, by h. */
+    /** How far the tissue in a grid cell reaches up from its lower end and
+     *  down from its upper end, for each direction, in units of h. */
     std::vector<float> reaches;
-    std::vector<float> thicknesses; // of rows, by h; above 1 as 1
-    std::vector<float> lengths;     // of rows, by h; those not thin as 2
-    std::vector<char>  n_thin;      // directions in which the row is thin
-    std::vector<char>  leads;
+    std::vector<float> thicknesses; // of rows, in h, at most 1
+    std::vector<float> lengths;     // of rows, in h; 2 where no row is thin
+    std::vector<char>  n_thin;      // number of directions with a thin row
+    std::vector<char>  candidates;  // see is_inner_candidate()
   };
 } // namespace Morula
 

@@ -18,10 +18,10 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The box x + A ξ, ξ in [-1/2, 1/2]^dim, that a cell occupies, and the
-   * quadrature points in it: one in the middle, or several per edge where the
-   * scene asks for it or the edge is longer than half a grid spacing. Without
-   * these, a full grid cell could hold no point at all.
+   * The box x + A ξ, ξ in [-1/2, 1/2]^dim, that a cell occupies, and its
+   * quadrature points. There is one in the middle. There are several per edge
+   * where the scene asks for them, or where the edge is longer than half a grid
+   * spacing: otherwise a full grid cell could hold no point at all.
    */
   template <int dim>
   class ParticleDomain
@@ -81,23 +81,23 @@ namespace Morula
       return side_;
     }
 
-    /** The largest singular value of A: how long the cell is where it is
-     *  longest, µm. */
+    /** The length of the cell in its longest direction, which is the largest
+     *  singular value of A, µm. */
     double
     length() const
     {
       const SymmetricTensor<2, dim> square =
         symmetrize(edges * transpose(edges));
       const double largest = eigenvalues(square)[0];
-      // Those of nearly isotropic tensors may come out as no numbers.
+      // eigenvalues() may return NaN for a nearly isotropic tensor.
       return std::sqrt(std::isfinite(largest) ? largest : trace(square) / dim);
     }
 
     /**
-     * The axis-parallel cube of the same volume, which that is spread over. It
-     * is cheaper than to cut a parallelepiped at grid lines, and as good: the
-     * results of tissue stretched by 3.7 were the same within their scatter
-     * with a box of the domain's own widths.
+     * Lower corner of the axis-parallel cube of the same volume, over which the
+     * volume is spread. To cut a parallelepiped at grid lines would cost more
+     * and gain nothing: for tissue stretched by 3.7, a box with the domain's
+     * own widths gave the same results within their scatter.
      */
     Point<dim>
     lower() const
@@ -105,6 +105,7 @@ namespace Morula
       return corner(-0.5);
     }
 
+    /** Upper corner of that cube. */
     Point<dim>
     upper() const
     {
@@ -127,8 +128,8 @@ namespace Morula
       return {least, greatest};
     }
 
-    /** Quadrature points along each edge, at least @p least, on a grid of
-     *  spacing @p h (µm): doc/theory.md (2.2). */
+    /** Number of quadrature points along each edge, at least @p least, on a
+     *  grid of spacing @p h (µm): doc/theory.md (2.2). */
     Numbers
     n_per_edge(const double h, const unsigned int least) const
     {
@@ -139,7 +140,8 @@ namespace Morula
       return n;
     }
 
-    /** Calls @p visit(position) for all points, the first edge fastest. */
+    /** Calls @p visit(position) for all quadrature points, the first edge
+     *  fastest. */
     template <typename Visitor>
     void
     for_quadrature_points(const Numbers &n, const Visitor &visit) const
@@ -163,11 +165,12 @@ namespace Morula
     }
 
   private:
-    /** No edge counts as longer than so many sides: such a deformation
-     *  gradient is that of a point that has lost its surroundings. */
+    /** Longest edge, in sides. Longer edges are shortened to it: such a
+     *  deformation gradient is that of a point that has lost its surroundings.
+     */
     static constexpr double longest_edge = 16.;
 
-    /** Two per grid spacing. */
+    /** Two points per grid spacing. */
     static unsigned int
     n_on_length(const double length, const double h)
     {

@@ -12,26 +12,25 @@
 namespace Morula
 {
   /**
-   * Notices when parts of the tissue that shared no spline begin to share one:
-   * from then on they stick together, at a distance of up to a grid spacing,
-   * though their cells do not touch. The same on all ranks, without
-   * communication.
+   * Notices when two pieces of the tissue begin to share a spline. From then on
+   * they stick together, at a distance of up to a grid spacing, though their
+   * cells do not touch. All ranks get the same answer without communication.
    */
   template <int dim>
   class PieceWatch
   {
   public:
     /**
-     * Compares the pieces with those of the call before: where two of them have
-     * become one, the point (µm) in the middle between their grid cells that
-     * are nearest to each other. None in the first call.
+     * Compares the pieces with those of the last call.
+     * @return if two pieces have become one, the point (µm) in the middle
+     *   between their nearest grid cells. Nothing in the first call.
      */
     std::optional<Point<dim>>
     joined(const SplineSpace<dim> &space);
 
   private:
-    /** By number in the box of @p space: the piece that a grid cell belonged to
-     *  in the call before, if it was and is active. */
+    /** For each grid cell of the box of @p space, its piece in the last call,
+     * if the grid cell was active then and is active now. */
     std::vector<unsigned int>
     former_pieces(const SplineSpace<dim> &space) const;
 

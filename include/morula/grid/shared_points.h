@@ -11,15 +11,15 @@
 
 namespace Morula
 {
-  /** How a point on a grid line is shared by the grid cells on its sides:
-   *  doc/theory.md, section 2.4. */
+  /** A point on a grid line, which the grid cells on all its sides share in
+   *  equal parts: doc/theory.md, section 2.4. */
   template <int dim>
   class SharedPoint
   {
   public:
-    /** Points so near to a grid line, in grid spacings, count as on it. Much
-     *  more than what a step's solution is wrong by, so that a cell that is to
-     *  stay on a line does. */
+    /** A point nearer to a grid line than so many grid spacings counts as on
+     * it. This is much more than the error of a step's solution, so that a cell
+     *  that should stay on a line does so. */
     static constexpr double on_line = 1e-6;
 
     SharedPoint(const GridBox<dim> &box, const Point<dim> &x)
@@ -42,7 +42,7 @@ namespace Morula
         }
     }
 
-    /** By how many grid cells. */
+    /** Number of grid cells that share the point; 1 for a point on no line. */
     unsigned int
     n_shares() const
     {
@@ -52,8 +52,8 @@ namespace Morula
       return product;
     }
 
-    /** Calls @p visit(position) for the point in each of these grid cells; only
-     *  points on a line are moved. */
+    /** Calls @p visit(position) for each of these grid cells. A point on a line
+     *  is moved a little, so that its position lies in that grid cell. */
     template <typename Visitor>
     void
     for_each(const Visitor &visit) const

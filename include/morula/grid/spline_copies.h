@@ -12,26 +12,26 @@
 
 namespace Morula
 {
-  /** A spline as one part of the tissue in its support sees it. */
+  /** The copy of a spline that one part of the tissue in its support uses. */
   struct SplineCopy
   {
     unsigned int spline; // number of the grid cell it is centred on
-    /** The active grid cells of the part: bit a is the one at the spline's
-     *  centre + BSpline::offset(a). */
+    /** The active grid cells of the part. Bit a stands for the grid cell at the
+     *  spline's centre + BSpline::offset(a). */
     std::uint32_t support;
-    bool          inner; // an inner grid cell is among them
-    unsigned int  piece;
+    bool          inner; // whether an inner grid cell is among them
+    unsigned int  piece; // see SplineCopies
   };
 
   /**
-   * The splines around the tissue. A spline reaches over 3^dim grid cells; if
-   * the active ones among them fall into parts that do not touch each other
-   * (grid cells touch at a vertex), each part has a copy of the spline of its
-   * own. So bodies, and arms of one body, with an empty layer of grid cells
-   * between them do not feel each other (doc/theory.md, section 3.3).
+   * The splines around the tissue. A spline reaches over 3^dim grid cells. If
+   * those with tissue form parts that do not touch each other, each part has
+   * its own copy of the spline. (Grid cells touch if they share a vertex.) So
+   * bodies, or arms of one body, with an empty layer of grid cells between them
+   * do not feel each other (doc/theory.md, section 3.3).
    *
-   * Grid cells that share a copy are one *piece*. The same on all ranks,
-   * without communication.
+   * Grid cells that share a copy belong to the same *piece*. All ranks compute
+   * the same, without communication.
    */
   template <int dim>
   class SplineCopies
@@ -42,17 +42,18 @@ namespace Morula
     SplineCopies(const GridBox<dim>               &box,
                  const std::vector<GridCellClass> &classes);
 
-    /** By spline, copies of one spline by their lowest grid cell. */
+    /** All copies, in the order of their splines; copies of one spline in the
+     *  order of their lowest grid cells. */
     const std::vector<SplineCopy> &
     list() const;
 
-    /** Which copy of the spline centred on @p spline the active grid cell
-     *  @p cell of its support uses: a position in list(). */
+    /** The copy of the spline centred on @p spline that the active grid cell
+     *  @p grid_cell of its support uses: a position in list(). */
     unsigned int
     at(const GridIndex<dim> &spline, const GridIndex<dim> &grid_cell) const;
 
-    /** The piece of an active grid cell, 0, ..., n_pieces() - 1 in the order of
-     *  their lowest grid cells. */
+    /** The piece of the active grid cell @p number: 0, ..., n_pieces() - 1 in
+     *  the order of the pieces' lowest grid cells. */
     unsigned int
     piece(const unsigned int number) const;
 
@@ -72,7 +73,7 @@ namespace Morula
 
     GridBox<dim>              box;
     std::vector<SplineCopy>   copies;
-    std::vector<unsigned int> first;  // copy of each spline; one more
+    std::vector<unsigned int> first;  // copy of each spline, and the end
     std::vector<unsigned int> pieces; // by grid cell
     std::vector<unsigned int> lowest; // by piece
   };

@@ -16,17 +16,18 @@
 
 namespace Morula
 {
-  /** A table as far as it goes, for a snapshot: what is kept of it. */
+  /** How much of a table a snapshot keeps. */
   struct TableExtent
   {
     std::uint64_t n_rows = 0; // below the header
-    std::uint64_t digest = 0; // of header and rows; known to rank 0
+    std::uint64_t digest = 0; // of header and rows; only on rank 0
   };
 
   /**
-   * A CSV file that grows by rows during a run. Rank 0 writes; all members are
-   * collective and throw on all ranks alike. A row that was torn by a crash is
-   * never read: a resumed run cuts the file behind the rows it knows of.
+   * A CSV file to which rows are appended during a run. Rank 0 writes. All
+   * members are collective and throw on all ranks alike. A crash may leave an
+   * incomplete row; it is never read, since a resumed run cuts the file behind
+   * the rows that the snapshot knows of.
    */
   class AppendedCsv
   {
@@ -40,9 +41,9 @@ namespace Morula
                 const MPI_Comm                  comm);
 
     /**
-     * Continues a file behind the rows that are to be @p kept; what follows is
-     * cut.
-     * @throws InputError if the file is missing, has another header, fewer
+     * Continues a file: keeps the rows that @p kept names, and cuts what
+     * follows.
+     * @throws InputError if the file is missing, or has another header, fewer
      * rows, or rows with another digest
      */
     AppendedCsv(const std::string              &path,
@@ -51,7 +52,7 @@ namespace Morula
                 const MPI_Comm                  comm);
 
     /**
-     * Refuses what the second constructor would, and changes nothing.
+     * Throws what the second constructor would throw, and changes nothing.
      * @throws InputError
      */
     static void
@@ -61,19 +62,19 @@ namespace Morula
           const MPI_Comm                  comm);
 
     /**
-     * Appends rank 0's @p rows, complete lines; they have left the program on
-     * return.
-     * @throws std::runtime_error with path and reason, also if somebody has
+     * Appends rank 0's @p rows, which are complete lines. On return the system
+     * has them.
+     * @throws std::runtime_error with path and reason, e.g. if somebody has
      *   deleted the file
      */
     void
     append(const std::string &rows);
 
-    /** Forces the rows to the disk: before a snapshot that counts them. */
+    /** Forces the rows to the disk. Needed before a snapshot counts them. */
     void
     sync();
 
-    /** To be stored in a snapshot. */
+    /** What a snapshot stores. */
     TableExtent
     extent() const
     {

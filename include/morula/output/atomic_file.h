@@ -11,22 +11,23 @@
 
 namespace Morula
 {
-  /** Where a file is written before it takes its name: `path.tmp`. */
+  /** The name under which a file is written before it is complete:
+   *  `path.tmp`. */
   std::string
-  path_aside(const std::string &path);
+  temporary_path(const std::string &path);
 
   /**
-   * Forces `path.tmp` to the disk and gives it the name @p path; a reader sees
-   * the old file or the new one, never a part.
+   * Forces `path.tmp` to the disk and renames it to @p path. A reader sees the
+   * old file or the new one, never a part of it.
    * @throws std::runtime_error with the path and the system's reason
    */
   void
   publish(const std::string &path);
 
   /**
-   * A file that replaces the one of the same name only when it is complete. If
-   * it is destroyed before commit(), the old file stays and nothing is left
-   * aside.
+   * A file that replaces the old one of its name only when it is complete. If
+   * this object is destroyed before commit(), the old file stays and the
+   * temporary one is removed.
    */
   class AtomicFile
   {
@@ -47,7 +48,7 @@ namespace Morula
       file.reserve(size);
     }
 
-    /** Puts the written file in its place: until now there was the old one. */
+    /** Replaces the old file by the written one. */
     void
     commit();
 
@@ -58,7 +59,7 @@ namespace Morula
     bool        committed = false;
   };
 
-  /** A whole file at once. */
+  /** Writes a whole file at once; see AtomicFile. */
   void
   write_atomically(const std::string &path, const std::string_view text);
 } // namespace Morula

@@ -13,9 +13,9 @@
 namespace Morula
 {
   /**
-   * Writes one CSV file for all ranks: a header, then the rows in id order,
-   * the same for any number of ranks. The file appears when it is complete.
-   * Collective.
+   * Writes one CSV file for all ranks: a header, then the rows in the order of
+   * their ids, so that the file is equal for any number of ranks. The file
+   * appears when it is complete. Collective.
    * @throws std::runtime_error, on all ranks, with path and reason
    */
   template <int dim>

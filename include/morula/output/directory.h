@@ -18,31 +18,35 @@ namespace Morula
                 const std::string &extension);
 
   /**
-   * Whether a run can write into the directory, or create it. Touches nothing;
-   * for a scene's check.
-   * @throws InputError if the path is no directory, or not writable
+   * Checks that a run can write into the directory, or create it. Touches
+   * nothing.
+   * @throws InputError if the path is no directory or cannot be written
    */
   void
   check_directory(const std::string &directory);
 
-  /** @throws InputError as check_directory() */
+  /** Creates the directory unless it exists.
+   *  @throws InputError as check_directory() */
   void
   create_directory(const std::string &directory);
 
-  /** The run that is to go into a directory. */
-  struct ComingRun
+  /** What a run writes about itself into its directory. */
+  struct RunSetup
   {
-    std::string              scene_file;
-    std::string              parameters;      // a .prm file with all keys
-    std::vector<std::string> inputs;          // files that the scene reads
-    bool                     replace = false; // any run, not only its own
+    std::string scene_file;
+    /** The text of a .prm file with all keys. */
+    std::string parameters;
+    /** Files that the scene reads. */
+    std::vector<std::string> inputs;
+    /** Whether to replace any run, not only one of the same scene file. */
+    bool replace = false;
   };
 
   /**
-   * Refuses a directory whose run would be lost: one of another scene file, one
-   * that is not finished, or that took more than an hour; and one that holds
-   * files with the names that Morula gives, but no run of Morula. Touches
-   * nothing. For one rank.
+   * Refuses to replace a run that would be a loss: a run of another scene file,
+   * an unfinished one, or one that took more than an hour. Refuses also a
+   * directory that holds files with Morula's names, but no run of Morula.
+   * Touches nothing. One rank calls it.
    * @param replace accept any run of Morula
    * @throws InputError
    */
@@ -53,32 +57,31 @@ namespace Morula
 
   /**
    * Makes the directory ready for a new run: creates it, writes parameters.prm,
-   * and removes the other files of the run it finds there (those with the names
-   * that Morula gives, no others). Collective.
-   * @throws InputError, on all ranks, as check_directory() and
-   *   check_replaceable(), or if one of the inputs would be removed
+   * and removes the other files of the old run (those with names that Morula
+   * gives, no others). Collective.
+   * @throws InputError on all ranks, as check_directory() and
+   *   check_replaceable() do, or if one of the inputs would be removed
    */
   void
   prepare_directory(const std::string &directory,
-                    const ComingRun   &run,
+                    const RunSetup    &run,
                     const MPI_Comm     comm);
 
   /**
-   * Makes the directory ready to resume a run: writes parameters.prm and
-   * removes the numbered files from @p first_number on, which were written
-   * after the snapshot. Collective; errors as above.
+   * Makes the directory ready to resume a run: writes parameters.prm, and
+   * removes the numbered files from @p first_number on, since they were written
+   * after the snapshot. Collective; throws as prepare_directory().
    */
   void
   prepare_resume(const std::string &directory,
-                 const ComingRun   &run,
+                 const RunSetup    &run,
                  const unsigned int first_number,
                  const MPI_Comm     comm);
 
-  /** Notes in parameters.prm that the run has ended as it should. Collective.
-   */
+  /** Writes into parameters.prm that the run has finished. Collective. */
   void
   note_finished(const std::string &directory,
-                const ComingRun   &run,
+                const RunSetup    &run,
                 const double       wall_seconds,
                 const MPI_Comm     comm);
 } // namespace Morula

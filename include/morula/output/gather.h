@@ -17,9 +17,10 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * All ranks' strings or vectors of plain values, on rank 0 in the order of
-   * the ranks; empty elsewhere. Collective; pieces may be larger than 2 GB,
-   * which Utilities::MPI::gather() does not allow.
+   * Gathers all ranks' strings, or vectors of plain values, on rank 0. The
+   * result is in the order of the ranks; on other ranks it is empty. A rank's
+   * part may be larger than 2 GB, which Utilities::MPI::gather() does not
+   * allow. Collective.
    */
   template <typename Container>
   std::vector<Container>

@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <utility>
 
-// deal.II's HDF5 wrappers check the library's return values with Assert only,
-// so that in Release a full disk or a damaged file would go unnoticed; and they
-// know no string data sets and cannot list names. Hence the C interface.
+// Why HDF5's C interface: deal.II's wrappers check the library's return values
+// with Assert only, so that a Release build would not notice a full disk or a
+// damaged file. They also have no string data sets and cannot list names.
 
 namespace Morula
 {
-  /** Owns one of the HDF5 library's identifiers. */
+  /** Owns an identifier of the HDF5 library. */
   class Hdf5Handle
   {
   public:
@@ -41,7 +41,8 @@ namespace Morula
       return id;
     }
 
-    /** Closes now, for those that want to know whether it worked. */
+    /** Closes now.
+     *  @return whether that worked */
     bool
     release()
     {
@@ -53,7 +54,8 @@ namespace Morula
     herr_t (*close)(hid_t);
   };
 
-  /** Keeps the HDF5 library from printing its errors while this lives. */
+  /** Keeps the HDF5 library from printing its errors while this object lives.
+   */
   class Hdf5Silence
   {
   public:
@@ -70,13 +72,14 @@ namespace Morula
   };
 
   /**
-   * Properties of a file that these ranks access through MPI I/O. For a single
-   * rank, too: it takes no locks, which some file systems do not have.
+   * Properties of a file that the ranks access through MPI I/O. A single rank
+   * uses MPI I/O too, since it takes no locks, which some file systems lack.
    */
   Hdf5Handle
   access_by(const MPI_Comm comm);
 
-  /** HDF5's name of T: double, int, unsigned int, unsigned long long. */
+  /** HDF5's type of T, which is double, int, unsigned int or unsigned long
+   *  long. */
   template <typename T>
   hid_t
   native_type()

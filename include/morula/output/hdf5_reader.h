@@ -12,7 +12,7 @@
 namespace Morula
 {
   /**
-   * Reads an HDF5 file, each rank on its own. Every error is thrown as
+   * Reads an HDF5 file. Each rank reads on its own. All members throw a
    * std::runtime_error that says what cannot be read.
    */
   class Hdf5Reader
@@ -20,7 +20,7 @@ namespace Morula
   public:
     explicit Hdf5Reader(const std::string &path);
 
-    /** An attribute of a group. */
+    /** The value of an attribute of a group. */
     template <typename T>
     T
     attribute(const std::string &group, const std::string &name) const;
@@ -29,11 +29,11 @@ namespace Morula
     std::vector<std::string>
     attribute_names(const std::string &group) const;
 
-    /** The data sets in a group. */
+    /** The names of the data sets in a group. */
     std::vector<std::string>
     dataset_names(const std::string &group) const;
 
-    /** A data set that is a text. */
+    /** A data set that holds a text. */
     std::string
     text(const std::string &name) const;
 
@@ -46,7 +46,7 @@ namespace Morula
     std::vector<T>
     table(const std::string &name) const;
 
-    /** Rows [begin, end) of a data set, one after the other. */
+    /** Rows [begin, end) of a data set, stored one after the other. */
     template <typename T>
     std::vector<T>
     rows(const std::string &name, const hsize_t begin, const hsize_t end) const;

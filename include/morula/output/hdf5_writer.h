@@ -12,22 +12,22 @@
 namespace Morula
 {
   /**
-   * Writes an HDF5 file on all ranks together. All members are collective. A
-   * failure on one rank must not keep it from joining what the others do next:
-   * it is kept in mind until close(). The content is the same, byte by byte,
-   * whenever the same data are written by as many ranks. The file begins with
-   * room for a seal (sealed_file.h), which seal() writes when it is closed.
+   * Writes an HDF5 file on all ranks together. All members are collective. If
+   * one rank fails, it still takes part in what the others do next, and close()
+   * reports the failure. The same data written by the same number of ranks give
+   * the same file, byte by byte. The file begins with room for a seal
+   * (sealed_file.h), which seal() writes after the file is closed.
    */
   class Hdf5Writer
   {
   public:
     Hdf5Writer(const std::string &path, const MPI_Comm comm);
 
-    /** Makes a group. Collective. */
+    /** Makes a group. */
     void
     group(const std::string &name);
 
-    /** An attribute of a group; the same value on all ranks. */
+    /** Writes an attribute of a group. The value is equal on all ranks. */
     void
     attribute(const std::string &group,
               const std::string &name,
@@ -38,18 +38,18 @@ namespace Morula
               const std::string &name,
               const int          value);
 
-    /** A string data set; the same on all ranks. */
+    /** Writes a string data set. The value is equal on all ranks. */
     void
     text(const std::string &name, const std::string &value);
 
-    /** A vector that is the same on all ranks. T is double or int. */
+    /** Writes a vector that is equal on all ranks. T is double or int. */
     template <typename T>
     void
     table(const std::string &name, const std::vector<T> &values);
 
     /**
-     * All ranks' rows, in the order of the ranks; any rank may have none. T is
-     * double or unsigned int or unsigned long long.
+     * Writes all ranks' rows in the order of the ranks. A rank may have no
+     * rows. T is double, unsigned int or unsigned long long.
      */
     template <typename T>
     void
@@ -58,7 +58,8 @@ namespace Morula
          const hsize_t      n_local_rows,
          const hsize_t      n_columns);
 
-    /** Whether everything has worked on all ranks. */
+    /** Closes the file.
+     *  @return whether everything has worked on all ranks */
     bool
     close();
 

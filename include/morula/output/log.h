@@ -13,26 +13,26 @@
 
 namespace Morula
 {
-  /** log.txt: rank 0 writes, line by line. */
+  /** log.txt. Rank 0 writes it line by line. */
   class Log
   {
   public:
     /**
-     * @param resume continue an existing file instead of a new one
+     * @param resume continue an existing file instead of starting a new one
      * @throws std::runtime_error, on all ranks, with path and reason
      */
     Log(const std::string &path, const bool resume, const MPI_Comm comm);
 
     /**
-     * Appends @p text, one or more lines, and a newline. Collective.
+     * Appends @p text, of one or more lines, and a newline. Collective.
      * @throws std::runtime_error, on all ranks, with path and reason
      */
     void
     write(const std::string &text);
 
     /**
-     * The same from a rank on its own, after an exception; does nothing where
-     * it cannot write, and on other ranks than 0.
+     * The same, not collective, for use after an exception. Does nothing if the
+     * log cannot be written, and on other ranks than 0.
      */
     void
     write_if_possible(const std::string &text) noexcept;

@@ -13,18 +13,19 @@
 
 namespace Morula
 {
-  /** How long the tissue's cells are on the grid. */
+  /** How long the cells of the tissue are, compared with the grid spacing. */
   struct CellLengths
   {
     /** Grid spacing over the length of the longest cell. */
     double min_cells_per_spacing = 0.;
-    /** Where that cell is, µm; in 2-D with z = 0. */
+    /** Position of that cell, µm; in 2-D z = 0. */
     std::array<double, 3> place{};
-    /** Cells of which fewer than `fewest` fill a grid spacing. */
+    /** Number of cells of which fewer than `fewest` fill a grid spacing. */
     std::uint64_t n_too_long = 0;
 
-    /** One F a cell cannot hold what a grid cell's splines can do if fewer
-     *  cells than these stand along it: doc/theory.md, section 2.1. */
+    /** Fewest cells along a grid spacing. With fewer cells, the splines of a
+     *  grid cell can deform in ways that one F per cell does not see:
+     *  doc/theory.md, section 2.1. */
     static constexpr double fewest = 2.;
   };
 
@@ -36,11 +37,11 @@ namespace Morula
     /** @param h grid spacing, µm */
     explicit LongestCell(const double h);
 
-    /** Counts a cell of this rank. */
+    /** Adds a cell of this rank. */
     void
     add(const ParticleDomain<dim> &cell);
 
-    /** Over all ranks. Collective. */
+    /** The result over all ranks. Collective. */
     CellLengths
     over_all_ranks(const MPI_Comm comm) const;
 

@@ -10,13 +10,13 @@
 
 namespace Morula
 {
-  /** Whether the file that is open as @p descriptor is the one at the path. */
+  /** Whether the file that is open as @p descriptor is the one at @p path. */
   bool
   is_open_at(const int descriptor, const std::string &path);
 
   /**
-   * A file open for writing. Unlike a std::ofstream it says why something
-   * failed, and can be forced to the disk. Every error is thrown as
+   * A file open for writing. Unlike std::ofstream it says why an operation
+   * failed, and can force its content to the disk. All members throw a
    * std::runtime_error with the path and the system's reason.
    */
   class PosixFile
@@ -25,14 +25,14 @@ namespace Morula
     enum class Mode
     {
       create,   // an existing file is emptied
-      append,   // created where it does not exist
-      change,   // must exist, content stays; what is written comes behind it
-      overwrite // must exist; what is written comes at its beginning
+      append,   // the file is created if it does not exist
+      change,   // the file must exist; it keeps its content, new text is added
+      overwrite // the file must exist; new text replaces its beginning
     };
 
     PosixFile(const std::string &path, const Mode mode);
 
-    /** Closes without a check, for the way out through an exception. */
+    /** Closes the file, and ignores errors; see close(). */
     ~PosixFile();
 
     PosixFile(const PosixFile &) = delete;
@@ -43,7 +43,8 @@ namespace Morula
     void
     write(std::string_view text);
 
-    /** Makes sure that @p size bytes fit on the disk, where it can tell. */
+    /** Reserves @p size bytes on the disk, where the file system can do that,
+     *  so that a full disk is noticed now. */
     void
     reserve(const std::size_t size);
 
@@ -51,18 +52,18 @@ namespace Morula
     void
     truncate(const std::size_t size);
 
-    /** Returns when the content is on the disk. */
+    /** Forces the content to the disk. */
     void
     sync();
 
     /**
-     * Notices that somebody has deleted the file, or put another one in its
-     * place: what is written here is lost then.
+     * Throws if somebody has deleted the file or put another one in its place:
+     * then all that is written here would be lost.
      */
     void
     check_in_place() const;
 
-    /** Ends the work on the file. */
+    /** Closes the file, and throws if that fails. */
     void
     close();
 

@@ -15,7 +15,7 @@
 
 namespace Morula
 {
-  /** What is shown of a step. */
+  /** What the program shows of a step. */
   struct StepReport
   {
     unsigned int  step              = 0;
@@ -26,8 +26,8 @@ namespace Morula
     double        wall_seconds      = 0.; // since this program began
   };
 
-  /** What is shown at the end. */
-  struct RunSummary
+  /** What the program shows at the end of the run. */
+  struct FinalReport
   {
     std::string   outcome; // e.g. "Finished: End time reached"
     unsigned int  dimension      = 3;
@@ -41,15 +41,16 @@ namespace Morula
     std::string   directory;
   };
 
-  /** A step as a line of its own. @p seconds_left as in TimeLeft. */
+  /** A step as one line of text.
+   *  @param seconds_left as TimeLeft::seconds() */
   std::string
   progress_line(const StepReport &report,
                 const double      end_time,
                 const double      seconds_left);
 
   /**
-   * A step as a bar that is shorter than @p width characters; parts that do not
-   * fit are left out.
+   * A step as a progress bar shorter than @p width characters. Parts that do
+   * not fit are left out.
    */
   std::string
   progress_bar(const StepReport  &report,
@@ -58,23 +59,25 @@ namespace Morula
                const double       seconds_left,
                const unsigned int width);
 
-  /** The block at the end, several lines without the last newline. */
+  /** The summary at the end: several lines, without the last newline. */
   std::string
-  summary_block(const RunSummary &summary);
+  summary_block(const FinalReport &summary);
 
   /**
-   * Tells the user what happens: on a terminal a bar with the time left that
-   * changes in place, elsewhere one line a step. log.txt gets what elsewhere
-   * gets. Rank 0 speaks; members are collective unless said otherwise.
+   * Tells the user what happens. A terminal shows one progress bar, with the
+   * time left, that is updated in place. Any other output and log.txt get one
+   * line a step. Only rank 0 writes. Members are collective unless they say
+   * otherwise.
    */
   class Progress
   {
   public:
     /**
-     * @param log_path   log.txt
+     * @param log_path   path of log.txt
      * @param resume     continue the log
-     * @param start_time where this program begins, day
-     * @throws std::runtime_error if the log cannot be written, as all members
+     * @param start_time simulated time at which this program begins, day
+     * @throws std::runtime_error if the log cannot be written; so do all
+     *         members
      */
     Progress(const std::string &log_path,
              const bool         resume,
@@ -82,7 +85,7 @@ namespace Morula
              const double       end_time,
              const MPI_Comm     comm);
 
-    /** Lines about something worth knowing. */
+    /** Shows a message, of one or more lines, and logs it. */
     void
     message(const std::string &text);
 
@@ -90,13 +93,13 @@ namespace Morula
     void
     step(const StepReport &report);
 
-    /** The last lines of a run that came to its end. */
+    /** Shows and logs the summary of a run that has come to its end. */
     void
-    finish(const RunSummary &summary);
+    finish(const FinalReport &summary);
 
     /**
-     * Ends the bar and puts @p text into the log only, where possible: for what
-     * ends the program. Not collective.
+     * Ends the bar and writes @p text, the reason why the program ends, into
+     * the log only, where possible. Not collective.
      */
     void
     fail(const std::string &text) noexcept;
@@ -107,7 +110,7 @@ namespace Morula
 
     double   start_time;
     double   end_time;
-    bool     speaks; // rank 0
+    bool     is_root; // rank 0
     bool     bar_shown = false;
     TimeLeft time_left;
     Log      log;

@@ -10,8 +10,8 @@
 namespace Morula
 {
   /**
-   * What a later run must know of the one that it finds in its directory: the
-   * comments at the beginning of parameters.prm.
+   * What a later run must know about a run that it finds in its directory. It
+   * stands in the comments at the beginning of parameters.prm.
    *
    *     # A run of Morula 0.1.0.
    *     # scene: ../../prm/demo.prm
@@ -20,9 +20,9 @@ namespace Morula
   struct RunRecord
   {
     /**
-     * The scene's file, as seen from the directory: so the record holds when
-     * scenes and runs are moved or copied together, and two scenes of one name
-     * in different directories are told from each other.
+     * The scene's file, relative to the directory. So the record stays true
+     * when scenes and runs are moved or copied together, and two scenes of the
+     * same name in different directories are different.
      */
     std::string scene;
     bool        finished     = false;
@@ -32,23 +32,24 @@ namespace Morula
     std::string
     comments() const;
 
-    /** Of the run in a directory; none if it has no such comments. */
+    /** The record of the run in a directory. Nothing if there are no such
+     *  comments. */
     static std::optional<RunRecord>
     read(const std::string &directory);
   };
 
-  /** `parameters.prm` in a directory. */
+  /** The path of `parameters.prm` in a directory. */
   std::string
   parameters_file(const std::string &directory);
 
-  /** Whether @p scene_file is the parameters.prm of the directory: a run that
+  /** Whether @p scene_file is the parameters.prm of the directory. Then the run
    *  is repeated from its own keys. */
   bool
   is_own_parameters(const std::string &directory,
                     const std::string &scene_file);
 
-  /** What RunRecord::scene is for a run of @p scene_file; a run that is
-   *  repeated from its own keys keeps the name that it had. */
+  /** RunRecord::scene for a run of @p scene_file. A run that is repeated from
+   *  its own keys keeps the name that it had. */
   std::string
   recorded_name(const std::string &directory, const std::string &scene_file);
 } // namespace Morula

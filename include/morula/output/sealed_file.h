@@ -10,39 +10,41 @@
 namespace Morula
 {
   /**
-   * Size of the seal at the beginning of a file, bytes: a text of three lines,
+   * Size of the seal at the beginning of a file, bytes. The seal is a text of
+   * three lines,
    *
    *     Morula snapshot
    *     bytes 123456
    *     CRC-64/XZ 0123456789abcdef
    *
-   * filled up with newlines. The bytes and the digest are those behind it. HDF5
-   * calls such a place a user block and passes over it; 512 is the smallest.
+   * filled up with newlines. Number and digest are those of the bytes behind
+   * the seal. HDF5 calls such a place a user block and skips it; 512 is its
+   * smallest size.
    *
-   * The digest is that of the file's bytes, not of the values in it: then the
-   * file can be judged before the HDF5 library sees it, which crashes on some
-   * damaged files, and no byte is left out.
+   * The digest is computed from the file's bytes and not from the values in it.
+   * So every byte counts, and the file can be checked before the HDF5 library
+   * opens it, which crashes on some damaged files.
    */
   constexpr std::size_t size_of_seal = 512;
 
   /**
-   * Writes the seal of a file that is complete, over its first bytes.
+   * Writes the seal of a complete file over its first bytes.
    * @throws std::runtime_error with path and reason
    */
   void
   seal(const std::string &path);
 
-  /** What is true of a file. */
+  /** The state of a file that should have a seal. */
   enum class SealState
   {
     missing,    // cannot be opened
     foreign,    // has no seal
-    plain_hdf5, // is HDF5 from its first byte on
-    damaged,    // seal and bytes do not agree
+    plain_hdf5, // has no seal, and begins as an HDF5 file
+    damaged,    // seal and bytes disagree
     whole
   };
 
-  /** Compares a file with its seal. Reads all of it. */
+  /** Compares a file with its seal. Reads the whole file. */
   SealState
   examine_seal(const std::string &path);
 } // namespace Morula

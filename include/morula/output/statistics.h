@@ -15,7 +15,7 @@
 
 namespace Morula
 {
-  /** One row of statistics.csv: the state after a step, and what it cost. */
+  /** One row of statistics.csv: the state after a step, and the step's cost. */
   struct StatisticsRow
   {
     unsigned int  step  = 0;
@@ -29,23 +29,24 @@ namespace Morula
     std::uint64_t inner_splines      = 0;
     std::uint64_t outer_splines      = 0;
     std::uint64_t unknowns           = 0;
-    unsigned int  newton_iterations  = 0; // with those of rejected attempts
-    unsigned int  linear_iterations  = 0; // with those of rejected attempts
+    unsigned int  newton_iterations  = 0; // including rejected attempts
+    unsigned int  linear_iterations  = 0; // including rejected attempts
     unsigned int  rejected_steps     = 0;
     double        residual           = 0.; // relative to the step's first
     double        wall_seconds       = 0.; // since the start, across resumes
     CellLengths   lengths;
 
-    /** The file's columns in their order, names and values. */
+    /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>
     columns() const;
   };
 
-  /** statistics.csv. All members are collective; errors as in AppendedCsv. */
+  /** statistics.csv. All members are collective and throw as those of
+   *  AppendedCsv. */
   class StatisticsFile
   {
   public:
-    /** A new file. */
+    /** Starts a new file. */
     StatisticsFile(const std::string &path, const MPI_Comm comm);
 
     /** Continues the file behind the rows that are to be @p kept. */
@@ -59,7 +60,7 @@ namespace Morula
           const TableExtent &kept,
           const MPI_Comm     comm);
 
-    /** Adds a row. */
+    /** Appends a row. */
     void
     append(const StatisticsRow &row);
 

@@ -10,23 +10,25 @@
 namespace Morula
 {
   /**
-   * How long a run still takes. Tissues grow, and so does the cost of a
-   * simulated day: the wall time is extrapolated as the power (t - t_0)^p of
-   * the simulated time, with p from the first and the second half so far. In
-   * contrast to an exponential, this stays sensible early in the run.
+   * Estimates how long a run still takes. Tissues grow, and so does the cost of
+   * a simulated day. Therefore the wall time is extrapolated as a power
+   * (t - t_0)^p of the simulated time; p follows from the wall times of the
+   * first and the second half so far. Early in the run this is more sensible
+   * than an exponential.
    */
   class TimeLeft
   {
   public:
-    /** @param start, end simulated time at which this program began and ends,
+    /** @param start, end simulated times at which this program begins and ends,
      *   day */
     TimeLeft(const double start, const double end);
 
-    /** Records that the simulated time @p time was reached after so long. */
+    /** Records that the simulated time @p time was reached after so many wall
+     *  seconds. */
     void
     add(const double time, const double wall_seconds);
 
-    /** Wall seconds from the last record to the end; -1: not known yet. */
+    /** Wall seconds from the last record to the end; -1 if not known yet. */
     double
     seconds() const;
 
@@ -41,7 +43,7 @@ namespace Morula
     std::vector<Record> records;
   };
 
-  /** A duration for people: `42 s`, `3 min 20 s`, `2 h 05 min`, `1 d 03 h`. */
+  /** A duration as text: `42 s`, `3 min 20 s`, `2 h 05 min`, `1 d 03 h`. */
   std::string
   duration(const double seconds);
 } // namespace Morula

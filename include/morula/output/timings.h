@@ -15,26 +15,27 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** What a named phase of the steps has cost. */
+  /** The cost of a named section of the program. */
   struct SectionTime
   {
     double calls        = 0.;
     double wall_seconds = 0.;
   };
 
-  /** By the sections' names; only sections that were entered. */
+  /** Costs by the sections' names. Only sections that were entered. */
   using SectionTimes = std::map<std::string, SectionTime>;
 
   /**
-   * The timer's sections so far, added to those of the run before it was
-   * resumed.
+   * The costs of the timer's sections so far, plus those of the run @p before
+   * it was resumed.
    */
   SectionTimes
   section_times(const TimerOutput &timer, const SectionTimes &before = {});
 
   /**
-   * Writes timings.csv, `section,calls,wall_seconds,share`, with rank 0's
-   * times, and a last row `total`. Shares are of @p total_seconds. Collective.
+   * Writes timings.csv with the columns `section,calls,wall_seconds,share`, the
+   * times of rank 0, and a last row `total`. A share is the section's fraction
+   * of @p total_seconds. Collective.
    * @throws std::runtime_error, on all ranks, with path and reason
    */
   void

@@ -17,19 +17,19 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Sums and extremes over all cells, as in statistics.csv. */
+  /** Sums and extremes over all cells, for statistics.csv. */
   struct TissueTotals
   {
     double total_volume             = 0.; // Σ V⁰ det F, µm^dim
     double grown_volume             = 0.; // Σ V⁰ det F_g, µm^dim
     double mean_energy_density      = 0.; // weighted by V⁰, kPa
-    double cell_mean_energy_density = 0.; // every cell once, kPa
+    double cell_mean_energy_density = 0.; // each cell counted once, kPa
     double max_energy_density       = 0.; // kPa
     double min_elastic_volume_ratio = 0.;
     double max_elastic_volume_ratio = 0.;
     /**
      * Smallest and largest coordinates of the boundary points, or of the cells
-     * where there are no boundary points, µm; 2-D: z is 0.
+     * if there are no boundary points, µm. In 2-D z is 0.
      */
     std::array<double, 3> lower = {{0., 0., 0.}};
     std::array<double, 3> upper = {{0., 0., 0.}};
@@ -48,12 +48,12 @@ namespace Morula
     void
     add_boundary_point(const Point<dim> &position);
 
-    /** Over all ranks' points. Collective. */
+    /** The totals over all ranks' points. Collective. */
     TissueTotals
     totals(const MPI_Comm comm) const;
 
   private:
-    /** Smallest box around points; inside out as long as there are none. */
+    /** Smallest box around points. Without points, lower is above upper. */
     struct Box
     {
       Box();

@@ -15,7 +15,8 @@ namespace Morula
   /** What the command line asks for. */
   struct CommandLine
   {
-    std::string scene_file;             // may be empty only with the last three
+    /** May be empty only with @ref parameters, @ref version or @ref help. */
+    std::string              scene_file;
     std::vector<std::string> overrides; // "Section/Key=value"
     bool                     resume     = false;
     bool                     replace    = false;
@@ -32,16 +33,16 @@ namespace Morula
     parse(const std::vector<std::string> &words);
   };
 
-  /** Usage, options and exit codes. */
+  /** Prints usage, options and exit codes. */
   void
   print_help(std::ostream &out);
 
-  /** Versions of Morula and deal.II. */
+  /** Prints the versions of Morula and deal.II. */
   void
   print_version(std::ostream &out);
 
-  /** Every key with meaning, unit, allowed values and default, as a .prm file.
-   */
+  /** Prints every key with meaning, unit, allowed values and default, as a .prm
+   *  file. */
   void
   print_parameters(std::ostream &out, const Catalogue &catalogue = Catalogue());
 } // namespace Morula

@@ -11,17 +11,19 @@
 namespace Morula
 {
   /**
-   * Ends a failed run on all ranks; to be called where an exception has left
-   * the run. If all ranks fail, the first prints what they have to say to the
-   * standard error, equal messages once, and the function returns the largest
-   * @p exit_code, for main() to return. If some ranks have not failed within a
-   * few seconds, they would wait for the others for ever: every rank that has
-   * failed prints, and everything is aborted with @p exit_code.
+   * Ends a failed run on all ranks. Each rank calls it when an exception has
+   * left the run.
+   *
+   * If all ranks fail, the first one prints their messages to the standard
+   * error, equal messages once, and the function returns the largest
+   * @p exit_code, which main() returns. If some ranks do not fail within a few
+   * seconds, they would wait for the failed ones for ever. Then every failed
+   * rank prints its message and aborts all ranks with @p exit_code.
    */
   int
-  end_of_all_ranks(const int          exit_code,
-                   const std::string &message,
-                   const MPI_Comm     comm);
+  end_all_ranks(const int          exit_code,
+                const std::string &message,
+                const MPI_Comm     comm);
 } // namespace Morula
 
 #endif

@@ -11,32 +11,32 @@
 
 namespace Morula
 {
-  /** Runs the scene, from its snapshot if @p resume. What `morula` does. */
+  /** Runs the scene as `morula` does, from its snapshot if @p resume. */
   void
   simulate(const Scene &scene, const bool resume);
 
   /**
-   * The main() of Morula, and of programs that do something else with a scene:
-   * MPI, command line, --help, --version, --parameters, --explain, and errors
-   * as messages and exit codes.
+   * The main() of Morula, and of programs that do other work with a scene. It
+   * handles MPI, command line, --help, --version, --parameters and --explain,
+   * and turns errors into messages and exit codes.
    */
   struct Program
   {
-    /** Effects that scenes may name besides the library's own. */
+    /** Effects that scenes may name, besides the library's own. */
     Catalogue catalogue;
 
-    /** What is done with a scene that has been read and accepted. */
+    /** The work to do with a scene that has been read and accepted. */
     std::function<void(const Scene &, const bool resume)> work = simulate;
 
-    /** The only value of Dimension that @ref work can do with; 0: any. */
+    /** The only Dimension that @ref work can handle; 0 for any. */
     unsigned int dimension = 0;
 
     /** Whether @ref work can --resume. */
     bool resumes = true;
 
     /**
-     * Where a signal has stopped the run, ends the program by that signal, as
-     * who has sent it expects: a shell then ends its loop.
+     * Runs the program. If a signal has stopped the run, the program ends by
+     * that signal, as the sender expects: a shell then ends its loop.
      * @return the exit code: 0 for success, 1 for bad input (InputError), 2 for
      *         any other exception
      */

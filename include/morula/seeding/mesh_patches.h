@@ -18,13 +18,14 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Outward normal times area, µm². */
+  /** Outward unit normal of a triangle times its area, µm². */
   Tensor<1, 3>
   area_vector(const std::array<Point<3>, 3> &triangle);
 
   /**
-   * Cuts a triangle into @p n_pieces triangles of equal area, halving the
-   * longest edge as nearly as that allows, and appends them to @p pieces.
+   * Cuts a triangle into @p n_pieces triangles of equal area and appends them
+   * to @p pieces. Each cut divides the longest edge as nearly in halves as the
+   * number of pieces allows.
    */
   void
   cut_triangle(const std::array<Point<3>, 3>        &triangle,
@@ -32,13 +33,13 @@ namespace Morula
                std::vector<std::array<Point<3>, 3>> &pieces);
 
   /**
-   * Tiles a closed surface with @p n_wished patches of about equal area.
-   * Triangles above the mean patch's area are cut, those below it are merged,
+   * Tiles a closed surface with about @p n_wished patches of about equal area.
+   * Triangles larger than the mean patch are cut. Smaller ones are merged, the
    * smallest first, each into the neighbour whose centre is nearest, but never
-   * across an edge sharper than 30 degrees; so there may remain more patches
-   * than wished. A patch has the sum of its triangles' areas, their mean
-   * normal, and lies at their common centroid, moved onto the nearest of them
-   * and off its edges.
+   * across an edge sharper than 30 degrees. So more patches than wished may
+   * remain. A patch has the sum of its triangles' areas and their mean normal.
+   * It lies at their common centroid, moved onto the nearest of them and off
+   * its edges.
    */
   std::vector<SurfacePatch<3>>
   cut_into_patches(const std::vector<SurfaceTriangle> &triangles,

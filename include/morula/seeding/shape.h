@@ -23,7 +23,7 @@ namespace Morula
   template <int dim>
   struct SurfacePatch
   {
-    /** Centre, on the surface, never on an edge or corner of it; µm. */
+    /** Centre: a point on the surface, but on no edge or corner of it; µm. */
     Point<dim> position;
     /** Outward unit normal. */
     Tensor<1, dim> normal;
@@ -32,8 +32,8 @@ namespace Morula
   };
 
   /**
-   * A surface cut into numbered patches, each of them computed on request, so
-   * that a rank needs only its own. Valid without the shape that made it.
+   * A surface cut into numbered patches. Each patch is computed on request, so
+   * that a rank computes only its own. It may outlive the shape that made it.
    */
   template <int dim>
   struct SurfaceTiling
@@ -52,7 +52,8 @@ namespace Morula
     virtual BoundingBox<dim>
     bounding_box() const = 0;
 
-    /** Whether @p x lies inside, farther than @p clearance from the surface. */
+    /** Whether @p x lies inside, and farther than @p clearance (µm) from the
+     *  surface. */
     virtual bool
     contains(const Point<dim> &x, const double clearance) const = 0;
 
@@ -65,15 +66,15 @@ namespace Morula
     surface_area() const = 0;
 
     /**
-     * Cuts the surface into @p n_wished patches, or as near to that as the
-     * layout allows; their areas add up to surface_area().
+     * Cuts the surface into @p n_wished patches, or into about as many as the
+     * layout allows. Their areas add up to surface_area().
      */
     virtual SurfaceTiling<dim>
     tile(const std::uint64_t n_wished) const = 0;
   };
 
   /**
-   * The shape that the section "Tissue" names, which must not be 'points'.
+   * The shape that the section "Tissue" names. It must not be 'points'.
    * @throws InputError if the shape does not exist in dim dimensions or its
    * mesh cannot be used
    */
@@ -81,19 +82,20 @@ namespace Morula
   std::unique_ptr<Shape<dim>>
   make_shape(const TissueParameters &parameters);
 
-  /** The first dim of the numbers that the user gave for a point or vector. */
+  /** The first dim numbers of those that the user gave for a point or vector.
+   */
   template <int dim>
   Point<dim>
   leading_components(const std::vector<double> &numbers);
 
   /**
-   * The golden angle as a fraction of a turn, (3 - sqrt 5)/2. Points of a
-   * spiral turned against each other by it spread evenly at every aspect ratio
-   * of the surface.
+   * The golden angle as a fraction of a turn, (3 - sqrt 5)/2. If each point of
+   * a spiral is turned by it against the one before, the points spread evenly
+   * on a surface of any aspect ratio.
    */
   constexpr double golden_turn = 0.381966011250105151795;
 
-  /** Turns of the i-th point of a golden spiral, in [0,1). */
+  /** Angle of the i-th point of a golden spiral in turns, in [0,1). */
   double
   golden_fraction(const std::uint64_t i);
 } // namespace Morula

@@ -16,29 +16,29 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** A triangle with its neighbours' numbers across its edges. */
+  /** A triangle of a surface and the numbers of its neighbours. */
   struct SurfaceTriangle
   {
     /** Counter-clockwise when seen from outside, µm. */
     std::array<Point<3>, 3> vertices;
-    /** Across the edge from vertices[i] to vertices[(i+1)%3]. */
+    /** The neighbour across the edge from vertices[i] to vertices[(i+1)%3]. */
     std::array<unsigned int, 3> neighbors;
   };
 
   /**
-   * A closed surface of triangles read from a file, and the space inside it.
-   * Everything that needs CGAL for it is behind this class.
+   * A closed surface of triangles, read from a file, and the space inside it.
+   * CGAL is used inside this class only.
    */
   class SurfaceMesh
   {
   public:
     /**
      * Reads STL, OFF, PLY or OBJ (by the name's ending), in µm. Coinciding
-     * vertices are merged, polygons cut into triangles, and orientations made
-     * outward; the surface of a cavity is turned towards the cavity.
+     * vertices are merged, and polygons are cut into triangles. Triangles are
+     * turned outward; those of a cavity are turned towards the cavity.
      * @throws InputError if the file cannot be read or is cut off, or if the
-     * surface is empty, open, non-manifold, has a triangle without area, or
-     * intersects or touches itself; it says where
+     * surface is empty, open or non-manifold, has a triangle without area, or
+     * intersects or touches itself. The message says where.
      */
     explicit SurfaceMesh(const std::string &file);
 
@@ -50,7 +50,8 @@ namespace Morula
     BoundingBox<3>
     bounding_box() const;
 
-    /** Whether @p x is inside, farther than @p clearance from the surface. */
+    /** Whether @p x is inside, and farther than @p clearance (µm) from the
+     *  surface. */
     bool
     contains(const Point<3> &x, const double clearance) const;
 

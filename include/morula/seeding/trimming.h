@@ -14,16 +14,17 @@
 namespace Morula
 {
   /**
-   * Gives every founder the volume and the centroid of its part of the shape:
-   * of all points of the shape to which its site is the nearest occupied one
-   * (ties: lowest site), among the sites of their lattice box and the boxes
-   * around it. The volumes then add up to the shape's, to the accuracy of the
-   * sampling (5e-5 of the whole at six cells a radius), instead of one
-   * lattice box for every site inside. Parts of the shape farther from any
-   * site, such as thin spikes, belong to nobody.
-   * @param sites    of @p founders, ascending
-   * @return false if a site's part of the shape is too thin to be sampled; the
-   * founders are of no use then
+   * Gives every founder the volume and the centroid of its part of the shape.
+   * Its part holds the points to which its site is the nearest occupied one;
+   * ties go to the lowest site. Only the sites of the point's lattice box and
+   * of the boxes around it are considered. So the volumes add up to the shape's
+   * volume, to the accuracy of the sampling (5e-5 of it at six cells per
+   * radius); without trimming every founder has the volume of a lattice box.
+   * Parts of the shape farther from any site, such as thin spikes, belong to no
+   * founder.
+   * @param sites    the sites of @p founders, ascending
+   * @return false if a founder's part is too thin to be sampled; then
+   * @p founders must not be used
    */
   template <int dim>
   bool

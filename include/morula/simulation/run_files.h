@@ -4,12 +4,12 @@
 #ifndef morula_simulation_run_files_h
 #define morula_simulation_run_files_h
 
-#include <morula/output/condition.h>
 #include <morula/output/directory.h>
+#include <morula/output/directory_lock.h>
 #include <morula/output/lineage.h>
+#include <morula/output/matrix_condition.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
-#include <morula/output/run_lock.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/statistics.h>
 #include <morula/output/timings.h>
@@ -24,18 +24,18 @@
 namespace Morula
 {
   /**
-   * The files of one run in its output directory: opens them, knows when which
-   * is due, and numbers the series. Collective throughout.
+   * The files of one run in its output directory. It opens them, knows when
+   * each is due, and numbers the series. All members are collective unless they
+   * say otherwise.
    */
   template <int dim>
   class RunFiles
   {
   public:
     /**
-     * Takes the directory for this run alone, and makes it ready: for a new
-     * run, or to go on behind a snapshot.
-     * @param clock runs since the program began with this run; kept as a
-     *        reference
+     * Locks the directory for this run and makes it ready, for a new run or for
+     * one resumed from a snapshot.
+     * @param clock runs since this program began the run; kept as a reference
      * @throws InputError, or std::runtime_error with path and reason
      */
     RunFiles(const Scene                            &scene,
@@ -43,74 +43,76 @@ namespace Morula
              const Timer                            &clock,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv and lineage.csv, and shows the step. Completes
-     *  @p row with the wall time. */
+    /** Appends to statistics.csv and lineage.csv, and shows the step. Writes
+     * the wall time into @p row. */
     void
     step(StatisticsRow &row, const std::vector<Birth<dim>> &births);
 
-    /** Onto the terminal and into log.txt: something worth knowing. */
+    /** Writes a message to the terminal and into log.txt. */
     void
     message(const std::string &text);
 
-    /** Appends to condition.csv. The scene asks for it. */
+    /** Appends to condition.csv. Only if the scene asks for the file. */
     void
     condition(const unsigned int       step,
               const double             time,
               const ConditionEstimate &estimate);
 
-    /** Whether cells and surface are to be written in any format. */
+    /** Whether the scene asks for cells and surface in any format. */
     bool
     writes_points() const;
 
-    /** Whether something is due at @p time (day). The last state is always. */
+    /** Whether output is due at @p time (day). Always true for the last state.
+     */
     bool
     output_due(const double time, const bool last) const;
-    /** The same for the snapshot. */
+    /** Whether a snapshot is due; see output_due(). */
     bool
     snapshot_due(const double time, const bool last) const;
 
-    /** Writes the next number of the series of cells and surface. */
+    /** Writes the next files of the series of cells and surface. */
     void
     write_points(const PointFields<dim> &cells,
                  const PointFields<dim> &surface,
                  const double            time);
 
-    /** Completes @p data with the files' own counters and writes it. No section
-     *  of @p timer may be open: this has its own. */
+    /** Adds the files' own counters to @p data and writes it. No section of
+     *  @p timer may be open, since this function opens one. */
     void
     write_snapshot(SnapshotData<dim> data, TimerOutput &timer);
 
-    /** Writes timings.csv anew. Collective. */
+    /** Writes timings.csv anew. */
     void
     write_timings(const TimerOutput &timer);
 
-    /** Into log.txt, where possible: what ends the run. Not collective. */
+    /** Writes the reason why the run ends into log.txt, where possible. Not
+     *  collective. */
     void
     fail(const std::string &text) noexcept;
 
-    /** The summary, on the terminal and in log.txt; the run is complete, and
-     *  its directory free. Collective. */
+    /** Writes the summary to the terminal and into log.txt, marks the run as
+     *  finished, and unlocks its directory. */
     void
     finish(const std::string   &outcome,
            const StatisticsRow &row,
            const unsigned int   rejected_steps,
            const TimerOutput   &timer);
 
-    /** Wall seconds since the start of the run, across resumes. */
+    /** Wall seconds since the start of the run, over all resumptions. */
     double
     wall_seconds() const;
 
   private:
     void
-    tell_of_missing_states(); // of which Output/Formats was another
+    warn_of_missing_states(); // written with another Output/Formats
     bool
     continues_conditions(
       const std::optional<SnapshotData<dim>> &resumed_from) const;
     void
     open_conditions(const std::optional<SnapshotData<dim>> &resumed_from);
 
-    ComingRun
-    coming_run() const;
+    RunSetup
+    setup() const;
 
     std::string
     path(const std::string &file) const;
@@ -123,20 +125,20 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene            scene;
-    const MPI_Comm         comm;
-    std::optional<RunLock> lock; // until the end
-    const double           wall_seconds_before;
-    const Timer           &clock;
-    std::vector<double>    output_times;
-    // Due at these multiples of their intervals.
-    unsigned int                    next_output;
-    unsigned int                    next_snapshot;
-    SectionTimes                    sections_before;
-    std::optional<Progress>         progress;
-    std::optional<StatisticsFile>   statistics;
-    std::optional<LineageFile<dim>> lineage;
-    std::optional<ConditionFile>    conditions; // if the scene asks for it
+    const Scene                  scene;
+    const MPI_Comm               comm;
+    std::optional<DirectoryLock> lock; // until the end
+    const double                 wall_seconds_before;
+    const Timer                 &clock;
+    std::vector<double>          output_times;
+    // The next ones are due at these multiples of their intervals.
+    unsigned int                       next_output;
+    unsigned int                       next_snapshot;
+    SectionTimes                       sections_before;
+    std::optional<Progress>            progress;
+    std::optional<StatisticsFile>      statistics;
+    std::optional<LineageFile<dim>>    lineage;
+    std::optional<MatrixConditionFile> conditions; // if the scene asks for it
   };
 } // namespace Morula
 

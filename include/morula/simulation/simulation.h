@@ -44,8 +44,8 @@ namespace Morula
      *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
-     * @throws RunStopped where SIGINT, SIGTERM or SIGUSR1 asked for it, after
-     *         the step in which they came; the state is saved
+     * @throws StoppedBySignal where SIGINT, SIGTERM or SIGUSR1 asked for it,
+     * after the step in which they came; the state is saved
      */
     void
     run(const std::function<void()> &observe = {});
@@ -145,7 +145,7 @@ namespace Morula
     void
     output(const bool last);
     void
-    stop_if_asked(const StopSignals &signals); // RunStopped
+    stop_if_asked(const StopSignals &signals); // StoppedBySignal
     /** The longest that the present attempt asks for, µm. Collective. */
     double
     way_of_held_points() const;

@@ -11,11 +11,11 @@
 namespace Morula
 {
   /**
-   * Refuses to go on from a snapshot of another scene: only Time/End time,
+   * Refuses to resume from a snapshot of another scene. Only Time/End time,
    * Time/Step, Time/Stop at cells, and the sections Solver and Output may
-   * differ (and the directory's name: it may have been moved).
-   * @param parameters the snapshot's scene, a .prm file
-   * @throws InputError that names the key and both values
+   * differ. The directory's name may differ too, since it may have been moved.
+   * @param parameters the snapshot's scene, as the text of a .prm file
+   * @throws InputError with the key and both values
    */
   void
   check_resumable(const Scene &scene, const std::string &parameters);

@@ -11,8 +11,8 @@
 
 namespace Morula
 {
-  /** Whether the field turns any of the points' neighbourhoods inside out, on
-   *  any rank. Collective. */
+  /** Whether det f ≤ 0 at any point of any rank: the displacement turns the
+   *  point's neighbourhood inside out. Collective. */
   template <int dim>
   bool
   inverts(const DisplacementField<dim> &displacement,
@@ -20,17 +20,17 @@ namespace Morula
           const MPI_Comm                comm);
 
   /**
-   * Why the tissue does not fit on the grid any more: some points have moved so
-   * far from the others that tables over all grid cells between them, many more
-   * than in the present @p box, would fill the memory. Empty if it fits.
-   * Positions in µm. Collective.
+   * A message if the tissue does not fit on the grid any more, otherwise empty.
+   * If some points move very far from the others, the tables over all grid
+   * cells between them, many more than in the present @p box, would fill the
+   * memory. Positions in µm. Collective.
    */
   template <int dim>
   std::string
-  why_torn(const std::vector<Point<dim>> &cells,
-           const std::vector<Point<dim>> &boundary_points,
-           const GridBox<dim>            &box,
-           const MPI_Comm                 comm);
+  torn_tissue_message(const std::vector<Point<dim>> &cells,
+                      const std::vector<Point<dim>> &boundary_points,
+                      const GridBox<dim>            &box,
+                      const MPI_Comm                 comm);
 } // namespace Morula
 
 #endif

@@ -12,20 +12,22 @@
 
 namespace Morula
 {
-  /** A run that a signal has asked to end, and that has saved its state. */
-  struct RunStopped : std::runtime_error
+  /** Thrown when a signal has asked the run to end and the run has saved its
+   *  state. */
+  struct StoppedBySignal : std::runtime_error
   {
     /** @param time of the state, day */
-    RunStopped(const int signal, const double time);
+    StoppedBySignal(const int signal, const double time);
 
     int signal;
   };
 
   /**
-   * While this object lives, SIGINT (Ctrl-C), SIGTERM and SIGUSR1 (as batch
-   * systems send them before they kill) are taken down instead of ending the
-   * program. The same signal once more ends it at once. Signals that the
-   * program was started to ignore stay ignored. One object at a time.
+   * While this object lives, SIGINT (Ctrl-C), SIGTERM and SIGUSR1 are recorded
+   * and do not end the program. (Batch systems send them before they kill.) A
+   * second signal of the same kind ends the program at once. A signal that the
+   * program was started to ignore stays ignored. Only one object may live at a
+   * time.
    */
   class StopSignals
   {
@@ -37,8 +39,8 @@ namespace Morula
     StopSignals &
     operator=(const StopSignals &) = delete;
 
-    /** The number of a signal that came to any rank, the same on all of them;
-     *  0 if none has. Collective. */
+    /** The number of a signal that any rank has received, equal on all ranks;
+     *  0 if no rank has received one. Collective. */
     int
     received() const;
 

@@ -9,31 +9,31 @@
 namespace Morula
 {
   /**
-   * The time steps. They end at k Step, the last is cut to End time; a rejected
-   * step is subdivided inside its interval, by halves, and coarsened again
-   * where the halves allow it. Times are multiples, never sums, so that they do
-   * not drift.
+   * The time steps. Each step ends at a multiple of Step; the last one ends at
+   * End time. A rejected step is halved inside its interval. After two halves
+   * the next step is twice as long again. Times are computed as multiples and
+   * never as sums, so that they do not drift.
    */
   class TimeSteps
   {
   public:
     explicit TimeSteps(const TimeParameters &parameters);
 
-    /** Where in the sequence the run stands; numbers for a snapshot. */
+    /** The place of the run in the sequence of steps, for a snapshot. */
     struct State
     {
       double       time;     // present time, day
       double       step;     // Step, day
       unsigned int interval; // the interval ends at (interval + 1) Step
       double       begin;    // of the interval, day
-      unsigned int part;     // steps of this level done in the interval
+      unsigned int part;     // steps of this level that are done
       unsigned int level;    // the interval is cut into 2^level steps
     };
 
     State
     state() const;
 
-    /** Continues from @p state, also if Step or End time have changed. */
+    /** Continues from @p state. Step and End time may have changed. */
     void
     restore(const State &state);
 
@@ -41,20 +41,20 @@ namespace Morula
     double
     time() const;
 
-    /** End of the step to be tried, day. */
+    /** End of the next step, day. */
     double
     next() const;
 
     bool
     finished() const;
 
-    /** The step has been done. */
+    /** Records that the step has succeeded. */
     void
     accept();
 
     /**
-     * The step has failed: the next is half as long.
-     * @return whether that is still at least Smallest step
+     * Records that the step has failed. The next one is half as long.
+     * @return whether the next step is at least Smallest step
      */
     bool
     reject();

@@ -14,7 +14,7 @@ namespace Morula
     template <int dim>
     using EdgeCounts = std::array<std::uint64_t, dim>;
 
-    /** Patches on one face whose normal is along @p direction. */
+    /** Number of patches on a face whose normal is along @p direction. */
     template <int dim>
     std::uint64_t
     n_on_face(const EdgeCounts<dim> &counts, const unsigned int direction)
@@ -37,8 +37,9 @@ namespace Morula
     }
 
     /**
-     * Into how many pieces to cut the edges: the lengths in units of the wished
-     * patch's, rounded up or down such that the total comes nearest.
+     * The number of pieces of each edge. It is the edge's length in units of
+     * the wished patch's, rounded up or down such that the total number of
+     * patches comes nearest to the wish.
      */
     template <int dim>
     EdgeCounts<dim>
@@ -150,7 +151,7 @@ namespace Morula
           patch.position[d] = box.center[d] + 0.5 * side * box.size[d];
         else
           {
-            // measured from the middle: mirror images are exact
+            // measured from the middle, so that mirror images are exact
             const double n = static_cast<double>(counts[d]);
             const double step =
               static_cast<double>(i % counts[d]) + 0.5 - 0.5 * n;

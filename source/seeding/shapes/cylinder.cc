@@ -61,8 +61,8 @@ namespace Morula
   SurfacePatch<3>
   Cylinder::cap_patch(const RingPlace &place, const double side) const
   {
-    // halves the area of the ring; the only patch of a ring in the middle of
-    // the cap is a disc
+    // The radius halves the area of the ring. If the ring in the middle of the
+    // cap has only one patch, that patch is a disc.
     const bool   is_disc = 2. * place.area_before == place.area;
     const double r       = is_disc ? 0. : radius * std::sqrt(place.area_before);
 
@@ -98,8 +98,8 @@ namespace Morula
     const std::uint64_t n_side =
       std::max<std::uint64_t>(n_wished, 2 * n_cap + 3) - 2 * n_cap;
 
-    // rings as wide as a square patch; those of a cap hold about 1/pi of its
-    // patches times the square of their number
+    // Rings are as wide as a square patch: n rings of a cap hold about pi n²
+    // patches.
     const double n_cap_rings =
       std::max(1., std::round(std::sqrt(n_cap / numbers::PI)));
     std::vector<double> cap_areas;

@@ -20,8 +20,8 @@ namespace Morula
   namespace
   {
     /**
-     * The angle at which the integral of sqrt(1 - k² cos²) from 0 on reaches
-     * the @p fraction (in [0,1]) of its value at 2 pi.
+     * The angle up to which the integral of sqrt(1 - k² cos²) from 0 has the
+     * @p fraction (in [0,1]) of its value at 2 pi.
      */
     double
     angle_at_fraction(const double k, const double fraction)
@@ -61,7 +61,7 @@ namespace Morula
           {
             heights[band + 1]   = std::cos(numbers::PI * (band + 1) / n_bands);
             const double middle = 0.5 * (heights[band] + heights[band + 1]);
-            // the length-like density of the area along the parallel
+            // proportional to the band's area per height
             const double density = std::sqrt(steepest(middle)) *
                                    boost::math::ellint_2(modulus(middle));
             fractions[band + 1] =
@@ -72,7 +72,8 @@ namespace Morula
           fraction /= total;
       }
 
-      /** Height over the equator, in units of c, below @p fraction. */
+      /** Height over the equator, in units of c, above which the @p fraction of
+       *  the area lies. */
       double
       height(const double fraction) const
       {
@@ -86,8 +87,8 @@ namespace Morula
       }
 
       /**
-       * k of the area's density, proportional to sqrt(1 - k² cos²), along the
-       * parallel at @p height.
+       * k of the area's density along the parallel at @p height, which is
+       * proportional to sqrt(1 - k² cos²).
        */
       double
       modulus(const double height) const

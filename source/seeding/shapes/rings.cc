@@ -33,7 +33,7 @@ namespace Morula
     const double n     = static_cast<double>(n_patches());
     const double first = static_cast<double>(*(end - 1));
     const double count = static_cast<double>(*end) - first;
-    // every other ring begins half a patch later
+    // every second ring begins half a patch later
     const double shift = ring % 2 == 0 ? 0.75 : 0.25;
     return {(first + 0.5 * count) / n,
             2. * dealii::numbers::PI *

@@ -29,8 +29,8 @@ namespace Morula
     surface_area() const override;
 
     /**
-     * A grid of patches on each face (-x, +x, -y, ..., within a face the lower
-     * coordinate fastest). Edges of equal length are cut into equal numbers.
+     * A grid of patches on each face: -x, +x, -y, ...; within a face the lower
+     * coordinate fastest. Edges of equal length have equal numbers of patches.
      */
     SurfaceTiling<dim>
     tile(const std::uint64_t n_wished) const override;

@@ -13,7 +13,7 @@ namespace Morula
   class Cylinder : public Shape<3>
   {
   public:
-    /** Radius and full height in µm. */
+    /** @param radius, height radius and full height, µm */
     Cylinder(const Point<3> &center, const double radius, const double height);
 
     BoundingBox<3>
@@ -29,9 +29,9 @@ namespace Morula
     surface_area() const override;
 
     /**
-     * Rings of patches of equal area, on the lower cap from the middle
-     * outwards, up the side, and on the upper cap; at least one patch on a cap
-     * and three on the side.
+     * Rings of patches of equal area: on the lower cap from the middle
+     * outwards, then up the side, then on the upper cap. A cap has at least one
+     * patch, the side at least three.
      */
     SurfaceTiling<3>
     tile(const std::uint64_t n_wished) const override;

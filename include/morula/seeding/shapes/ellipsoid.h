@@ -21,7 +21,7 @@ namespace Morula
     BoundingBox<dim>
     bounding_box() const override;
 
-    /** The distance to the surface is estimated to first order. */
+    /** Estimates the distance to the surface to first order. */
     bool
     contains(const Point<dim> &x, const double clearance) const override;
 
@@ -36,19 +36,19 @@ namespace Morula
     surface_area() const override;
 
     /**
-     * The sphere's golden spiral in coordinates that preserve area: the band
-     * above each latitude and the part of a parallel west of each point have
-     * the fractions of the area, and of the density along the parallel, that
-     * they have on the sphere. 2-D: the middles of equal arcs. Patches of equal
-     * area, at least dim + 1 of them.
+     * The sphere's golden spiral, mapped such that areas are preserved: the
+     * band above each latitude has the same fraction of the area as on the
+     * sphere, and the part of a parallel west of each point the same fraction
+     * of the area density along the parallel. In 2-D, the middles of equal
+     * arcs. All patches have equal areas; there are at least dim + 1 of them.
      */
     SurfaceTiling<dim>
     tile(const std::uint64_t n_wished) const override;
 
   private:
     /**
-     * The normal of the point center + @p from_center of the surface, and the
-     * patch around it.
+     * The patch around the point center + @p from_center of the surface, with
+     * the normal there.
      */
     SurfacePatch<dim>
     patch_at(const Tensor<1, dim> &from_center, const double area) const;
@@ -56,8 +56,9 @@ namespace Morula
     Point<dim>     center;
     Tensor<1, dim> half_axes;
     /**
-     * Coordinate directions: the longer and the shorter axis of the parallels,
-     * then (3-D) the spiral's axis, which is the one least like the others.
+     * Coordinate directions: first the longer and the shorter axis of the
+     * parallels, then (3-D) the axis of the spiral, whose length differs most
+     * from the others.
      */
     std::array<unsigned int, dim> order;
   };

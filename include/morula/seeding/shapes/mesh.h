@@ -11,11 +11,12 @@
 
 namespace Morula
 {
-  /** The body inside a closed surface from a file, where the file has it. */
+  /** The body inside a closed surface that a file holds. It lies where the file
+   *  places it. */
   class MeshShape : public Shape<3>
   {
   public:
-    /** @throws InputError as SurfaceMesh does */
+    /** @throws InputError as SurfaceMesh */
     explicit MeshShape(const std::string &file);
 
     BoundingBox<3>

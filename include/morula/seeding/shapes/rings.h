@@ -9,28 +9,29 @@
 
 namespace Morula
 {
-  /** Where a patch sits in a surface that is cut into rings. */
+  /** The place of a patch on a surface that is cut into rings. */
   struct RingPlace
   {
-    /** Part of the whole area that lies before the middle of its ring. */
+    /** The fraction of the whole area that lies before the middle of its ring.
+     */
     double area_before;
-    /** Angle around the axis. */
+    /** Angle around the axis, radians. */
     double angle;
-    /** The patch's part of the whole area. */
+    /** The patch's fraction of the whole area. */
     double area;
   };
 
   /**
-   * Cuts a surface of revolution into rings, and those into patches of equal
-   * area, evenly around the axis.
+   * Cuts a surface of revolution into rings, and each ring into patches of
+   * equal area, evenly around the axis.
    */
   class Rings
   {
   public:
     /**
-     * @param n_patches   their number
-     * @param area_before for each ring but the last, the part of the area up to
-     *                    its end, increasing; it is met to half a patch
+     * @param n_patches   number of all patches
+     * @param area_before for each ring but the last, the fraction of the area
+     * up to its end, increasing. A ring's end is moved by up to half a patch.
      */
     Rings(const std::uint64_t        n_patches,
           const std::vector<double> &area_before);
@@ -43,7 +44,7 @@ namespace Morula
     n_patches() const;
 
   private:
-    // number of patches before each ring's end, the first entry 0
+    // number of patches before each ring's end; the first entry is 0
     std::vector<std::uint64_t> ends;
   };
 } // namespace Morula

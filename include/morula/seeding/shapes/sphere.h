@@ -29,9 +29,9 @@ namespace Morula
     surface_area() const override;
 
     /**
-     * 3-D: golden-angle spiral from the top to the bottom,
-     * z_i = R (1 - (2i+1)/n). 2-D: the middles of equal arcs. Patches of equal
-     * area, at least dim + 1 of them.
+     * In 3-D, a golden spiral from the top to the bottom,
+     * z_i = R (1 - (2i+1)/n); in 2-D, the middles of equal arcs. All patches
+     * have equal areas; there are at least dim + 1 of them.
      */
     SurfaceTiling<dim>
     tile(const std::uint64_t n_wished) const override;

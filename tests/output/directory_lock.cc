@@ -3,7 +3,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/output/run_lock.h>
+#include <morula/output/directory_lock.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -45,7 +45,7 @@ namespace
   {
     try
       {
-        const RunLock lock(directory, comm);
+        const DirectoryLock lock(directory, comm);
       }
     catch (const InputError &error)
       {
@@ -61,7 +61,7 @@ namespace
     std::string said;
     try
       {
-        on_root(comm, [&]() { RunLock::check_free(directory); });
+        on_root(comm, [&]() { DirectoryLock::check_free(directory); });
       }
     catch (const InputError &error)
       {
@@ -71,18 +71,18 @@ namespace
   }
 } // namespace
 
-TEST(RunLock, KeepsOthersOutAndNamesTheHolder)
+TEST(DirectoryLock, KeepsOthersOutAndNamesTheHolder)
 {
   const ScratchDirectory scratch;
   const std::string      directory = scratch / "run";
   EXPECT_EQ(look(directory), "");
   {
-    const RunLock     lock(directory, comm);
-    const std::string holder =
+    const DirectoryLock lock(directory, comm);
+    const std::string   holder =
       "process " +
       std::to_string(dealii::Utilities::MPI::broadcast(comm, getpid())) +
       " on " + dealii::Utilities::System::get_hostname();
-    EXPECT_EQ(lock.complaint(), "");
+    EXPECT_EQ(lock.reason_without_lock(), "");
     for (const std::string &said : {second_run(directory), look(directory)})
       {
         EXPECT_NE(said.find("Output directory = '" + directory + "'"),
@@ -100,7 +100,7 @@ TEST(RunLock, KeepsOthersOutAndNamesTheHolder)
   EXPECT_TRUE(std::filesystem::is_empty(directory));
 }
 
-TEST(RunLock, TakesOverAFileThatNobodyHolds)
+TEST(DirectoryLock, TakesOverAFileThatNobodyHolds)
 {
   const ScratchDirectory scratch;
   on_root(comm, [&]() {
@@ -108,17 +108,17 @@ TEST(RunLock, TakesOverAFileThatNobodyHolds)
           "process 1 on a host that is gone, and more\n");
   });
   EXPECT_EQ(look(scratch / ""), "");
-  const RunLock lock(scratch / "", comm);
+  const DirectoryLock lock(scratch / "", comm);
   MPI_Barrier(comm);
   EXPECT_EQ(content(scratch / "morula.lock").find("gone"), std::string::npos);
 }
 
-TEST(RunLock, LeavesTheFileOfAnotherRun)
+TEST(DirectoryLock, LeavesTheFileOfAnotherRun)
 {
   // somebody has removed the directory and begun another run in its place
   const ScratchDirectory scratch;
   {
-    const RunLock lock(scratch / "", comm);
+    const DirectoryLock lock(scratch / "", comm);
     on_root(comm, [&]() {
       std::filesystem::remove(scratch / "morula.lock");
       write(scratch / "morula.lock", "process 2 on another host\n");
@@ -128,15 +128,16 @@ TEST(RunLock, LeavesTheFileOfAnotherRun)
   MPI_Barrier(comm);
 }
 
-TEST(RunLock, SaysWhereThereAreNoLocks)
+TEST(DirectoryLock, SaysWhereThereAreNoLocks)
 {
   const ScratchDirectory scratch;
   file_system_knows_locks = false;
   {
-    const RunLock lock(scratch / "", comm);
-    EXPECT_NE(lock.complaint().find("knows no locks (No locks available)"),
+    const DirectoryLock lock(scratch / "", comm);
+    EXPECT_NE(lock.reason_without_lock().find(
+                "knows no locks (No locks available)"),
               std::string::npos)
-      << lock.complaint();
+      << lock.reason_without_lock();
     EXPECT_EQ(look(scratch / ""), "");
     EXPECT_EQ(second_run(scratch / ""), "");
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_output_condition_h
-#define morula_output_condition_h
+#ifndef morula_output_matrix_condition_h
+#define morula_output_matrix_condition_h
 
 #include <morula/output/appended_csv.h>
 #include <morula/solver/condition_estimate.h>
@@ -10,20 +10,21 @@
 namespace Morula
 {
   /**
-   * condition.csv: `step,time,unknowns,smallest,largest,condition`, a row a
-   * step, with the time at its beginning (day), where the tangent is taken. All
-   * members are collective; errors as in AppendedCsv.
+   * condition.csv: the condition of the tangent matrix, with the columns
+   * `step,time,unknowns,smallest,largest,condition`. Each step has one row. Its
+   * time (day) is that of the step's beginning, where the tangent is taken. All
+   * members are collective and throw as those of AppendedCsv.
    */
-  class ConditionFile
+  class MatrixConditionFile
   {
   public:
-    /** A new file. */
-    ConditionFile(const std::string &path, const MPI_Comm comm);
+    /** Starts a new file. */
+    MatrixConditionFile(const std::string &path, const MPI_Comm comm);
 
     /** Continues the file behind the rows that are to be @p kept. */
-    ConditionFile(const std::string &path,
-                  const TableExtent &kept,
-                  const MPI_Comm     comm);
+    MatrixConditionFile(const std::string &path,
+                        const TableExtent &kept,
+                        const MPI_Comm     comm);
 
     /** See AppendedCsv. */
     static void
@@ -31,7 +32,7 @@ namespace Morula
           const TableExtent &kept,
           const MPI_Comm     comm);
 
-    /** Adds the row of a step. */
+    /** Appends the row of a step. */
     void
     append(const unsigned int       step,
            const double             time,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/condition.h>
 #include <morula/output/csv_rows.h>
+#include <morula/output/matrix_condition.h>
 
 namespace Morula
 {
@@ -12,28 +12,29 @@ namespace Morula
       "step", "time", "unknowns", "smallest", "largest", "condition"};
   }
 
-  ConditionFile::ConditionFile(const std::string &path, const MPI_Comm comm)
+  MatrixConditionFile::MatrixConditionFile(const std::string &path,
+                                           const MPI_Comm     comm)
     : file(path, names, comm)
   {}
 
-  ConditionFile::ConditionFile(const std::string &path,
-                               const TableExtent &kept,
-                               const MPI_Comm     comm)
+  MatrixConditionFile::MatrixConditionFile(const std::string &path,
+                                           const TableExtent &kept,
+                                           const MPI_Comm     comm)
     : file(path, names, kept, comm)
   {}
 
   void
-  ConditionFile::check(const std::string &path,
-                       const TableExtent &kept,
-                       const MPI_Comm     comm)
+  MatrixConditionFile::check(const std::string &path,
+                             const TableExtent &kept,
+                             const MPI_Comm     comm)
   {
     AppendedCsv::check(path, names, kept, comm);
   }
 
   void
-  ConditionFile::append(const unsigned int       step,
-                        const double             time,
-                        const ConditionEstimate &estimate)
+  MatrixConditionFile::append(const unsigned int       step,
+                              const double             time,
+                              const ConditionEstimate &estimate)
   {
     const std::vector<double> values = {double(step),
                                         time,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/seeding/point_rows.h>
+#include <morula/seeding/points_file_rows.h>
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@ namespace Morula
 {
   namespace
   {
-    /** Characters; four numbers and their names are far shorter, and the parts
-     *  of a file without line ends would fill the memory. */
+    /** Longest line, in characters. Four numbers and their names are far
+     *  shorter; a file without line ends could fill the memory. */
     constexpr std::size_t longest_line = 10000;
 
     std::string
@@ -56,7 +56,7 @@ namespace Morula
   } // namespace
 
   bool
-  is_remark(const std::string &line)
+  is_blank_or_comment(const std::string &line)
   {
     const std::string text = trimmed(line);
     return text.empty() || text[0] == '#';
@@ -105,7 +105,7 @@ namespace Morula
   read_row(const std::string               &text,
            const std::vector<unsigned int> &columns,
            const double                     default_volume,
-           PointRows<dim>                  &rows)
+           PointsFileRows<dim>             &rows)
   {
     const bool                     too_long = text.size() > longest_line;
     const std::vector<std::string> entries =
@@ -162,10 +162,10 @@ namespace Morula
   read_row<2>(const std::string &,
               const std::vector<unsigned int> &,
               const double,
-              PointRows<2> &);
+              PointsFileRows<2> &);
   template void
   read_row<3>(const std::string &,
               const std::vector<unsigned int> &,
               const double,
-              PointRows<3> &);
+              PointsFileRows<3> &);
 } // namespace Morula

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_seeding_point_rows_h
-#define morula_seeding_point_rows_h
+#ifndef morula_seeding_points_file_rows_h
+#define morula_seeding_points_file_rows_h
 
 #include <deal.II/base/point.h>
 
@@ -22,15 +22,15 @@ namespace Morula
     static constexpr std::uint64_t no_line =
       std::numeric_limits<std::int64_t>::max();
 
-    /** Counted from 1; no_line: nothing is wrong. */
+    /** Counted from 1; no_line if nothing is wrong. */
     std::uint64_t line = no_line;
-    /** As in InputError. */
+    /** As the arguments of InputError. */
     std::string value, allowed, remedy;
   };
 
-  /** Rows of a points file. */
+  /** Rows that this rank has read from a points file. */
   template <int dim>
-  struct PointRows
+  struct PointsFileRows
   {
     /** µm */
     std::vector<Point<dim>> positions;
@@ -38,34 +38,35 @@ namespace Morula
     std::vector<double> volumes;
     /** The lines on which the rows stand. */
     std::vector<std::uint64_t> lines;
-    /** Lines read, with those that hold no row. */
+    /** Number of lines read, including those without a row. */
     std::uint64_t n_lines = 0;
-    /** Of the first bad line. */
+    /** The problem of the first bad line. */
     LineProblem problem;
   };
 
-  /** Whether a line holds neither names nor numbers: blank, or # first. */
+  /** Whether a line is blank or begins with #. Such lines are skipped. */
   bool
-  is_remark(const std::string &line);
+  is_blank_or_comment(const std::string &line);
 
   /**
-   * What the columns mean, by the header line @p text: 0, 1, 2 for x, y, z, and
-   * 3 for the volume. Sets @p problem, except its line, if the names are wrong.
+   * The meaning of each column that the header line @p text names: 0, 1, 2 for
+   * x, y, z, and 3 for the volume. If the names are wrong, sets @p problem but
+   * for its line.
    */
   template <int dim>
   std::vector<unsigned int>
   read_columns(const std::string &text, LineProblem &problem);
 
   /**
-   * Appends the row that the line @p text holds, the one numbered
-   * rows.n_lines, or sets rows.problem.
+   * Appends the row in the line @p text, whose number is rows.n_lines, or sets
+   * rows.problem.
    */
   template <int dim>
   void
   read_row(const std::string               &text,
            const std::vector<unsigned int> &columns,
            const double                     default_volume,
-           PointRows<dim>                  &rows);
+           PointsFileRows<dim>             &rows);
 } // namespace Morula
 
 #endif

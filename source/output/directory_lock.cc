@@ -4,8 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
+#include <morula/output/directory_lock.h>
 #include <morula/output/posix_file.h>
-#include <morula/output/run_lock.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -29,7 +29,8 @@ namespace Morula
 
   namespace
   {
-    // Another process may only be looking, or be about to write its name.
+    // Another process may hold the file for a moment only to look at it, or
+    // may not have written its name yet: hence several attempts.
     constexpr unsigned int              n_attempts = 20;
     constexpr std::chrono::milliseconds pause(10);
 
@@ -39,7 +40,8 @@ namespace Morula
       return directory + "/morula.lock";
     }
 
-    /** What the holder has written, in characters that can be printed. */
+    /** What the run that holds the lock has written, as printable characters.
+     */
     std::string
     holder(const std::string &path)
     {
@@ -53,7 +55,7 @@ namespace Morula
       return line.empty() ? "a process that has not said its name" : line;
     }
 
-    /** With the error of the system. */
+    /** Throws an InputError with the system's reason. */
     [[noreturn]] void
     refuse_to_write(const std::string &directory)
     {
@@ -88,18 +90,20 @@ namespace Morula
     }
   } // namespace
 
-  RunLock::RunLock(const std::string &directory, const MPI_Comm comm)
+  DirectoryLock::DirectoryLock(const std::string &directory,
+                               const MPI_Comm     comm)
     : path(lock_file(directory))
   {
     on_root(comm, [&]() {
       create_directory(directory);
       take(directory);
     });
-    complaint_ = Utilities::MPI::broadcast(comm, complaint_);
+    reason_without_lock_ =
+      Utilities::MPI::broadcast(comm, reason_without_lock_);
   }
 
   void
-  RunLock::take(const std::string &directory)
+  DirectoryLock::take(const std::string &directory)
   {
     for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
@@ -108,7 +112,7 @@ namespace Morula
           refuse_to_write(directory);
         const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
         const int  reason = errno;
-        // Who held it before may have removed the file meanwhile.
+        // The holder before may have removed the file meanwhile.
         if (locked && is_open_at(descriptor, path))
           {
             if (!sign(descriptor))
@@ -120,10 +124,10 @@ namespace Morula
           continue;
         if (reason != EWOULDBLOCK)
           {
-            complaint_ = std::string("This file system knows no locks (") +
-                         std::strerror(reason) +
-                         "): nothing keeps another run out of '" + directory +
-                         "'.";
+            reason_without_lock_ =
+              std::string("This file system knows no locks (") +
+              std::strerror(reason) + "): nothing keeps another run out of '" +
+              directory + "'.";
             std::remove(path.c_str());
             return;
           }
@@ -132,18 +136,18 @@ namespace Morula
     refuse(directory);
   }
 
-  RunLock::~RunLock()
+  DirectoryLock::~DirectoryLock()
   {
     if (descriptor < 0)
       return;
-    // before the lock goes: nobody else can have it until then
+    // before the lock is released: until then nobody else can take it
     if (is_open_at(descriptor, path))
       std::remove(path.c_str());
     ::close(descriptor);
   }
 
   void
-  RunLock::check_free(const std::string &directory)
+  DirectoryLock::check_free(const std::string &directory)
   {
     const int descriptor =
       ::open(lock_file(directory).c_str(), O_RDONLY | O_CLOEXEC);

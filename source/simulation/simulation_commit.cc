@@ -23,7 +23,8 @@ namespace Morula
       double f = std::numeric_limits<double>::infinity();
     };
 
-    /** Where points go, and how their surroundings deform, in order. */
+    /** New positions of points in order, and f, the step's deformation there.
+     */
     template <int dim>
     struct Moved
     {
@@ -32,8 +33,11 @@ namespace Morula
       Motion                      largest; // over all ranks
     };
 
-    /** The points of a store, moved with the field: none farther than the
-     *  limit. Collective. */
+    /**
+     * Moves the points of a store with the displacement, none farther than the
+     * limit: equations (6), (9) of the paper for cells and boundary points, and
+     * f for equations (7), (10). Collective.
+     */
     template <int dim>
     Moved<dim>
     moved(const PointStore<dim>        &store,

@@ -13,8 +13,9 @@ namespace Morula
   struct ProjectedPoints;
 
   /**
-   * The internal virtual work Σ_p W τ : ∇δu of the neo-Hookean tissue, its
-   * energy Σ_p W Ψ and its tangent, doc/theory.md (2.4), (2.5):
+   * The internal virtual work Σ_p W τ : ∇δu of the neo-Hookean tissue, equation
+   * (2) of the paper, its energy Σ_p W Ψ and its tangent, doc/theory.md (2.4),
+   * (2.5):
    *
    *   R_a = Σ_p W τ g_a, g_a = f⁻ᵀ ∇N_a,
    *   K_ab^ij = Σ_p W [λ g_a^i g_b^j + (μ - λ ln J_e) g_a^j g_b^i

@@ -21,7 +21,8 @@ namespace Morula
   template <int dim>
   struct ElasticState
   {
-    /** A = F_t F_g⁻¹, by which F_e = f A: doc/theory.md (1.3). */
+    /** A = F_t F_g⁻¹, so that F_e = f A: doc/theory.md (1.3), equation (12) of
+     *  the paper. */
     Tensor<2, dim> A;
     /**
      * Material points: W, the volume the energy is counted per, µm^dim.

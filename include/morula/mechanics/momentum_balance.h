@@ -32,9 +32,10 @@ namespace Morula
   };
 
   /**
-   * The momentum balance of one step: the sum of the scene's terms over the
-   * active grid cells, condensed to the unknown splines inside each grid cell:
-   * the energy of doc/theory.md (2.1) and its derivatives.
+   * The momentum balance of one step, that is the principle of virtual work,
+   * equation (1) of the paper: the energy of doc/theory.md (2.1) and its
+   * derivatives. It is the sum of the scene's terms over the active grid cells,
+   * condensed to the unknown splines inside each grid cell.
    */
   template <int dim>
   class MomentumBalance : public Equilibrium

@@ -21,9 +21,10 @@ namespace Morula
             const double          t);
 
   /**
-   * Divides these cells into two each (equations (16)-(20) of the paper): the
-   * daughters inherit F, F_g and the clock of the cycle, V⁰ halves. All
-   * divisions see the same configuration. Collective.
+   * Divides each of these cells into two. The daughters stand where
+   * daughter_distances() says. They inherit F, equation (17) of the paper, F_g
+   * and the clock of the cycle, and half of V⁰, equation (18). All divisions
+   * see the same configuration. Collective.
    * @param next_id first free id, the same on all ranks; advanced
    * @return the daughters born on this rank
    */

@@ -13,7 +13,7 @@ namespace Morula
     constexpr std::size_t longest = 400;
 
     bool
-    is_control(const char c)
+    is_unprintable(const char c)
     {
       const auto byte = static_cast<unsigned char>(c);
       return byte < 0x20 || byte == 0x7F;
@@ -31,7 +31,7 @@ namespace Morula
     const std::string digits = "0123456789abcdef";
     std::string       result;
     for (std::size_t i = 0; i < end; ++i)
-      if (is_control(text[i]))
+      if (is_unprintable(text[i]))
         {
           const auto byte = static_cast<unsigned char>(text[i]);
           result += std::string("\\x") + digits[byte / 16] + digits[byte % 16];

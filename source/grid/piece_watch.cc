@@ -11,7 +11,7 @@ namespace Morula
 {
   namespace
   {
-    constexpr unsigned int none = numbers::invalid_unsigned_int;
+    constexpr unsigned int no_former = numbers::invalid_unsigned_int;
 
     /** Whether a piece of @p space holds grid cells of two former pieces. */
     template <int dim>
@@ -19,12 +19,12 @@ namespace Morula
     any_joined(const SplineSpace<dim>          &space,
                const std::vector<unsigned int> &former)
     {
-      std::vector<unsigned int> former_of(space.n_pieces(), none);
+      std::vector<unsigned int> former_of(space.n_pieces(), no_former);
       for (unsigned int number = 0; number < former.size(); ++number)
-        if (former[number] != none)
+        if (former[number] != no_former)
           {
             unsigned int &first = former_of[space.piece(number)];
-            if (first == none)
+            if (first == no_former)
               first = former[number];
             if (first != former[number])
               return true;
@@ -48,14 +48,14 @@ namespace Morula
       int last = std::numeric_limits<int>::max();
       for (int radius = 1; radius <= last; ++radius)
         for (unsigned int number = 0; number < former.size(); ++number)
-          if (former[number] != none)
+          if (former[number] != no_former)
             {
               const Point<dim> here = box.center(box.index(number));
               box.for_neighbors(box.index(number),
                                 radius,
                                 [&](const unsigned int    other,
                                     const GridIndex<dim> &index) {
-                                  if (former[other] == none ||
+                                  if (former[other] == no_former ||
                                       former[other] == former[number] ||
                                       space.piece(other) != space.piece(number))
                                     return;
@@ -76,11 +76,11 @@ namespace Morula
   std::vector<unsigned int>
   PieceWatch<dim>::former_pieces(const SplineSpace<dim> &space) const
   {
-    std::vector<unsigned int> former(space.box().size(), none);
+    std::vector<unsigned int> former(space.box().size(), no_former);
     for (unsigned int number = 0; number < former.size(); ++number)
       {
         const GridIndex<dim> index = space.box().index(number);
-        if (space.piece(number) != none && box.contains(index))
+        if (space.piece(number) != no_former && box.contains(index))
           former[number] = pieces[box.number(index)];
       }
     return former;

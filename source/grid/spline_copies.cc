@@ -15,7 +15,7 @@ namespace Morula
 {
   namespace
   {
-    constexpr unsigned int none = numbers::invalid_unsigned_int;
+    constexpr unsigned int no_piece = numbers::invalid_unsigned_int;
 
     /** For each of the 3^dim grid cells of a spline's support, the bits of
      *  those that it touches, including itself. */
@@ -79,7 +79,7 @@ namespace Morula
                                   const std::vector<GridCellClass> &classes)
     : box(box)
     , first(box.size() + 1, 0)
-    , pieces(box.size(), none)
+    , pieces(box.size(), no_piece)
   {
     for (unsigned int spline = 0; spline < box.size(); ++spline)
       {
@@ -107,7 +107,8 @@ namespace Morula
       {
         const std::uint32_t part = first_part<dim>(tissue);
         if ((part & active) != 0)
-          copies.push_back({spline, part & active, (part & inner) != 0, none});
+          copies.push_back(
+            {spline, part & active, (part & inner) != 0, no_piece});
         tissue &= ~part;
       }
   }
@@ -123,24 +124,24 @@ namespace Morula
     std::vector<char>                                    active(box.size(), 0);
     for (const SplineCopy &copy : copies)
       {
-        unsigned int one = none;
+        unsigned int one = no_piece;
         for_support(box,
                     copy.spline,
                     [&](const unsigned int a, const unsigned int number) {
                       if (!(copy.support & (1u << a)))
                         return;
                       active[number] = 1;
-                      if (one == none)
+                      if (one == no_piece)
                         one = number;
                       sets.union_set(one, number);
                     });
       }
-    std::vector<unsigned int> piece_of_root(box.size(), none);
+    std::vector<unsigned int> piece_of_root(box.size(), no_piece);
     for (unsigned int number = 0; number < box.size(); ++number)
       if (active[number])
         {
           unsigned int &piece = piece_of_root[sets.find_set(number)];
-          if (piece == none)
+          if (piece == no_piece)
             {
               piece = lowest.size();
               lowest.push_back(number);

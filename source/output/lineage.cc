@@ -11,7 +11,7 @@ namespace Morula
   namespace
   {
     std::vector<std::string>
-    names()
+    lineage_columns()
     {
       return {"id", "parent", "generation", "birth_time", "x", "y", "z"};
     }
@@ -20,7 +20,7 @@ namespace Morula
   template <int dim>
   LineageFile<dim>::LineageFile(const std::string &path, const MPI_Comm comm)
     : comm(comm)
-    , file(path, names(), comm)
+    , file(path, lineage_columns(), comm)
   {}
 
   template <int dim>
@@ -28,7 +28,7 @@ namespace Morula
                                 const TableExtent &kept,
                                 const MPI_Comm     comm)
     : comm(comm)
-    , file(path, names(), kept, comm)
+    , file(path, lineage_columns(), kept, comm)
   {}
 
   template <int dim>
@@ -37,7 +37,7 @@ namespace Morula
                           const TableExtent &kept,
                           const MPI_Comm     comm)
   {
-    AppendedCsv::check(path, names(), kept, comm);
+    AppendedCsv::check(path, lineage_columns(), kept, comm);
   }
 
   template <int dim>

@@ -9,7 +9,7 @@ namespace Morula
   namespace
   {
     std::vector<std::string>
-    names()
+    statistics_columns()
     {
       std::vector<std::string> all;
       for (const auto &column : StatisticsRow().columns())
@@ -56,13 +56,13 @@ namespace Morula
   }
 
   StatisticsFile::StatisticsFile(const std::string &path, const MPI_Comm comm)
-    : file(path, names(), comm)
+    : file(path, statistics_columns(), comm)
   {}
 
   StatisticsFile::StatisticsFile(const std::string &path,
                                  const TableExtent &kept,
                                  const MPI_Comm     comm)
-    : file(path, names(), kept, comm)
+    : file(path, statistics_columns(), kept, comm)
   {}
 
   void
@@ -70,7 +70,7 @@ namespace Morula
                         const TableExtent &kept,
                         const MPI_Comm     comm)
   {
-    AppendedCsv::check(path, names(), kept, comm);
+    AppendedCsv::check(path, statistics_columns(), kept, comm);
   }
 
   void

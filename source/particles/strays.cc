@@ -16,7 +16,7 @@ namespace Morula
   namespace
   {
     /** How many reaches a boundary point may be away from its nearest cell. */
-    constexpr double longest = 4. / 3.;
+    constexpr double longest_reach = 4. / 3.;
 
     /** No reach is shorter than this, in units of h. */
     constexpr double least_reach = 0.25;
@@ -149,7 +149,8 @@ namespace Morula
   double
   trust_in_surface(const double distance, const double reach)
   {
-    const double part = (longest - distance / reach) / (longest - 1.);
+    const double part =
+      (longest_reach - distance / reach) / (longest_reach - 1.);
     return std::min(1., std::max(0., part));
   }
 
@@ -180,14 +181,14 @@ namespace Morula
     std::vector<Point<dim>> positions;
     for (const auto &point : store.order())
       positions.push_back(point->get_location());
-    const auto [far, nearest] = strays(positions, tissue, longest);
+    const auto [far, nearest] = strays(positions, tissue, longest_reach);
 
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
       {
         const unsigned int  p     = far[k];
         const double *const cell  = &nearest[k * n_landmark<dim>];
-        const double        leash = longest * cell[n_landmark<dim> - 1];
+        const double        leash = longest_reach * cell[n_landmark<dim> - 1];
         Tensor<1, dim>      way; // to the cell
         for (unsigned int d = 0; d < dim; ++d)
           way[d] = cell[d] - positions[p][d];

@@ -140,7 +140,7 @@ namespace Morula
     }
 
     /** A condition's key 'where' and the key of its value. */
-    struct Condition
+    struct WrittenCondition
     {
       std::string where_key, where;
       std::string value_key, value, default_value;
@@ -148,7 +148,7 @@ namespace Morula
     };
 
     void
-    check_condition(const Scene &scene, const Condition &condition)
+    check_condition(const Scene &scene, const WrittenCondition &condition)
     {
       const std::string section   = "Boundary conditions/";
       const std::string where_key = section + condition.where_key;
@@ -186,7 +186,7 @@ namespace Morula
     {
       const BoundaryConditionParameters &given = scene.boundary_conditions;
       const BoundaryConditionParameters  defaults;
-      for (const Condition &condition : std::vector<Condition>{
+      for (const WrittenCondition &condition : std::vector<WrittenCondition>{
              {"Fixed where",
               given.fixed_where,
               "Displacement",

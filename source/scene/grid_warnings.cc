@@ -17,7 +17,7 @@ namespace Morula
   namespace
   {
     /** Numbers that differ by less are equal. */
-    constexpr double slack = 1e-9;
+    constexpr double rounding = 1e-9;
 
     /** Mean length of a cell, µm. */
     template <int dim>
@@ -106,12 +106,12 @@ namespace Morula
     const double             h     = scene.grid.spacing;
     const double             L     = cell_length(founders, comm);
     const std::string        value = as_text(h) + " um";
-    if (h < (3. - slack) * L)
+    if (h < (3. - rounding) * L)
       warnings.push_back(warning(
         "Grid/Spacing",
         value,
         "that is " + as_text(h / L) + " cells of " + as_text(L) + " um; " +
-          (h < (2. - slack) * L ?
+          (h < (2. - rounding) * L ?
              "below 2 energies are wrong by up to 10 %, and compressed "
              "tissue goes unstable (doc/hard-cases.md, classification)." :
              "fewer than 3 roughen the surface and spoil the energy, and "
@@ -121,7 +121,7 @@ namespace Morula
         "lower Tissue/Cell spacing."));
 
     const double thickness = smallest_extent(scene, founders, surface, comm);
-    if (thickness < (1. - slack) * h)
+    if (thickness < (1. - rounding) * h)
       warnings.push_back(
         warning("Grid/Spacing",
                 value,
@@ -136,7 +136,7 @@ namespace Morula
     const bool   slips = !scene.boundary_conditions.slip_where.empty();
     const double patch = patch_length(surface, comm);
     if (slips && (scene.has_growth() || scene.has_proliferation()) &&
-        !scene.tissue.refine_surface && patch > (0.5 - slack) * h)
+        !scene.tissue.refine_surface && patch > (0.5 - rounding) * h)
       warnings.push_back(
         warning("Tissue/Boundary points",
                 std::to_string(surface.n_global),

@@ -25,8 +25,8 @@ namespace Morula
 
     /** Far beyond what solves a system: the smallest eigenvalue settles late,
      *  and SolverCG keeps the last coefficient to itself. */
-    constexpr double       reduction      = 1e-20;
-    constexpr unsigned int max_iterations = 5000; // and 100 + 10 n
+    constexpr double       reduction               = 1e-20;
+    constexpr unsigned int max_estimate_iterations = 5000; // and 100 + 10 n
 
     void
     remove(Vector &x, const std::vector<Vector> &directions)
@@ -182,7 +182,7 @@ namespace Morula
     // It does not matter whether conjugate gradients solve the system.
     LanczosMatrix    lanczos;
     bool             breakdown = false;
-    ReductionControl control(std::min<unsigned int>(max_iterations,
+    ReductionControl control(std::min<unsigned int>(max_estimate_iterations,
                                                     100 + 10 * zero.size()),
                              0.,
                              reduction,

@@ -22,7 +22,7 @@ namespace Morula
 {
   namespace
   {
-    constexpr int max_iterations = 30;
+    constexpr int max_newton_iterations = 30;
 
     class EnergyLineSearchFactory : public NOX::LineSearch::UserDefinedFactory
     {
@@ -71,9 +71,9 @@ namespace Morula
           status = NOX::StatusTest::Converged;
         else if (!std::isfinite(norm))
           reason = "the unbalanced forces are infinite";
-        else if (iteration >= max_iterations)
+        else if (iteration >= max_newton_iterations)
           reason = "they have not converged in " +
-                   std::to_string(max_iterations) + " iterations";
+                   std::to_string(max_newton_iterations) + " iterations";
         else
           status = NOX::StatusTest::Unconverged;
         return status;

@@ -16,7 +16,7 @@ using namespace Morula;
 
 namespace
 {
-  struct Parameters
+  struct GivenFactor
   {
     double factor = 2.;
 
@@ -31,7 +31,7 @@ namespace
   class Law : public GrowthLaw<dim>
   {
   public:
-    using Parameters = ::Parameters;
+    using Parameters = GivenFactor;
 
     explicit Law(const Parameters &parameters)
       : factor(parameters.factor)
@@ -62,7 +62,7 @@ namespace
   class Rule : public DivisionRule<dim>
   {
   public:
-    using Parameters = ::Parameters;
+    using Parameters = GivenFactor;
 
     explicit Rule(const Parameters &) {}
 

@@ -9,9 +9,10 @@ import re
 import statistics
 import subprocess
 
+from morula.execute import Processes, call, overrides
+
 from tests.benchmarks import scaling
-from tests.benchmarks.runs import environment
-from tests.common.processes import ROOT, overrides
+from tests.common.kept import ROOT
 
 NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
 # What happens once, whatever the number of steps or cells.
@@ -27,13 +28,15 @@ ROUNDS = 5
 
 def google_benchmark(program, blas, pattern="."):
     """name -> counters."""
-    found = subprocess.run(
-        [str(program), "--benchmark_format=json",
-         f"--benchmark_filter={pattern}"], check=True, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-        env={**environment(), "MORULA_BLAS": str(blas)})
-    return {row["name"]: row for row in json.loads(found.stdout)["benchmarks"]
-            if not row.get("error_occurred")}
+    found = run_benchmark(program, blas, pattern)
+    return {row["name"]: row for row in found if not row.get("error_occurred")}
+
+
+def run_benchmark(program, blas, pattern, *words):
+    ended = call([program, "--benchmark_format=json",
+                  f"--benchmark_filter={pattern}", *words],
+                 stderr=subprocess.DEVNULL, env={"MORULA_BLAS": str(blas)})
+    return json.loads(ended.stdout)["benchmarks"]
 
 
 def kernels(program, blas):
@@ -193,14 +196,10 @@ def model(runner):
 def concurrent(program, blas, name, counter):
     """Time for the same work of one process, and of two at once."""
     alone = google_benchmark(program, blas, f"^{name}$")[name][counter]
-    words = [str(program), "--benchmark_format=json", "--benchmark_min_time=3",
-             f"--benchmark_filter=^{name}$"]
-    both = [subprocess.Popen(words, text=True, stdout=subprocess.PIPE,
-                             stderr=subprocess.DEVNULL,
-                             env={**environment(), "MORULA_BLAS": str(blas)})
-            for _ in range(2)]
-    rates = [json.loads(process.communicate()[0])["benchmarks"][0][counter]
-             for process in both]
+    rates = Processes().each(
+        lambda _: run_benchmark(program, blas, f"^{name}$",
+                                "--benchmark_min_time=3")[0][counter],
+        range(2), 2)
     return 1 / alone, 1 / sum(rates)
 
 
@@ -320,10 +319,8 @@ ESTIMATED = [
 
 def explained(runner, scene, keys):
     """(memory in GB, seconds) that --explain expects."""
-    text = subprocess.run(
-        [str(runner.morula), str(ROOT / scene), "--explain", *overrides(keys)],
-        cwd=ROOT, env=environment(), check=True, text=True,
-        stdout=subprocess.PIPE).stdout
+    text = call([runner.morula, ROOT / scene, "--explain", *overrides(keys)],
+                cwd=ROOT).stdout
     memory = re.search(r"memory: about (\S+) GB", text)
     time = re.search(r"time: about .* \((\S+) s\)", text)
     return float(memory[1]), float(time[1])

@@ -17,7 +17,7 @@ import subprocess
 from pathlib import Path
 
 from tests.benchmarks import measure
-from tests.benchmarks.runs import Runner
+from tests.benchmarks.runs import Bench
 from tests.common.tables import aligned, markdown, renew
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -68,7 +68,7 @@ def main():
     if not options.built:
         for target in ("morula", "benchmark_kernels"):
             subprocess.run([ROOT / "contrib/build", target], check=True)
-    runner = Runner(ROOT / "build/morula", options.output.resolve())
+    runner = Bench(ROOT / "build/morula", options.output.resolve())
     program = ROOT / "build/tests/benchmark_kernels"
     wanted = options.tables or TABLES
     blas = (fast_blas(options.output.resolve() / "openblas")

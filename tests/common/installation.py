@@ -3,7 +3,9 @@
 """For tests of what is installed, and of programs that are built with it."""
 from pathlib import Path
 
-from tests.common.processes import ROOT, call
+from morula.execute import call
+
+from tests.common.kept import ROOT
 
 EXAMPLE = ROOT / "contrib/example-project"
 
@@ -20,11 +22,11 @@ class Installation:
     def call(self, *words, cwd=None, code=0):
         """What a command prints, with a home of its own, and without this
         tree's packages for Python."""
-        found, text = call(["env", "-u", "PYTHONPATH", f"HOME={self.home}",
-                            *words],
-                           cwd=cwd or self.work)
-        self.assertEqual(found, code, f"{' '.join(map(str, words))}\n{text}")
-        return text
+        ended = call(["env", "-u", "PYTHONPATH", f"HOME={self.home}", *words],
+                     cwd=cwd or self.work)
+        self.assertEqual(ended.code, code,
+                         f"{' '.join(map(str, words))}\n{ended.text}")
+        return ended.text
 
     def install(self, prefix):
         self.call("cmake", "--install", self.build, "--prefix", prefix)

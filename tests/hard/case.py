@@ -120,7 +120,7 @@ class Figures:
 
 
 @dataclass
-class Run:
+class TrialRun:
     """A trial that has been run. results: Results (tests/scenes/checks), None
     after exit code 1, as the figures are. resumed: exit code of --resume after
     exit code 2, otherwise None."""
@@ -137,7 +137,7 @@ class Run:
 class Case:
     """A hard case. breaks, cure: for the documentation, a phrase each.
 
-    judge(runs) yields the Findings; runs: trial name -> Run, of the trials
+    judge(runs) yields the Findings; runs: trial name -> TrialRun, of the trials
     that were run, full_only ones only at full size.
     """
 

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Runs of the trials of hard cases, each in its own directory."""
-import json
 import shlex
 import shutil
 import subprocess
 from pathlib import Path
 
-from tests.common.processes import (ROOT, call, digest, files_of_scene,
-                                    overrides, program_stamp)
+from morula.execute import call, command, overrides
+
+from tests.common.kept import ROOT, digest, files_of_scene, kept, program_stamp
 from tests.common.results import Results
-from tests.hard.case import Run
+from tests.hard.case import TrialRun
 from tests.hard.engine import (different_cells, figures, numbers_missing,
                                wrong_end, wrong_resume)
 
 HERE = Path(__file__).resolve().parent
 SCENES = ROOT / "prm/hard"
 JUDGES = [HERE / "engine.py", HERE / "execution.py",
-          ROOT / "tests/common/processes.py"]
+          ROOT / "contrib/python/morula/execute.py"]
 
 
 class Execution:
@@ -28,7 +28,7 @@ class Execution:
         self.output = output / ("full" if full else "quick")
 
     def run(self, name, trial):
-        """(Run of the first number of ranks, what is wrong as sentences)."""
+        """(TrialRun of the first number of ranks, what is wrong as sentences)."""
         directory = self.output / name / trial.name
         wrong, first = [], None
         for ranks in trial.ranks:
@@ -54,40 +54,35 @@ class Execution:
                   "ranks": ranks, "resume": trial.resume_keys,
                   "expected": [list(trial.exit), trial.message],
                   "files": digest([*files_of_scene(scene), *files, *JUDGES])}
-        record = directory / f"ranks-{ranks}.json"
-        kept = json.loads(record.read_text()) if record.is_file() else {}
-        if kept.get("origin") != origin:
-            record.unlink(missing_ok=True)
-            kept = {"origin": origin,
-                    **self._execute(trial, scene, keys, ranks, output)}
-            if not kept["wrong"]:
-                record.write_text(json.dumps(kept))
-        wrong = kept["wrong"]
+        found = kept(directory / f"ranks-{ranks}.json", origin, lambda:
+                     self._execute(trial, scene, keys, ranks, output))
+        wrong = found["wrong"]
         if (output / "statistics.csv").is_file():
             results = Results(output)
-            run = Run(trial, kept["exit"], kept["text"], results,
-                      figures(results), kept["resumed"])
+            run = TrialRun(trial, found["exit"], found["text"], results,
+                      figures(results), found["resumed"])
         else:
-            run = Run(trial, kept["exit"], kept["text"], None, None)
+            run = TrialRun(trial, found["exit"], found["text"], None, None)
             if run.exit in (0, 2):
                 wrong = wrong + ["there is no statistics.csv"]
         return run, wrong
 
     def _command(self, scene, keys, ranks, output, *more):
-        words = [self.morula, scene.relative_to(ROOT),
-                 *overrides({**keys, "Output directory": output}), *more]
-        return [self.mpiexec, "-n", ranks, *words] if ranks > 1 else words
+        return command(self.morula, scene.relative_to(ROOT),
+                       *overrides({**keys, "Output directory": output}), *more,
+                       ranks=ranks, mpiexec=self.mpiexec)
 
     def _execute(self, trial, scene, keys, ranks, output):
         shutil.rmtree(output, ignore_errors=True)
         output.parent.mkdir(parents=True, exist_ok=True)
         words = self._command(scene, keys, ranks, output)
-        print("  +", shlex.join(map(str, words)), flush=True)
+        print("  +", shlex.join(words), flush=True)
         try:
-            code, text = call(words, timeout=trial.timeout)
+            ended = call(words, cwd=ROOT, timeout=trial.timeout)
         except subprocess.TimeoutExpired:
             return {"exit": None, "text": "", "resumed": None,
                     "wrong": [f"no end within {trial.timeout:g} s"]}
+        code, text = ended.code, ended.text
         wrong = wrong_end(trial, code, text, output)
         wrong += numbers_missing(output)
         resumed = None
@@ -108,11 +103,12 @@ class Execution:
                               copy, "--resume")
         before = (copy / "statistics.csv").read_text()
         try:
-            code, text = call(words, timeout=trial.timeout)
+            ended = call(words, cwd=ROOT, timeout=trial.timeout)
         except subprocess.TimeoutExpired:
             return None, [f"resumed, no end within {trial.timeout:g} s"]
         after = (copy / "statistics.csv").read_text()
-        wrong = wrong_resume(code, text, before, after)
+        code = ended.code
+        wrong = wrong_resume(code, ended.text, before, after)
         wrong += ["resumed: " + found for found in numbers_missing(copy)]
         shutil.rmtree(copy)
         return code, wrong

@@ -4,8 +4,8 @@
 """contrib/python: one package with one way to start it, and the lists of its
 tools, of CMake and of pyproject.toml are the same."""
 import re
-import tomllib
 
+import tomllib
 from morula.__main__ import TOOLS
 from program import TESTS, ProgramTest, main
 

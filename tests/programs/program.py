@@ -6,13 +6,13 @@ import csv
 import os
 import shlex
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from tests.common.processes import overrides
+from morula.execute import call, command, overrides
+
 from tests.common.results import read_csv
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -40,10 +40,8 @@ class ProgramTest(unittest.TestCase):
         self.work.mkdir(parents=True)
 
     def command(self, scene, *arguments, ranks=1):
-        words = [self.options.morula, str(scene), *arguments]
-        if ranks > 1:
-            words = [self.options.mpiexec, "-n", str(ranks), *words]
-        return words
+        return command(self.options.morula, scene, *arguments, ranks=ranks,
+                       mpiexec=self.options.mpiexec)
 
     def execute(self, scene, *arguments, ranks=1, output=None, code=0):
         """Runs a scene, by default into work/output, and returns the process
@@ -54,15 +52,10 @@ class ProgramTest(unittest.TestCase):
         return self.run_words(words, code)
 
     def run_words(self, words, code=0, cwd=SCENES):
-        result = subprocess.run([str(word) for word in words], cwd=cwd,
-                                text=True,
-                                stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, check=False)
-        if result.returncode != code:
-            self.fail(f"exit code {result.returncode}, expected {code}\n"
-                      f"+ {shlex.join(map(str, words))}\n"
-                      f"{result.stdout}{result.stderr}")
+        result = call(words, cwd=cwd)
+        if result.code != code:
+            self.fail(f"exit code {result.code}, expected {code}\n"
+                      f"+ {shlex.join(map(str, words))}\n{result.text}")
         return result
 
     def write(self, name, text):

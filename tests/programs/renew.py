@@ -8,9 +8,9 @@ import re
 import shutil
 from pathlib import Path
 
+from program import TESTS, ProgramTest, main
 from upkeep.measured import PAGES, Page
 from upkeep.renew import COPIED, Renewal, commit
-from program import TESTS, ProgramTest, main
 
 from tests.common.tables import renew
 

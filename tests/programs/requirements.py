@@ -6,9 +6,8 @@ import re
 import shutil
 from pathlib import Path
 
+from morula.execute import call
 from program import TESTS, ProgramTest, main
-
-from tests.common.processes import call
 
 ROOT = TESTS.parent
 
@@ -28,13 +27,13 @@ class Requirements(ProgramTest):
         text = (real / "deal.IIConfig.cmake").read_text()
         text = text.replace("${CMAKE_CURRENT_LIST_DIR}", str(real))
         (folder / "deal.IIConfig.cmake").write_text(text + change)
-        code, text = call(
+        ended = call(
             ["env", "-u", "DEAL_II_DIR", "cmake", "-S", ROOT, "-B",
              folder / "build", f"-Ddeal.II_DIR={folder}",
              f"-DMORULA_TESTS={morula_tests}", *options], cwd=folder)
-        self.assertEqual(code, 1, text)
+        self.assertEqual(ended.code, 1, ended.text)
         self.assertFalse((folder / "build/Makefile").exists())
-        return " ".join(text.split())
+        return " ".join(ended.text.split())
 
     def test_features(self):
         self.assertIn(

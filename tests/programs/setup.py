@@ -9,9 +9,8 @@ import os
 import re
 import shutil
 
+from morula.execute import call
 from program import TESTS, ProgramTest, main
-
-from tests.common.processes import call
 
 ROOT = TESTS.parent
 SETUP = ROOT / "contrib/setup"
@@ -67,11 +66,12 @@ class Setup(ProgramTest):
         """What it prints, and the packages that it asks for, call by call."""
         asked = self.work / "asked"
         asked.unlink(missing_ok=True)
-        found, text = call(
+        ended = call(
             ["env", "-i", f"PATH={self.bin}", f"PACKAGES={self.packages}",
              f"ASKED={asked}", f"CONFIG={self.work}", f"TMPDIR={self.work}",
              self.bin / "bash", SETUP, *words], cwd=self.work)
-        self.assertEqual(found, code, text)
+        text = ended.text
+        self.assertEqual(ended.code, code, text)
         calls = asked.read_text().splitlines() if asked.exists() else []
         return text, [line.split() for line in calls]
 
@@ -119,10 +119,11 @@ class Setup(ProgramTest):
             if version:
                 self.pretend("clang-format", "#!/bin/bash\n"
                              f"echo Debian clang-format version {version}.0\n")
-            code, text = call([*words, "--check"], cwd=self.work)
-            self.assertEqual(code, 0, text)
-            self.assertIn(f"clang-format 19 is missing (found: {found})", text)
-            self.assertEqual(call(words, cwd=self.work)[0], 1)
+            ended = call([*words, "--check"], cwd=self.work)
+            self.assertEqual(ended.code, 0, ended.text)
+            self.assertIn(f"clang-format 19 is missing (found: {found})",
+                          ended.text)
+            self.assertEqual(call(words, cwd=self.work).code, 1)
 
     def test_other_systems(self):
         text, _ = self.setup(code=1)
@@ -146,12 +147,12 @@ class Build(ProgramTest):
     def calls(self, target, **environment):
         calls = self.work / "calls"
         calls.write_text("")
-        code, text = call(
+        ended = call(
             ["env", "-u", "DEAL_II_DIR", f"CALLS={calls}",
              f"PATH={self.work / 'bin'}:{os.environ['PATH']}",
              *(f"{key}={value}" for key, value in environment.items()),
              self.work / "contrib/build", target], cwd=self.work)
-        self.assertEqual(code, 0, text)
+        self.assertEqual(ended.code, 0, ended.text)
         first, *rest = calls.read_text().splitlines()
         configure = next(line for line in [first, *rest] if " -S " in line)
         return first, re.search("-DMORULA_TESTS=(ON|OFF)", configure)[1]

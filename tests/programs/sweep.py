@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from accuracy import DISC
-from morula.program import cores
+from morula.execute import cores
 from morula.sweep import tool
 from morula.sweep.ensemble import summary
 from PIL import Image

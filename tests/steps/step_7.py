@@ -6,7 +6,6 @@
 import math
 
 import numpy
-
 from steps import ROOT, StepTest, main, overrides, read_csv
 
 RULE = "Proliferation/Cell cycle/Division axis"

@@ -2,15 +2,14 @@
 # Copyright (C) 2026 by the Morula authors
 """Runs of the program for the rungs of a ladder, each in its own directory."""
 import inspect
-import json
 import shlex
 import shutil
 from pathlib import Path
 
 import numpy
+from morula.execute import call, command, overrides
 
-from tests.common.processes import (call, digest, files_of_scene, overrides,
-                                    program_stamp)
+from tests.common.kept import ROOT, digest, files_of_scene, kept, program_stamp
 from tests.common.results import Results
 from tests.verification.ladder import SCENES, Measured
 
@@ -23,11 +22,12 @@ class RunFailed(Exception):
 
 def run(morula, scene, keys, output):
     """Runs a scene of prm/verification, from where prm/ is."""
-    command = [str(morula), str(SCENES / scene),
-               *overrides({"Output directory": output, **keys})]
-    code, text = call(command)
-    if code != 0:
-        raise RunFailed(f"+ {shlex.join(command)}\n{text}exit code {code}")
+    words = command(morula, SCENES / scene,
+                    *overrides({"Output directory": output, **keys}))
+    ended = call(words, cwd=ROOT)
+    if ended.code != 0:
+        raise RunFailed(f"+ {shlex.join(words)}\n{ended.text}exit code "
+                        f"{ended.code}")
     return Results(output)
 
 
@@ -63,25 +63,22 @@ def remove_large_files(results):
 def measure_rung(case, ladder, rung, morula, directory):
     """The errors of a rung. They are kept beside the runs, and read from there
     if scenes, keys and program are the same; the runs' large files are not."""
-    kept = directory / "errors.json"
-    found = {"origin": origin(case, ladder, rung, morula)}
-    if kept.is_file():
-        before = json.loads(kept.read_text())
-        if before["origin"] == found["origin"]:
-            return before["errors"]
-    shutil.rmtree(directory, ignore_errors=True)
-    directory.mkdir(parents=True)
-    keys = dict(rung.keys)
-    if rung.cells:
-        keys.update(write_cells(directory / "cells.csv", rung.cells()))
-    runs = [run(morula, scene, keys, directory / Path(scene).stem)
-            for scene in ladder.scenes]
-    found["errors"] = {name: float(value)
-                       for name, value in case.errors(*runs).items()}
-    for results in runs:
-        remove_large_files(results)
-    kept.write_text(json.dumps(found))
-    return found["errors"]
+    def errors():
+        shutil.rmtree(directory, ignore_errors=True)
+        directory.mkdir(parents=True)
+        keys = dict(rung.keys)
+        if rung.cells:
+            keys.update(write_cells(directory / "cells.csv", rung.cells()))
+        runs = [run(morula, scene, keys, directory / Path(scene).stem)
+                for scene in ladder.scenes]
+        found = {name: float(value)
+                 for name, value in case.errors(*runs).items()}
+        for results in runs:
+            remove_large_files(results)
+        return found
+
+    return kept(directory / "errors.json",
+                origin(case, ladder, rung, morula), errors)
 
 
 def measure(case, ladder, morula, directory, full):

@@ -6,8 +6,8 @@ import signal
 import sys
 from pathlib import Path
 
+from .execute import cores
 from .places import MORULA
-from .program import cores
 from .refusal import Refused
 
 

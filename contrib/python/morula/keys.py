@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """The keys that a program knows, from what `morula --parameters` prints."""
 import re
-import subprocess
 from dataclasses import dataclass
+
+from .execute import call
 
 # Former path of a key -> its path today, e.g. "Grid/Mesh size": "Grid/Spacing".
 # No key has been renamed yet. The program must know the former name, too, by
@@ -62,6 +63,4 @@ def defaults_with(keys, method):
 
 def keys_of(morula):
     """The keys of an executable."""
-    return parse_keys(subprocess.run([str(morula), "--parameters"], check=True,
-                                     text=True, stdin=subprocess.DEVNULL,
-                                     stdout=subprocess.PIPE).stdout)
+    return parse_keys(call([morula, "--parameters"]).stdout)

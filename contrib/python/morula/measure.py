@@ -3,7 +3,7 @@
 """Runs one command and writes what it cost: exit code, wall seconds, and the
 peak resident memory of its largest process in bytes.
 
-    python3 -I -S launcher.py RECORD.json OUTPUT ERRORS COMMAND...
+    python3 -I -S measure.py RECORD.json COMMAND...
 
 A process of its own, with next to nothing in memory: Linux counts what the
 parent of a new process holds as that process's peak.
@@ -15,14 +15,10 @@ import time
 
 
 def main():
-    record, output, errors, *command = sys.argv[1:]
+    record, *command = sys.argv[1:]
     start = time.monotonic()
     child = os.fork()
     if child == 0:
-        for number, path in ((1, output), (2, errors)):
-            flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
-            os.dup2(os.open(path, flags, 0o644), number)
-        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
         try:
             os.execvp(command[0], command)
         except OSError as error:

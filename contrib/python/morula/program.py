@@ -4,10 +4,10 @@
 import functools
 import hashlib
 import os
-import subprocess
 import tempfile
 from pathlib import Path
 
+from . import execute
 from .keys import defaults_with, parse_keys
 from .refusal import Refused
 
@@ -49,10 +49,9 @@ class Program:
 
     def command(self, scene, overrides, ranks=1):
         """The words of a run with these (key, value) overrides."""
-        words = [str(self.executable), str(scene)]
-        for key, value in overrides:
-            words += ["-s", f"{key}={value}"]
-        return ([self.mpiexec, "-n", str(ranks)] if ranks > 1 else []) + words
+        return execute.command(self.executable, scene,
+                               *execute.overrides(overrides), ranks=ranks,
+                               mpiexec=self.mpiexec)
 
     def explain(self, scene, overrides=()):
         """Has the program check a scene; raises its own message if it does
@@ -60,8 +59,8 @@ class Program:
         with tempfile.TemporaryDirectory() as scratch:
             directory = ("Output directory", f"{scratch}/output")
             words = self.command(scene, [*overrides, directory])
-            result = self._call([*words, "--explain"])
-        if result.returncode != 0:
+            result = execute.call([*words, "--explain"])
+        if result.code != 0:
             shown = ", ".join(f"{key}={value}" for key, value in overrides)
             message = result.stderr.strip().removeprefix("morula: ")
             raise Refused("The scene", f"{scene}"
@@ -70,38 +69,9 @@ class Program:
         return result.stdout
 
     def _run(self, *arguments):
-        result = self._call([str(self.executable), *arguments])
-        if result.returncode != 0:
+        result = execute.call([self.executable, *arguments])
+        if result.code != 0:
             raise Refused("--morula", self.executable,
                           "Morula's executable, but this one fails",
                           result.stderr.strip())
         return result
-
-    @staticmethod
-    def _call(words):
-        return subprocess.run(words, text=True, check=False,
-                              env=environment(), stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-
-def environment():
-    """One thread a rank, ranks that are not bound to the same core by runs
-    that do not know of each other, and MPI also for root in a container. MPI's
-    search for graphics cards would connect to every X server, and end the run
-    if that server goes away meanwhile."""
-    return {
-        **os.environ,
-        "HWLOC_COMPONENTS": "-gl",
-        "OMP_NUM_THREADS": "1",
-        "DEAL_II_NUM_THREADS": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-        "OMPI_MCA_hwloc_base_binding_policy": "none",
-        "OMPI_MCA_rmaps_base_oversubscribe": "1",
-        "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-    }
-
-
-def cores():
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0))

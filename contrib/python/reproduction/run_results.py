@@ -4,10 +4,10 @@
 from pathlib import Path
 
 import numpy as np
-from morula import run
+from morula.run import Run
 
 
-class Run(run.Run):
+class PaperRun(Run):
     """The output directory of a scene. Times up to `end` belong to the panel;
     what comes later was added to reach a number of cells."""
 
@@ -59,7 +59,7 @@ class Runs(dict):
         self.directory = Path(directory)
 
     def __missing__(self, scene):
-        self[scene] = Run(self.directory / scene)
+        self[scene] = PaperRun(self.directory / scene)
         return self[scene]
 
     def has(self, scene):

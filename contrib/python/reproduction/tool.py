@@ -84,19 +84,17 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
-def run_scenes(options, morula):
+def run_needed(options, morula):
     """Runs what the panels need; the scenes that failed. What drawing lacks
     shows before the runs, not after them."""
     require_virtual_screen()
     import reproduction.draw
     import reproduction.table  # noqa: F401
-    from reproduction.runner import Runner
+    from reproduction.runner import run_scenes
     scenes = catalogue.scenes_of(options.panels)
     say(f"reproduce: {len(scenes)} scene(s), {options.jobs} at a time, in "
         f"{options.output}")
-    runner = Runner(morula, ROOT / "prm/paper", options.output,
-                    options.overrides, options.fresh, say)
-    return runner.run_all(scenes, options.jobs)
+    return run_scenes(scenes, options, morula, ROOT / "prm/paper", say)
 
 
 def draw(options, panels):
@@ -118,7 +116,7 @@ def main():
     try:
         morula = executable(options)
         options.output.mkdir(parents=True, exist_ok=True)
-        failed = run_scenes(options, morula)
+        failed = run_needed(options, morula)
         panels = [panel for panel in options.panels
                   if not set(catalogue.PANELS[panel][0]) & set(failed)]
         from reproduction.table import write_table

@@ -14,11 +14,11 @@ and the tables of doc/half-fixed-sphere.md, in Markdown, into the work
 directory. See there for what the numbers mean.
 """
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy
+from morula.execute import call, overrides
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -53,12 +53,9 @@ class Runs:
         built = self.program.stat().st_mtime
         if not done.exists() or done.stat().st_mtime < built:
             print(name, flush=True)
-            words = [self.program, "-s", f"Output={prefix}"]
-            for key, value in keys.items():
-                words += ["-s", f"{key}={value}"]
-            with open(f"{prefix}.log", "w", encoding="utf-8") as log:
-                if subprocess.run(words, stdout=log, check=False).returncode:
-                    sys.exit(f"half-fixed-sphere: failed, see {prefix}.log")
+            if call([self.program, *overrides({"Output": prefix, **keys})],
+                    stdout=f"{prefix}.log", stderr=None).code:
+                sys.exit(f"half-fixed-sphere: failed, see {prefix}.log")
             done.touch()
         return Path(f"{prefix}{ending}")
 

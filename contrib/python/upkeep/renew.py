@@ -26,7 +26,8 @@ import sys
 import time
 from pathlib import Path
 
-from morula.program import Program, cores, environment
+from morula.execute import call, cores
+from morula.program import Program
 
 from tests.common.tables import renew
 
@@ -87,8 +88,8 @@ class Renewal:
         with log.open("w", encoding="utf-8") as stream:
             for words in self.commands(name):
                 self.say(f"{name}: {shlex.join(words)}")
-                code = call([self.tree / words[0], *words[1:]], self.tree,
-                            stream)
+                code = call([self.tree / words[0], *words[1:]],
+                            cwd=self.tree, stdout=stream, stderr=stream).code
                 if code:
                     return (f"FAILED, {words[0]} ended with exit code {code}: "
                             f"see {log}")
@@ -107,20 +108,6 @@ class Renewal:
             shutil.copytree(self.root / name, self.tree / name,
                             symlinks=True)
         (self.tree / "build").symlink_to(self.root / "build")
-
-
-def call(words, directory, log):
-    """The exit code of a command whose words go to a log. If this process is
-    asked to end, so is the command."""
-    child = subprocess.Popen([str(word) for word in words], cwd=directory,
-                             stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                             env=environment())
-    try:
-        return child.wait()
-    except BaseException:
-        child.send_signal(signal.SIGTERM)
-        child.wait()
-        raise
 
 
 def made_with(root):

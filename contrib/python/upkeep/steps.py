@@ -9,10 +9,11 @@ tables in doc/steps, pictures in doc/images/steps.
 The runs stand in output/step-N. The programs must have been built.
 """
 import re
-import subprocess
+import shlex
 import sys
 from pathlib import Path
 
+from morula.execute import call, overrides
 from upkeep import step_plots as plots
 from upkeep.step_tables import tables
 
@@ -28,13 +29,11 @@ PICTURES = ROOT / "doc/images/steps"
 def run(number, directory=None, **keys):
     """Runs a step with keys (Section__Key=value), and returns its tables."""
     directory = directory or OUTPUT / f"step-{number}"
-    words = [ROOT / f"build/step-{number}", ROOT / f"prm/step-{number}.prm",
-             "--replace", "-s", f"Output directory={directory}"]
-    for key, value in keys.items():
-        path = key.replace("__", "/").replace("_", " ")
-        words += ["-s", f"{path}={value}"]
-    text = subprocess.run(words, cwd=ROOT, check=True, text=True,
-                          stdout=subprocess.PIPE).stdout
+    keys = {key.replace("__", "/").replace("_", " "): value
+            for key, value in keys.items()}
+    text = said([ROOT / f"build/step-{number}", ROOT /
+                 f"prm/step-{number}.prm", "--replace",
+                 *overrides({"Output directory": directory, **keys})])
     # What the runs inside say of their progress is not for the page, nor what
     # they warn of, which the text of the page speaks of.
     lines = [line for line in text.splitlines()
@@ -44,6 +43,15 @@ def run(number, directory=None, **keys):
     return tables(text)
 
 
+def said(words):
+    """What a command prints; without success, the tool ends."""
+    ended = call(words, cwd=ROOT, stderr=None)
+    if ended.code:
+        sys.exit(f"step-pages: {shlex.join(map(str, words))} ended with exit "
+                 f"code {ended.code}")
+    return ended.stdout
+
+
 def page(number, name, table):
     """Writes a table into the page of a step."""
     renew(ROOT / f"doc/steps/step-{number}.md", {name: table})
@@ -51,8 +59,8 @@ def page(number, name, table):
 
 def render(directory, name, *options):
     """A picture of a tissue, by contrib/render."""
-    subprocess.run([ROOT / "contrib/render", directory, *options,
-                    "--output", PICTURES / name], cwd=ROOT, check=True)
+    said([ROOT / "contrib/render", directory, *options, "--output",
+          PICTURES / name])
 
 
 def step_1():
@@ -109,9 +117,7 @@ def step_7():
           f"{row['max_elastic_volume_ratio']:.3f}",
           f"{row['ymax'] - row['ymin']:.1f}"] for name, row in last]))
     run(7)
-    text = subprocess.run([ROOT / "build/step-7", ROOT / "prm/step-7.prm",
-                           "--explain"], cwd=ROOT, check=True, text=True,
-                          stdout=subprocess.PIPE).stdout
+    text = said([ROOT / "build/step-7", ROOT / "prm/step-7.prm", "--explain"])
     lines = [line for line in text.splitlines()
              if line.startswith(("  growth ", "  division "))
              and " on " in line]

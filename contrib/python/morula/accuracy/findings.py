@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 
 import numpy
-from morula.program import cores
+from morula.execute import cores
 from morula.results import row_at
 
 from .front import cheapest, pareto

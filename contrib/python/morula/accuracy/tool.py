@@ -5,7 +5,7 @@ import sys
 
 import numpy
 from morula.command_line import run_tool
-from morula.ensemble import Run, Runner, run_name
+from morula.kept_runs import Job, KeptRuns, job_name
 
 from .estimate import center_of, estimate
 from .figures import draw
@@ -32,7 +32,7 @@ class Accuracy:
         self.request = request
         self.plan = request.plan
         self.fixed = request.fixed_overrides()
-        self.runner = Runner(request.scene, request.output / "runs",
+        self.kept = KeptRuns(request.scene, request.output / "runs",
                              request.ranks, request.jobs, request.repeats,
                              request.options.again, say=self._say)
         self.records = {}  # (point, sample): Record
@@ -41,13 +41,13 @@ class Accuracy:
         runs = {(point, sample): self._run_of(point, sample)
                 for point in self.plan.points
                 for sample in self.request.samples}
-        self.runner.check([runs[point, self.request.samples[0]]
+        self.kept.check([runs[point, self.request.samples[0]]
                            for point in self.plan.points])
         if self.request.options.plan:
             for run in runs.values():
                 self._say(run.name)
             return 0
-        self.records = dict(zip(runs, self.runner.run(list(runs.values()))))
+        self.records = dict(zip(runs, self.kept.run(list(runs.values()))))
         center = center_of(self.plan, self.request.kinds)
         estimates = self._estimates(center)
         return self._report(estimates)
@@ -58,7 +58,7 @@ class Accuracy:
                                      **dict(special)})
         overrides = tuple([*self.fixed, *special])
         kinds = {m.kind for m in self.request.measures} - {"statistics"}
-        return Run(run_name(special, overrides), overrides, tuple(kinds))
+        return Job(job_name(special, overrides), overrides, tuple(kinds))
 
     def _estimates(self, center):
         """One estimate for each measure and time, as far as the centre, or a

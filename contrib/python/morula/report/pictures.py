@@ -8,6 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from morula.execute import call
 from PIL import Image
 
 from .markup import Markup, text
@@ -26,13 +27,11 @@ def pictures(run, say):
                       "that there is nothing to draw.</p>")
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(scratch) / "energy_density.png"
-        result = subprocess.run(
+        result = call(
             [sys.executable, "-P", "-m", "morula", "render", run.directory,
              "--panels", "2", "--field", "energy_density", "--output", file],
-            text=True,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, check=False)
-        if result.returncode != 0 or not file.is_file():
+            stderr=subprocess.STDOUT)
+        if result.code != 0 or not file.is_file():
             say(f"report: no picture: {result.stdout.strip()}")
             return Markup("<p>contrib/render could not draw the run: "
                           f"{text(result.stdout.strip()[-300:])}</p>")

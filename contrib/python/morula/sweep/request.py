@@ -5,7 +5,7 @@ import difflib
 
 from morula import columns
 from morula.command_line import output_directory, ranks_and_jobs
-from morula.ensemble import Run, run_name
+from morula.kept_runs import Job, job_name
 from morula.ladder import (Plan, check_method, check_seeds, read_ladder,
                            read_seeds)
 from morula.places import OUTPUT
@@ -68,7 +68,7 @@ class Request:
             special.append(("Random seed", str(seed)))
         overrides = (*self.scene.overrides, *special,
                      *self._snapshots({**self.scene.keys, **dict(special)}))
-        return Run(run_name(special, overrides), overrides,
+        return Job(job_name(special, overrides), overrides,
                    ("cells", "surface", "snapshot"))
 
     @staticmethod

@@ -4,7 +4,7 @@
 import sys
 
 from morula.command_line import run_tool
-from morula.ensemble import Runner
+from morula.kept_runs import KeptRuns
 
 from .ensemble import Ensemble
 from .figure import draw
@@ -27,15 +27,15 @@ def sweep(request):
     seeds = request.seeds or [None]
     points = request.plan.points
     runs = [request.run(point, seed) for point in points for seed in seeds]
-    runner = Runner(request.scene, request.output / "runs", request.ranks,
+    kept = KeptRuns(request.scene, request.output / "runs", request.ranks,
                     request.jobs, again=request.options.again, resume=True,
                     say=_say)
-    runner.check(runs[::len(seeds)])
+    kept.check(runs[::len(seeds)])
     if request.options.plan:
         for run in runs:
             _say(run.name)
         return 0
-    records = runner.run(runs)
+    records = kept.run(runs)
     n = len(seeds)
     ensembles = [Ensemble(point, request.label(point),
                           records[i * n:(i + 1) * n])

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""How the program is started, by every tool and by every test.
+
+`command` makes the words of a run, `call` runs them to their end, `Processes`
+does that for several at a time and ends what is left when one of them, or the
+user, gives up.
+"""
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+# One thread a rank, any number of ranks, by any user, not bound to the same
+# core by runs that do not know of each other. MPI's search for graphics cards
+# would connect to every X server, and end the run if that server goes away
+# meanwhile. CMake reads the file, too, for the tests.
+ENVIRONMENT = dict(line.split("=", 1) for line in Path(__file__).with_name(
+    "mpi.env").read_text(encoding="utf-8").split())
+
+MEASURE = Path(__file__).with_name("measure.py")
+PATIENCE = 60.0  # s, for the step that a run is at: then it saves its state
+
+
+def environment():
+    """That of all processes started here."""
+    return {**os.environ, **ENVIRONMENT}
+
+
+def cores():
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+def overrides(keys):
+    """The words -s KEY=VALUE, of a dictionary or of pairs."""
+    pairs = keys.items() if isinstance(keys, dict) else keys
+    return [word for key, value in pairs
+            for word in ("-s", f"{key}={value}")]
+
+
+def command(program, *words, ranks=1, mpiexec="mpiexec"):
+    """The words that run a program with these words, on so many ranks."""
+    start = [mpiexec, "-n", ranks] if ranks > 1 else []
+    return [str(word) for word in (*start, program, *words)]
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A process that has ended, its exit code (negative: of a signal), and what
+    it said, empty if that went to a file."""
+
+    code: int
+    stdout: str
+    stderr: str
+
+    @property
+    def text(self):
+        """Both together; all in order where stderr=subprocess.STDOUT."""
+        return self.stdout + self.stderr
+
+
+class Processes:
+    """Runs commands, each in a group of processes of its own, which ends as a
+    whole."""
+
+    def __init__(self):
+        self.stopped = False
+        self._running, self._guard = set(), threading.Lock()
+
+    def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE,
+             stderr=subprocess.PIPE, env=(), cost=None, pass_fds=()):
+        """Runs a command to its end; None after stop(). stdout and stderr are
+        what subprocess takes, or the paths of files; `env` has variables
+        besides, `cost` is the file for what measure.py says of it. If this thread is interrupted, or the
+        timeout (s) is over, the command is ended first; the latter throws
+        subprocess.TimeoutExpired."""
+        with contextlib.ExitStack() as files:
+            streams = {name: files.enter_context(open(to, "wb"))
+                       if isinstance(to, (str, os.PathLike)) else to
+                       for name, to in (("stdout", stdout),
+                                        ("stderr", stderr))}
+            words = [str(word) for word in words]
+            if cost:
+                Path(cost).unlink(missing_ok=True)
+                words = [sys.executable, "-I", "-S", str(MEASURE), str(cost),
+                         *words]
+            with self._guard:
+                if self.stopped:
+                    return None
+                child = subprocess.Popen(
+                    words, cwd=cwd, text=True, errors="replace",
+                    env={**environment(), **dict(env)}, stdin=subprocess.DEVNULL,
+                    start_new_session=True, pass_fds=pass_fds, **streams)
+                self._running.add(child)
+            try:
+                out, err = child.communicate(timeout=timeout)
+            except BaseException as reason:
+                late = isinstance(reason, subprocess.TimeoutExpired)
+                end([child], 0 if late else PATIENCE)
+                child.communicate()
+                raise
+            finally:
+                with self._guard:
+                    self._running.discard(child)
+            return None if self.stopped else Ended(
+                child.returncode, out or "", err or "")
+
+    def each(self, function, items, jobs):
+        """function(item) of all items, so many at a time, in their order. If
+        one throws, or the user interrupts, all that call() has begun ends."""
+        with ThreadPoolExecutor(jobs) as pool:
+            futures = [pool.submit(function, item) for item in items]
+            try:
+                return [future.result() for future in futures]
+            except BaseException:
+                for future in futures:
+                    future.cancel()
+                self.stop()
+                raise
+
+    def stop(self):
+        """Ends what has been started, and nothing else; starts nothing
+        more."""
+        with self._guard:
+            self.stopped = True
+            children = list(self._running)
+        end(children, PATIENCE)
+
+
+def call(words, **options):
+    """Runs a command to its end; see Processes.call."""
+    return Processes().call(words, **options)
+
+
+def end(children, patience):
+    """Asks the groups of processes to end, and kills them after so many
+    seconds."""
+    for number, wait in ((signal.SIGTERM, patience), (signal.SIGKILL, 1.0)):
+        children = [child for child in children if _signalled(child, number)]
+        until = time.monotonic() + wait
+        while (time.monotonic() < until
+               and any(_signalled(child, 0) for child in children)):
+            time.sleep(0.05)
+
+
+def _signalled(child, number):
+    """Sends a signal to the group that a process has begun, which may outlive
+    it; whether anybody of it was there. 0 only asks."""
+    child.poll()
+    try:
+        os.killpg(child.pid, number)
+    except ProcessLookupError:
+        return False
+    return True

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Runs of one scene with other keys, each in a directory of its own, where it
+is found again: what is there is not run twice."""
+import contextlib
+import fcntl
+import hashlib
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from .execute import Processes
+from .record import Record
+from .refusal import Refused
+
+
+@dataclass(frozen=True)
+class Job:
+    """A scene with overrides; the name is that of its directory. When it has
+    finished, CSV files of the points and the snapshot stay if they are in
+    `keep` ('cells', 'surface', 'snapshot')."""
+
+    name: str
+    overrides: tuple
+    keep: tuple = ("cells", "surface")
+
+
+def job_name(special, overrides):
+    """Readable by the (key, value) overrides that make a run special, and
+    unique for all of them."""
+    words = [f"{key.split('/')[-1]}={value}" for key, value in special]
+    readable = re.sub(r"[^A-Za-z0-9.,=+-]+", "-", "; ".join(words))[:80]
+    unique = hashlib.sha256(repr(overrides).encode()).hexdigest()[:8]
+    return f"{readable or 'scene'}.{unique}"
+
+
+class KeptRuns:
+    """Does jobs of a scene below a directory. Runs that were interrupted go on
+    from their last snapshot with `resume`, and begin anew without: then their
+    wall times are those of one execution."""
+
+    def __init__(self, scene, directory, ranks=1, n_at_a_time=1, repeats=1,
+                 again=False, resume=False, say=print):
+        self.scene, self.directory = scene, Path(directory)
+        self.ranks, self.n_at_a_time = ranks, n_at_a_time
+        self.repeats, self.again, self.resume = repeats, again, resume
+        self.say = say
+        self.digest = scene.program.digest
+        self._processes, self._lock = Processes(), None
+
+    def is_done(self, job):
+        """Whether nothing is left to do for a job."""
+        record = Record(self.directory / job.name)
+        return (not self.again and record.load(self._identity(job))
+                and bool(record.repeats) and not record.killed)
+
+    def check(self, jobs):
+        """Has the program judge the jobs that are not done; throws Refused
+        with its message."""
+        for job in jobs:
+            if not self.is_done(job):
+                self.scene.program.explain(self.scene.path, job.overrides)
+
+    def run(self, jobs):
+        """The records of the jobs, in their order."""
+        with self._alone():
+            return self._processes.each(
+                lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
+                enumerate(jobs, 1), self.n_at_a_time)
+
+    @contextlib.contextmanager
+    def _alone(self):
+        """Two programs must not write into the same runs."""
+        self.directory.mkdir(parents=True, exist_ok=True)
+        with (self.directory / "lock").open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise Refused("--output", self.directory, "a directory that "
+                              "nobody else writes into", "Another one, or a "
+                              "run that it has left over, is at work there: "
+                              "wait for it, or choose another "
+                              "directory.") from None
+            self._lock = lock
+            yield
+
+    def _one(self, job, counter):
+        record = Record(self.directory / job.name)
+        resumed = self._prepare(job, record)
+        done = len(record.repeats)
+        if record.finished and done >= self.repeats or record.failed:
+            self.say(f"{counter} {job.name}: {record.summary()}, from before")
+            return record
+        while not self._processes.stopped and len(
+                record.repeats) < self.repeats:
+            self.say(f"{counter} {job.name} "
+                     + ("goes on from its snapshot ..." if resumed else "..."))
+            self._execute(job, record, resumed)
+            if resumed and record.refused:
+                record.begin(record.identity, job.overrides)
+            elif record.failed:
+                break
+            resumed = False
+        self.say(f"{counter} {job.name}: {record.summary()}")
+        return record
+
+    def _prepare(self, job, record):
+        """Takes over what is there of a job, or clears its directory; whether
+        it is to be resumed."""
+        identity = self._identity(job)
+        known = not self.again and record.load(identity)
+        if known and self.resume and record.resumable:
+            record.resume()
+            return True
+        if not known or record.killed or not record.repeats:
+            record.begin(identity, job.overrides)
+        return False
+
+    def _execute(self, job, record, resumed):
+        overrides = [*job.overrides, ("Output directory", record.output)]
+        words = self.scene.program.command(self.scene.path, overrides,
+                                           self.ranks)
+        # The directory is this object's own.
+        words += ["--resume" if resumed else "--replace"]
+        cost = record.directory / "cost.json"
+        ended = self._processes.call(
+            words, cost=cost, stdout=record.directory / "stdout",
+            stderr=record.directory / "stderr",
+            # a run that outlives this process keeps the directory locked
+            pass_fds=[self._lock.fileno()])
+        if ended is None:
+            return
+        if not cost.is_file():
+            raise RuntimeError(f"the run {job.name} was ended from outside "
+                               "together with what measured it")
+        if self.scene.program.digest != self.digest:
+            raise Refused("--morula", self.scene.program.executable,
+                          "an executable that nobody replaces while runs "
+                          "go on", "The same command begins anew with the "
+                          "new one.")
+        record.add({**json.loads(cost.read_text()), "resumed": resumed},
+                   self.ranks, self.n_at_a_time, job.keep)
+
+    def _identity(self, job):
+        """What a run depends on: the program, every key, the files that keys
+        name, the ranks, and what is kept of it."""
+        keys = {**self.scene.keys, **dict(job.overrides)}
+        keys.pop("Output directory", None)
+        files = {value: hashlib.sha256(Path(value).read_bytes()).hexdigest()
+                 for value in keys.values() if value and Path(value).is_file()}
+        text = json.dumps([self.digest, keys, files, self.ranks,
+                           sorted(job.keep)], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()

@@ -85,8 +85,8 @@ namespace Morula
         unsigned int  offsets  = k;
         for (unsigned int d = 0; d < dim; ++d, offsets /= 3)
           {
-            // one below, the same, or one above; 0 - 1 wraps round to a
-            // number that is too large
+            // one below, equal, or one above; 0 - 1 wraps round to a number
+            // that is too large
             const std::uint64_t i = rest % counts[d] + offsets % 3 - 1;
             numbered              = numbered && i < counts[d];
             other += i * stride;

@@ -24,7 +24,8 @@ namespace Morula
 {
   namespace
   {
-    /** All ranks throw the problem of the first bad line, whoever read it. */
+    /** Throws on all ranks, with the problem of the first bad line of any rank.
+     */
     void
     throw_first(const LineProblem &mine,
                 const std::string &file,
@@ -47,7 +48,7 @@ namespace Morula
                        text[2]);
     }
 
-    /** The header line and what it says. */
+    /** The header line and its meaning. */
     struct Header
     {
       std::uint64_t             line       = 0; // its number, from 1
@@ -71,7 +72,7 @@ namespace Morula
           ++header.line;
           header.data_begin += text.size() + 1;
           if (header.line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0)
-            text.erase(0, 3); // the byte order mark of spreadsheets
+            text.erase(0, 3); // the byte order mark that spreadsheets write
           if (is_blank_or_comment(text))
             continue;
           header.columns = read_columns<dim>(text, header.problem);
@@ -86,7 +87,8 @@ namespace Morula
       return header;
     }
 
-    /** The lines that begin in this rank's equal share of the file's bytes. */
+    /** Reads the lines that begin in this rank's share of the file's bytes. All
+     *  ranks have equal shares. */
     template <int dim>
     PointsFileRows<dim>
     read_share(std::ifstream &stream,
@@ -105,7 +107,7 @@ namespace Morula
       std::string         text;
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(at - 1));
-      // the rest of the line before, at least its end
+      // skips the rest of the line before, at least its end
       if (!std::getline(stream, text))
         return rows;
       at += text.size();
@@ -137,8 +139,8 @@ namespace Morula
       return Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : below;
     }
 
-    /** Cells nearer than this fraction of their length coincide: division
-     *  could not tell their regions apart (daughter_distances()). */
+    /** Cells nearer than this fraction of their length coincide. Division could
+     *  not tell their regions apart: see daughter_distances(). */
     constexpr double contact = 1e-3;
 
     /** A cell of the file in a bin of space. */
@@ -158,9 +160,9 @@ namespace Morula
     };
 
     /**
-     * This rank's bins of space with the cells in them, each sorted by line.
-     * Bins are spread over the ranks by their hash; a cell near the rim of a
-     * bin is in those beside it as well.
+     * This rank's bins of space with their cells, which are sorted by line. The
+     * hash of a bin decides its rank. A cell near the rim of a bin is also in
+     * the neighbouring bins.
      */
     template <int dim>
     std::vector<BinEntry<dim>>
@@ -211,7 +213,7 @@ namespace Morula
 
     /**
      * The first line whose cell coincides with that of a line before it.
-     * @p rows has global line numbers.
+     * @param rows rows with global line numbers
      */
     template <int dim>
     LineProblem

@@ -24,7 +24,7 @@ namespace Morula
     constexpr std::uint64_t most_ids =
       std::numeric_limits<types::particle_index>::max() - 1;
 
-    /** This rank's share [begin, end) of n things in order. */
+    /** This rank's share [begin, end) of the numbers 0...n-1. */
     std::pair<std::uint64_t, std::uint64_t>
     share(const std::uint64_t n, const MPI_Comm comm)
     {
@@ -85,7 +85,7 @@ namespace Morula
       return text.str();
     }
 
-    /** Refuses a surface of which a vertex lies far away from the others. */
+    /** Refuses a surface with a vertex far away from the others. */
     template <int dim>
     [[noreturn]] void
     throw_too_long(const TissueParameters &parameters,
@@ -114,7 +114,7 @@ namespace Morula
                        reach(box) + ": move the scene nearer to the origin.");
     }
 
-    /** Refuses a surface that holds no cell or too many, whose file then most
+    /** Refuses a surface that holds no cell or too many. Then its file most
      *  likely has another unit of length. */
     template <int dim>
     [[noreturn]] void
@@ -136,8 +136,8 @@ namespace Morula
                        remedy.str());
     }
 
-    /** Refuses a mesh that exceeds the limits, or whose bounding box has too
-     *  many places for cells. */
+    /** Refuses a mesh that exceeds the limits, or whose bounding box has room
+     *  for too many cells. */
     template <int dim>
     void
     check_extent(const TissueParameters   &parameters,
@@ -165,7 +165,7 @@ namespace Morula
                             shape.volume());
     }
 
-    /** Numbers this rank's founders after those of the lower ranks. */
+    /** Numbers this rank's founders, after those of the lower ranks. */
     template <int dim>
     void
     number_founders(Founders<dim>          &founders,
@@ -179,7 +179,7 @@ namespace Morula
         MPI_Exscan(&n_mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
       AssertThrowMPI(error);
       if (Utilities::MPI::this_mpi_process(comm) == 0)
-        below = 0; // left undefined by MPI
+        below = 0; // MPI_Exscan leaves it undefined
 
       const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
       if (n == 0 && parameters.shape == "mesh")

@@ -18,22 +18,23 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The regular lattice of section 2.5 of the paper: sites at
-   * Center + offset + (i + 1/2) L_p for all integers i, for a box at
-   * Center - Size/2 + offset + (i + 1/2) L_p. Those around the shape's bounding
-   * box are numbered, x fastest, then y, then z.
+   * The regular lattice of section 2.5 of the paper. Its sites stand at
+   * Center + offset + (i + 1/2) L_p for all integers i; for a box at
+   * Center - Size/2 + offset + (i + 1/2) L_p. The sites around the shape's
+   * bounding box have numbers, x fastest, then y, then z.
    */
   template <int dim>
   class Lattice
   {
   public:
-    /** @throws InputError if there are more sites than ids of cells */
+    /** @throws InputError if there are more sites than possible ids of cells */
     Lattice(const TissueParameters &parameters, const BoundingBox<dim> &box);
 
     std::uint64_t
     n_sites() const;
 
-    /** µm; bitwise the same for any number of ranks. */
+    /** Position of a site, µm; equal to the last bit for any number of ranks.
+     */
     Point<dim>
     position(std::uint64_t site) const;
 
@@ -41,11 +42,12 @@ namespace Morula
     double
     site_spacing() const;
 
-    /** The numbered ones of the 3^dim - 1 sites around it, ascending. */
+    /** The numbers of the up to 3^dim - 1 sites around a site, ascending. */
     std::vector<std::uint64_t>
     neighbors(const std::uint64_t site) const;
 
-    /** Whether a cell sits there: inside by more than 1e-9 L_p. */
+    /** Whether a cell sits at @p position: it lies inside the shape, farther
+     *  than 1e-9 L_p from its surface. */
     bool
     is_occupied(const Shape<dim> &shape, const Point<dim> &position) const;
 
@@ -56,7 +58,8 @@ namespace Morula
     std::array<std::uint64_t, dim> counts;
   };
 
-  /** @throws InputError always: the lattice misses the shape */
+  /** Says that the lattice misses the shape.
+   *  @throws InputError always */
   [[noreturn]] void
   throw_no_cell_fits(const TissueParameters &parameters);
 } // namespace Morula

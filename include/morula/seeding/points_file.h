@@ -15,14 +15,14 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * Reads this rank's part of the cells in a CSV file with a header line naming
-   * the columns, in any order: x, y (3-D: and z), in µm, and volume, in
-   * µm^dim. Without volumes, every cell has @p default_volume. In 2-D a column
-   * z may stand, all zero. Blank lines and lines that begin with # do not
-   * count; rows are ids in order. Every rank reads only its share of the file.
-   * Collective.
-   * @throws InputError on all ranks, naming the file's first bad line: numbers
-   * that are none, wrong columns, volumes that are not positive, two cells at
+   * Reads this rank's part of the cells in a CSV file. Its header line names
+   * the columns in any order: x, y, in 3-D z, in µm, and volume, in µm^dim.
+   * Without a column of volumes every cell has @p default_volume. In 2-D a
+   * column z is allowed if all of it is zero. Blank lines and lines that begin
+   * with # are skipped. The order of the rows is the order of the ids. Every
+   * rank reads only its share of the file. Collective.
+   * @throws InputError on all ranks with the file's first bad line: values that
+   * are no numbers, wrong columns, volumes that are not positive, two cells at
    * one place, a cell beyond the limits or far away from all others, no cells
    */
   template <int dim>

@@ -50,9 +50,9 @@ namespace Morula
   };
 
   /**
-   * The founders that one rank seeds. Founders are numbered 0...N-1 in lattice
-   * order, x fastest; each rank holds a contiguous piece of the numbering, so
-   * that nobody holds all.
+   * The founders that one rank seeds. Founders have the numbers 0...N-1 in the
+   * order of the lattice, x fastest. Each rank holds consecutive numbers, so
+   * that no rank holds all founders.
    */
   template <int dim>
   struct Founders
@@ -64,9 +64,9 @@ namespace Morula
   };
 
   /**
-   * The boundary points that one rank seeds: centres of patches that tile the
-   * tissue's surface, with outward unit normal and area; their areas add up to
-   * the exact surface.
+   * The boundary points that one rank seeds. They are the centres of patches
+   * that tile the tissue's surface, with outward unit normal and area. The
+   * areas add up to the exact area of the surface.
    */
   template <int dim>
   struct SurfacePatches
@@ -79,23 +79,23 @@ namespace Morula
   };
 
   /**
-   * How far a tissue from a file may reach, and how large its cells may be. One
-   * vertex or cell far away from all others would make the grid between them
-   * larger than any memory. Lengths in µm.
+   * How far a tissue from a file may reach, and how large its cells may be.
+   * With one vertex or cell far away from all others, the grid between them
+   * would not fit into memory. Lengths in µm.
    */
   template <int dim>
   struct SeedingLimits
   {
-    /** Largest coordinate, of either sign. */
+    /** Largest absolute value of a coordinate. */
     double farthest = std::numeric_limits<double>::infinity();
     /** Largest extent along an axis. */
     double extent = std::numeric_limits<double>::infinity();
     /** Largest V^(1/dim) of a cell. */
     double cell_length = std::numeric_limits<double>::infinity();
     /**
-     * Refuses what keeps to these limits, but does not fit into memory: asked
-     * with the bounding box, the number of cells and their volume (µm^dim),
-     * before anything is done with them. Collective.
+     * Refuses a tissue that keeps to these limits but does not fit into memory.
+     * It is called before the cells are processed, with their bounding box,
+     * number and volume (µm^dim). Collective.
      */
     std::function<void(const BoundingBox<dim> &, const double, const double)>
       check_memory;

@@ -22,8 +22,9 @@ namespace Morula
       return data ? data->number(name) : otherwise;
     }
 
-    /** Number of the first multiple of @p interval that is due after @p time;
-     *  it follows from the time, as the interval may change on resume. */
+    /** Number of the first multiple of @p interval that is due after @p time.
+     * It follows from the time, since a resumed run may have another interval.
+     */
     unsigned int
     next_multiple(const double time, const double interval, const double step)
     {
@@ -33,7 +34,7 @@ namespace Morula
                              0;
     }
 
-    /** What a snapshot says of a table that the run appends to. */
+    /** The rows of a table that a snapshot counts. */
     template <int dim>
     TableExtent
     extent_of(const std::string &table, const SnapshotData<dim> &data)
@@ -52,7 +53,7 @@ namespace Morula
       data.integer_tables[table + "_digest"] = as_integers(extent.digest);
     }
 
-    /** Prefix of a section's numbers in a snapshot. */
+    /** Prefixes of a section's numbers in a snapshot. */
     const std::string section_prefix = "seconds in ";
     const std::string calls_prefix   = "calls of ";
   } // namespace
@@ -88,7 +89,7 @@ namespace Morula
             }
         const TableExtent rows   = extent_of("statistics", *resumed_from);
         const TableExtent births = extent_of("lineage", *resumed_from);
-        // All are looked at before the first of them is cut.
+        // All tables are checked before the first of them is cut.
         StatisticsFile::check(path("statistics.csv"), rows, comm);
         LineageFile<dim>::check(path("lineage.csv"), births, comm);
         if (continues_conditions(resumed_from))
@@ -167,7 +168,7 @@ namespace Morula
   RunFiles<dim>::open_conditions(
     const std::optional<SnapshotData<dim>> &resumed_from)
   {
-    // A run may be resumed with estimates that was begun without.
+    // A resumed run may have estimates although the run began without them.
     if (continues_conditions(resumed_from))
       conditions.emplace(path("condition.csv"),
                          extent_of("condition", *resumed_from),
@@ -291,12 +292,13 @@ namespace Morula
   void
   RunFiles<dim>::write_snapshot(SnapshotData<dim> data, TimerOutput &timer)
   {
-    // Before the section begins: deal.II sums up no timer with one open.
+    // Before the section begins, since deal.II cannot sum up a timer while a
+    // section is open.
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
     next_snapshot =
       next_multiple(data.time, scene.output.snapshot_interval, scene.time.step);
-    // What the snapshot counts must be on the disk before it.
+    // The rows that the snapshot counts must be on the disk before it is.
     statistics->sync();
     lineage->sync();
     if (conditions)

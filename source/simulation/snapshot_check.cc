@@ -16,7 +16,7 @@ namespace Morula
     bool
     may_differ(const std::string &path)
     {
-      // the keys that Method stands for are compared by themselves
+      // Method gives other keys their defaults; those are compared themselves
       return path == "Method" || path == "Output directory" ||
              path == "Time/End time" || path == "Time/Step" ||
              path == "Time/Stop at cells" || path.rfind("Solver/", 0) == 0 ||
@@ -38,8 +38,8 @@ namespace Morula
   void
   check_resumable(const Scene &scene, const std::string &parameters)
   {
-    // A key that the program of the snapshot did not have yet stands for its
-    // default: a new key's default is what was done before.
+    // The program that wrote the snapshot may not have had a key yet. Then the
+    // key's default counts: a new key's default is what was done before.
     auto before = values(parameters, "the snapshot's scene");
     before.merge(
       values(scene.with_defaults().parameters(), "the default scene"));

@@ -17,21 +17,21 @@ namespace Morula
                                                       {SIGTERM, "SIGTERM"},
                                                       {SIGUSR1, "SIGUSR1"}};
 
-    // A handler gets nothing but the number, and may touch nothing but this.
+    // A signal handler gets only the number, and may use only such variables.
     volatile std::sig_atomic_t last_signal = 0;
-    volatile std::sig_atomic_t speaks      = 0;
+    volatile std::sig_atomic_t is_root     = 0;
 
     extern "C" void
-    take_down(const int number)
+    record_signal(const int number)
     {
       last_signal = number;
       constexpr char text[] =
         "\nmorula: stopping after this step; the same signal again stops at "
         "once, without saving\n";
-      if (speaks)
+      if (is_root)
         {
           const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
-          static_cast<void>(written); // nobody could be told
+          static_cast<void>(written); // an error could not be reported
         }
     }
 
@@ -57,9 +57,9 @@ namespace Morula
     : comm(comm)
   {
     last_signal = 0;
-    speaks      = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    is_root     = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     struct sigaction action{};
-    action.sa_handler = take_down;
+    action.sa_handler = record_signal;
     action.sa_flags   = SA_RESETHAND | SA_RESTART;
     for (const auto &[number, name] : names)
       {

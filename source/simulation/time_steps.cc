@@ -10,7 +10,7 @@ namespace Morula
 {
   namespace
   {
-    /** Times closer than this part of a Step are equal. */
+    /** Times that differ by less than this fraction of a Step are equal. */
     constexpr double slack = 1e-9;
   } // namespace
 
@@ -82,7 +82,8 @@ namespace Morula
     ++state_.part;
     if (state_.part == 1u << state_.level)
       {
-        // An interval that End time has cut goes on where it was cut.
+        // An interval that End time has cut is not finished: a resumed run may
+        // go on in it.
         const double end = end_of_interval();
         if (end >= (state_.interval + 1 - slack) * parameters.step)
           ++state_.interval;

@@ -12,9 +12,9 @@
 namespace Morula
 {
   /**
-   * The tissue's quadrature points for one step: one for each cell, or several
-   * in its domain where that is large on the grid (see ParticleDomain). All of
-   * a cell's points share its F and F_g. Collective.
+   * The tissue's quadrature points for one step. A cell is one point, or
+   * several points in its domain if that is large on the grid (see
+   * ParticleDomain). All points of a cell have its F and F_g. Collective.
    */
   template <int dim>
   MaterialPoints<dim>
@@ -23,7 +23,7 @@ namespace Morula
                   const GrowthOfStep<dim> &growth,
                   const TissueMaterial    &material);
 
-  /** The cells' own positions by active grid cell, in the order of
+  /** The positions of the cells by active grid cell, in the order of
    *  Tissue::cells(). */
   template <int dim>
   GroupedPoints<dim>

@@ -5,7 +5,8 @@ finite elements (tests/verification/finite_elements.py) in plane strain.
 
 Growth by theta is the elastic deformation of a rod of theta times the size whose
 ends are squeezed to what the clamps leave. Half the rod, x >= 0; the bent shape
-is symmetric about the middle like the straight one.
+is symmetric about the middle like the straight one. Newton's method keeps the
+straight rod straight: where its tangent is singular, rounding would bend it.
 """
 import numpy
 from scipy.optimize import brentq
@@ -33,13 +34,22 @@ def smallest_eigenvalue(theta, length, thickness, nu=0.4):
     u[numbers[:, -1], 1] = (1 - theta) * (y[:, -1] - thickness / 2)
     held = numpy.concatenate([2 * numbers[:, 0], 2 * numbers[:, -1],
                               2 * numbers[:, -1] + 1])
+    mirror = numbers[::-1].ravel()  # node at thickness - y
+
+    def straight(displacements):
+        """The part that is the same in the mirror y -> thickness - y."""
+        pairs = displacements.reshape(-1, 2)
+        return ((pairs + pairs[mirror] * [1, -1]) / 2).ravel()
+
     u = u.ravel()
     free = numpy.setdiff1d(numpy.arange(u.size), held)
     for _ in range(30):
         residual, K = rod.assemble(u, 1.0)
         K = K[free][:, free].tocsc()
-        step = spsolve(K, -residual[free])
-        u[free] += step
+        step = numpy.zeros_like(u)
+        step[free] = spsolve(K, -straight(residual)[free])
+        step = straight(step)
+        u += step
         if numpy.abs(step).max() <= TOLERANCE:
             return eigsh(K, k=1, sigma=-1e-7)[0][0]
     raise RuntimeError("the straight rod does not converge")

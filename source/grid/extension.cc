@@ -6,11 +6,32 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace Morula
 {
   namespace
   {
+    /** Fills differ by less than this, relatively, where tissue is symmetric:
+     *  by what the solver leaves. */
+    constexpr double equal_fills = 1e-6;
+
+    /** How far beyond a block its splines are continued in each direction: 0
+     *  where the spline's index is among theirs. Blocks that agree in this give
+     *  the same weights to the same splines. */
+    template <int dim>
+    GridIndex<dim>
+    extrapolation(const GridIndex<dim> &spline, const GridIndex<dim> &block)
+    {
+      GridIndex<dim> distance;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int j = spline[d] - block[d];
+          distance[d] = std::abs(j) <= 1 ? 0 : j;
+        }
+      return distance;
+    }
+
     template <int dim>
     double
     sum_of_weights(const GridIndex<dim> &spline, const GridIndex<dim> &block)
@@ -52,8 +73,9 @@ namespace Morula
 
   template <int dim>
   ExtensionSearch<dim>::ExtensionSearch(
-    const GridBox<dim> &box, const std::vector<GridCellClass> &classes)
-    : box(box)
+    const Occupancy<dim> &occupancy, const std::vector<GridCellClass> &classes)
+    : occupancy(occupancy)
+    , box(occupancy.box())
     , classes(classes)
     , reached(box.size(), 0)
   {}
@@ -91,6 +113,34 @@ namespace Morula
     return list;
   }
 
+  /** Of blocks with the same Σ|e|: doc/theory.md, section 3.4. */
+  template <int dim>
+  std::vector<unsigned int>
+  ExtensionSearch<dim>::fullest(const GridIndex<dim>            &spline,
+                                const std::vector<unsigned int> &blocks) const
+  {
+    struct Group
+    {
+      std::vector<unsigned int> blocks;
+      double                    fill = 0.; // a sum of multiples of 2^-40: exact
+    };
+    std::map<GridIndex<dim>, Group> groups;
+    double                          most = 0.;
+    for (const unsigned int block : blocks)
+      {
+        Group &group = groups[extrapolation<dim>(spline, box.index(block))];
+        group.blocks.push_back(block);
+        group.fill += occupancy.fill(block);
+        most = std::max(most, group.fill);
+      }
+    std::vector<unsigned int> chosen;
+    for (const auto &[distance, group] : groups)
+      if (group.fill >= (1. - equal_fills) * most)
+        chosen.insert(chosen.end(), group.blocks.begin(), group.blocks.end());
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+  }
+
   template <int dim>
   std::vector<unsigned int>
   ExtensionSearch<dim>::blocks(const SplineCopy &copy)
@@ -118,10 +168,7 @@ namespace Morula
         // have at least the sum `least`.
         const double least = 2. * (radius + 1) * (radius + 1) - 1.;
         if (best_sum < least || (radius > 2 && list.size() == n_before))
-          {
-            std::sort(best.begin(), best.end());
-            return best;
-          }
+          return fullest(center, best);
         n_before = list.size();
       }
   }

@@ -218,7 +218,7 @@ namespace Morula
   {
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
-    ExtensionSearch<dim>          search(box_, classes);
+    ExtensionSearch<dim>          search(occupancy_, classes);
     std::map<unsigned int, Terms> outer; // many grid cells share a spline
     const auto                    terms_of = [&](const unsigned int copy) {
       if (numbers[copy] != none)

@@ -19,9 +19,9 @@ namespace Morula
     constexpr double support_tolerance = 1e-9;
 
     /** Rotations that move the particles less than this, relative to
-     *  translations, are left alone: those of a single particle, or about the
-     *  line through all. */
-    constexpr double inertia_tolerance = 1e-9;
+     *  translations, have no inertia: those of a single particle, or about the
+     *  line through all, which they leave by what the solver leaves. */
+    constexpr double inertia_tolerance = 1e-5;
 
     template <int dim>
     Tensor<2, dim>
@@ -253,7 +253,7 @@ namespace Morula
           sum.add(dofs, sums[k]);
           sum.compress(VectorOperation::add);
           vector = sum;
-          // Rotations of a single particle have no inertia.
+          // A rotation without inertia keeps its coefficient vector.
           if (!add_orthonormal(std::move(vector),
                                basis,
                                inertia_tolerance * pieces[p].volume))

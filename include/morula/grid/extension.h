@@ -5,6 +5,7 @@
 #define morula_grid_extension_h
 
 #include <morula/grid/bspline.h>
+#include <morula/grid/occupancy.h>
 #include <morula/grid/spline_copies.h>
 
 #include <array>
@@ -31,21 +32,24 @@ namespace Morula
 
   /**
    * Finds the inner grid cells by whose splines an outer spline is expressed.
-   * It keeps references: box and classes must outlive it.
+   * It keeps references: occupancy and classes must outlive it.
    */
   template <int dim>
   class ExtensionSearch
   {
   public:
-    ExtensionSearch(const GridBox<dim>               &box,
+    ExtensionSearch(const Occupancy<dim>             &occupancy,
                     const std::vector<GridCellClass> &classes);
 
     /**
      * The inner grid cells with the smallest Σ|e|, in the order of their
      * numbers. Only those count that grid cells with tissue connect to the
      * copy's support: bodies across a gap must not be coupled. The sums are
-     * products of integers, so that equal sums are equal to the last bit. The
-     * list is empty if no inner grid cell is connected.
+     * products of integers, so that equal sums are equal to the last bit. Grid
+     * cells that extrapolate in the same directions by the same distances form
+     * a group. Of several groups the fullest is taken; where the fills of
+     * several agree to 1e-6, all of these. So the choice turns with the tissue.
+     * The list is empty if no inner grid cell is connected.
      */
     std::vector<unsigned int>
     blocks(const SplineCopy &copy);
@@ -53,7 +57,11 @@ namespace Morula
   private:
     std::vector<unsigned int>
     connected(const SplineCopy &copy, const int radius);
+    std::vector<unsigned int>
+    fullest(const GridIndex<dim>            &spline,
+            const std::vector<unsigned int> &blocks) const;
 
+    const Occupancy<dim>             &occupancy;
     const GridBox<dim>               &box;
     const std::vector<GridCellClass> &classes;
     std::vector<char>                 reached; // scratch, all 0 between calls

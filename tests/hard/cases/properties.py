@@ -201,8 +201,8 @@ def judge_points(runs):
 CASE = Case(
     title="Random scenes, turned, mirrored and renumbered",
     breaks="nothing is where it is convenient for the grid",
-    cure="nothing depends on the order of cells, and of equally good choices "
-         "the mean is taken: of extension blocks, and of the grid cells on the "
-         "sides of a grid line",
+    cure="nothing depends on the order of cells; of equally good extension "
+         "blocks the fullest are taken, and where choices are equal in all, as "
+         "on the sides of a grid line, their mean",
     judge=judge,
     trials=[trial for family in FAMILIES for trial in family.trials()])

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/data_out_base.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -19,7 +20,7 @@ namespace Morula
 {
   namespace
   {
-    /** A scalar, vector or tensor of every point, as it stands in the file. */
+    /** A scalar, vector or tensor of every point. */
     struct Array
     {
       enum Type
@@ -35,13 +36,24 @@ namespace Morula
       unsigned int             first_column; // of the fields
       std::vector<std::string> components;   // their names, if they have any
 
-      const char *
-      type_name() const
+      /** Begin of its element in the file. */
+      std::string
+      tag() const
       {
-        return type == Float32 ? "Float32" : type == Int32 ? "Int32" : "UInt8";
+        std::ostringstream text;
+        text << "<DataArray type=\""
+             << (type == Float32 ? "Float32" :
+                 type == Int32   ? "Int32" :
+                                   "UInt8")
+             << "\" Name=\"" << name << "\" NumberOfComponents=\""
+             << n_components << '"';
+        for (std::size_t c = 0; c < components.size(); ++c)
+          text << " ComponentName" << c << "=\"" << components[c] << '"';
+        text << " format=\"binary\">\n";
+        return text.str();
       }
 
-      /** In the file, with the size in front. */
+      /** With the size in front. */
       std::uint64_t
       n_bytes(const std::uint64_t n_points) const
       {
@@ -50,22 +62,23 @@ namespace Morula
       }
     };
 
-    /** Arrays that stand together, one behind the other, for each piece. */
+    /** Arrays that are made at the same time. */
     using Group = std::vector<Array>;
 
-    /** First the points themselves, each a cell of the file, then their fields:
-     *  some at a time, as all at once would take as much memory again. */
+    /** First the points themselves, then each as a cell of the file, then their
+     *  fields: some at a time, as all at once would take as much memory again.
+     */
     template <int dim>
     std::vector<Group>
     groups_of(const PointFields<dim> &fields)
     {
       constexpr std::size_t largest_group = 8;
-      const Group           points = {{"Points", Array::Float32, 3, 0, {}},
-                                      {"connectivity", Array::Int32, 1, 0, {}},
+      const Group           points = {{"Points", Array::Float32, 3, 0, {}}};
+      const Group           cells  = {{"connectivity", Array::Int32, 1, 0, {}},
                                       {"offsets", Array::Int32, 1, 0, {}},
                                       {"types", Array::UInt8, 1, 0, {}}};
 
-      std::vector<Group> groups = {points, {}};
+      std::vector<Group> groups = {points, cells, {}};
       const auto         add    = [&](const std::string              &name,
                            const unsigned int              first,
                            const unsigned int              n,
@@ -116,27 +129,37 @@ namespace Morula
       return targets;
     }
 
-    /** This rank's piece of the first group. */
+    /** This rank's part of the first group. */
     template <int dim>
     std::string
     points_data(const PointFields<dim> &fields, const Group &group)
     {
-      constexpr std::uint8_t    vtk_vertex = 1;
-      std::string               data;
-      const std::vector<char *> begins = make_room(group, fields.size(), data);
-      char *points = begins[0], *connectivity = begins[1], *offsets = begins[2];
-      for (std::size_t i = 0; i < fields.size(); ++i)
-        {
-          for (unsigned int d = 0; d < 3; ++d)
-            store<float>(d < dim ? fields.positions[i][d] : 0., points);
-          store<std::int32_t>(i, connectivity);
-          store<std::int32_t>(i + 1, offsets);
-        }
-      std::memset(begins[3], vtk_vertex, fields.size());
+      std::string data;
+      char       *target = make_room(group, fields.size(), data)[0];
+      for (const Point<dim> &position : fields.positions)
+        for (unsigned int d = 0; d < 3; ++d)
+          store<float>(d < dim ? position[d] : 0., target);
       return data;
     }
 
-    /** This rank's piece of another group. */
+    /** Of the second one. */
+    std::string
+    cells_data(const std::size_t n_points, const Group &group)
+    {
+      constexpr std::uint8_t    vtk_vertex = 1;
+      std::string               data;
+      const std::vector<char *> begins       = make_room(group, n_points, data);
+      char                     *connectivity = begins[0], *offsets = begins[1];
+      for (std::size_t i = 0; i < n_points; ++i)
+        {
+          store<std::int32_t>(i, connectivity);
+          store<std::int32_t>(i + 1, offsets);
+        }
+      std::memset(begins[2], vtk_vertex, n_points);
+      return data;
+    }
+
+    /** Of another one. */
     template <int dim>
     std::string
     fields_data(const PointFields<dim> &fields, const Group &group)
@@ -156,13 +179,55 @@ namespace Morula
       return data;
     }
 
-    /** The part of the file before the data: where each array of each rank's
-     *  piece is found in these, which hold one group after the other. */
+    /** Appends data in base64. deal.II's encode_base64() takes three times as
+     *  long as all else in an output. */
+    void
+    append_base64(const char *data, const std::size_t size, std::string &text)
+    {
+      constexpr char digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+      const std::size_t begin = text.size();
+      text.resize(begin + (size + 2) / 3 * 4, '=');
+      char *target = &text[begin];
+      for (std::size_t i = 0; i < size; i += 3)
+        {
+          const std::size_t n    = std::min<std::size_t>(size - i, 3);
+          std::uint32_t     bits = 0;
+          for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 |
+                   (k < n ? static_cast<unsigned char>(data[i + k]) : 0u);
+          for (std::size_t k = 0; k < 4; ++k, ++target)
+            if (k <= n)
+              *target = digits[bits >> (18 - 6 * k) & 63];
+        }
+    }
+
+    /** The arrays of a group as they stand in this rank's piece. */
+    template <int dim>
     std::string
-    description(const std::vector<Group>       &groups,
-                const std::vector<std::size_t> &n_points,
-                const double                    time,
-                const unsigned int              number)
+    elements(const PointFields<dim>   &fields,
+             const std::vector<Group> &groups,
+             const std::size_t         g)
+    {
+      const Group      &group = groups[g];
+      const std::string data  = g == 0 ? points_data(fields, group) :
+                                g == 1 ? cells_data(fields.size(), group) :
+                                         fields_data(fields, group);
+      std::string       text;
+      std::size_t       begin = 0;
+      for (const Array &array : group)
+        {
+          const std::size_t size = array.n_bytes(fields.size());
+          text += array.tag();
+          append_base64(data.data() + begin, size, text);
+          text += "\n</DataArray>\n";
+          begin += size;
+        }
+      return text;
+    }
+
+    std::string
+    head(const double time, const unsigned int number)
     {
       std::ostringstream text;
       text.precision(17);
@@ -176,50 +241,29 @@ namespace Morula
            << "<DataArray type=\"Float64\" Name=\"CYCLE\" "
               "NumberOfTuples=\"1\" format=\"ascii\">"
            << number << "</DataArray>\n</FieldData>\n";
-
-      std::vector<std::uint64_t> offsets; // of each group, of the next piece
-      std::uint64_t              end = 0;
-      for (const Group &group : groups)
-        {
-          offsets.push_back(end);
-          for (const std::size_t n : n_points)
-            for (const Array &array : group)
-              end += array.n_bytes(n);
-        }
-      for (const std::size_t n : n_points)
-        {
-          const auto describe = [&](const unsigned int g, const Array &array) {
-            text << "<DataArray type=\"" << array.type_name() << "\" Name=\""
-                 << array.name << "\" NumberOfComponents=\""
-                 << array.n_components << '"';
-            for (std::size_t c = 0; c < array.components.size(); ++c)
-              text << " ComponentName" << c << "=\"" << array.components[c]
-                   << '"';
-            text << " format=\"appended\" offset=\"" << offsets[g] << "\"/>\n";
-            offsets[g] += array.n_bytes(n);
-          };
-          text << "<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
-               << "\">\n<Points>\n";
-          describe(0, groups[0][0]);
-          text << "</Points>\n<Cells>\n";
-          for (unsigned int k = 1; k < groups[0].size(); ++k)
-            describe(0, groups[0][k]);
-          text << "</Cells>\n<PointData>\n";
-          for (unsigned int g = 1; g < groups.size(); ++g)
-            for (const Array &array : groups[g])
-              describe(g, array);
-          text << "</PointData>\n</Piece>\n";
-        }
-      text << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
       return text.str();
+    }
+
+    /** What stands before a group of a piece. */
+    std::string
+    before(const std::size_t g, const std::size_t n_points)
+    {
+      if (g > 2)
+        return "";
+      if (g > 0)
+        return g == 1 ? "</Points>\n<Cells>\n" : "</Cells>\n<PointData>\n";
+      const std::string n = std::to_string(n_points);
+      return "<Piece NumberOfPoints=\"" + n + "\" NumberOfCells=\"" + n +
+             "\">\n<Points>\n";
     }
   } // namespace
 
-  // deal.II writes such files as well, but encoded and compressed: output then
-  // takes five times as long, a third of a whole run of Fig. 4b, for files that
-  // are a fifth smaller (doc/performance.md, Five days of Fig. 4b). Rank 0
-  // writes: when the disk is full, MPI I/O fails on some ranks only, and the
-  // others wait for them for ever.
+  // deal.II writes such files as well, but compressed: output then takes five
+  // times as long, a third of a whole run of Fig. 4b (doc/performance.md, Five
+  // days of Fig. 4b). VTK can append raw data, which are a quarter smaller, but
+  // such a file is not XML: the ParaView of Debian 12 fails on them, and on
+  // appended base64 as well. Rank 0 writes: when the disk is full, MPI I/O
+  // fails on some ranks only, and the others wait for them for ever.
   template <int dim>
   void
   write_vtu(const std::string      &path,
@@ -228,27 +272,31 @@ namespace Morula
             const unsigned int      number,
             const MPI_Comm          comm)
   {
-    const std::vector<Group>       groups = groups_of(fields);
-    const std::vector<std::size_t> n_points =
-      Utilities::MPI::gather(comm, fields.size());
+    const unsigned int        rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int        n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const std::vector<Group>  groups  = groups_of(fields);
     std::optional<AtomicFile> file; // on rank 0
     on_root(comm, [&]() {
       file.emplace(path);
-      file->write(description(groups, n_points, time, number));
+      file->write(head(time, number));
     });
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      {
-        const std::vector<std::string> pieces =
-          gather_to_root(g == 0 ? points_data(fields, groups[g]) :
-                                  fields_data(fields, groups[g]),
-                         comm);
-        on_root(comm, [&]() {
-          for (const std::string &piece : pieces)
-            file->write(piece);
-        });
-      }
+    for (unsigned int piece = 0; piece < n_ranks; ++piece)
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        {
+          // one rank after the other: as little as possible is in memory
+          const std::vector<std::string> texts =
+            gather_to_root(piece == rank ? before(g, fields.size()) +
+                                             elements(fields, groups, g) :
+                                           std::string(),
+                           comm);
+          on_root(comm, [&]() {
+            file->write(texts[piece]);
+            if (g + 1 == groups.size())
+              file->write("</PointData>\n</Piece>\n");
+          });
+        }
     on_root(comm, [&]() {
-      file->write("\n</AppendedData>\n</VTKFile>\n");
+      file->write("</UnstructuredGrid>\n</VTKFile>\n");
       file->commit();
     });
   }

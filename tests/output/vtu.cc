@@ -9,9 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "output/scratch_directory.h"
 
@@ -58,15 +56,8 @@ namespace
   std::pair<unsigned int, std::map<std::string, unsigned int>>
   summary(const std::string &path)
   {
-    // Without the appended data, which are no text.
-    std::stringstream description;
-    std::ifstream     stream(path);
-    for (std::string line;
-         std::getline(stream, line) && line.find("<AppendedData") != 0;)
-      description << line << '\n';
-    description << "</VTKFile>\n";
     Tree file;
-    boost::property_tree::read_xml(description, file);
+    boost::property_tree::read_xml(path, file);
     unsigned int                        n_points = 0;
     std::map<std::string, unsigned int> arrays;
     for (const auto &piece : file.get_child("VTKFile.UnstructuredGrid"))
@@ -104,8 +95,12 @@ namespace
   /** Checks in Python what the VTK library, that is ParaView, reads. */
   const char *const reader = R"(
 import sys
+import xml.etree.ElementTree
 import vtk
 for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
+    formats = {array.get('format') for array in
+               xml.etree.ElementTree.parse(path).iter('DataArray')}
+    assert formats == {'ascii', 'binary'}, formats
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()

@@ -17,8 +17,8 @@ namespace Morula
   /**
    * Writes one VTU file for all ranks, one piece a rank, all columns of the
    * fields as point data: in single precision, or as integers of 32 bits. The
-   * data are appended as they are (VTK's "raw" encoding). The file appears when
-   * it is complete. Collective.
+   * file is XML throughout, with the data in base64, and appears when it is
+   * complete. Collective.
    * @param time   day, for ParaView's annotation
    * @param number of the file in its series
    * @throws std::runtime_error, on all ranks, with path and reason

@@ -29,7 +29,7 @@ namespace Morula
                   const Lame                        &lame,
                   const bool                         per_grown_volume)
   {
-    const Tensor<2, dim>  F     = cell.deformation();
+    const Tensor<2, dim>  F     = cell.F();
     const Tensor<2, dim>  F_g   = cell.growth();
     const double          det_F = determinant(F);
     const NeoHookean<dim> material(F * invert(F_g), lame);
@@ -46,11 +46,13 @@ namespace Morula
   }
 
   template <int dim>
-  CellFields<dim>::CellFields(const double      time,
-                              const std::size_t n_cells,
-                              const bool        has_checkpoint)
+  CellFields<dim>::CellFields(const double            time,
+                              const std::size_t       n_cells,
+                              const CellColumns<dim> &columns,
+                              const bool              has_checkpoint)
     : time(time)
     , has_checkpoint(has_checkpoint)
+    , declared(columns)
   {
     table.names = {"time",
                    "id",
@@ -76,9 +78,10 @@ namespace Morula
                    "sigma_zx"};
     if (has_checkpoint)
       table.names.push_back("held_at_checkpoint");
+    table.whole = {"id", "parent", "generation", "phase", "held_at_checkpoint"};
+    declared.add_names(table);
     table.n_csv_columns = table.names.size();
     table.csv_only      = {"time", "x", "y", "z"};
-    table.whole = {"id", "parent", "generation", "phase", "held_at_checkpoint"};
 
     for (const char *name : {"pressure",
                              "principal_stress_1",
@@ -87,6 +90,7 @@ namespace Morula
       table.names.push_back(name);
     table.add_nonscalar("displacement", 3);
     table.combine("sigma", "sigma_xx", 6);
+    declared.combine(table);
     table.reserve(n_cells);
   }
 
@@ -126,6 +130,7 @@ namespace Morula
       values.push_back(value);
     if (has_checkpoint)
       values.push_back(held);
+    declared.add_values(cell.row(), table);
     values.push_back(-trace(sigma) / 3.);
     for (const double principal : eigenvalues(sigma))
       values.push_back(principal);

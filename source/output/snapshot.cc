@@ -34,10 +34,12 @@ namespace Morula
     write_points(Hdf5Writer           &file,
                  const std::string    &group,
                  const PointList<dim> &points,
+                 const std::string    &columns,
                  const MPI_Comm        comm)
     {
-      // ranks without points may not know the number of slots
-      const unsigned int n_slots = Utilities::MPI::max(points.n_slots, comm);
+      // ranks without points may not know how long the rows are
+      const unsigned int n_numbers =
+        Utilities::MPI::max(points.n_numbers, comm);
 
       const std::vector<Id> ids(points.ids.begin(), points.ids.end());
       std::vector<double>   coordinates;
@@ -50,9 +52,10 @@ namespace Morula
       file.rows(group + "/ids", ids.data(), ids.size(), 1);
       file.rows(group + "/positions", coordinates.data(), ids.size(), dim);
       file.rows(group + "/properties",
-                points.properties.data(),
+                points.numbers.data(),
                 ids.size(),
-                n_slots);
+                n_numbers);
+      file.text(group + "/columns", columns);
     }
 
     /**
@@ -72,6 +75,9 @@ namespace Morula
       shared.tables     = Utilities::MPI::broadcast(comm, data.tables);
       shared.integer_tables =
         Utilities::MPI::broadcast(comm, data.integer_tables);
+      shared.cell_columns = Utilities::MPI::broadcast(comm, data.cell_columns);
+      shared.boundary_columns =
+        Utilities::MPI::broadcast(comm, data.boundary_columns);
       return shared;
     }
 
@@ -93,11 +99,11 @@ namespace Morula
 
       std::size_t n_point_values = 0;
       for (const auto *points : {&data.cells, &data.boundary_points})
-        n_point_values +=
-          points->size() * (1 + dim) + points->properties.size();
+        n_point_values += points->size() * (1 + dim) + points->numbers.size();
       return (n_values + Utilities::MPI::sum(n_point_values, comm)) *
                sizeof(double) +
-             shared.parameters.size() + n_objects * n_bytes_an_object;
+             shared.parameters.size() + shared.cell_columns.size() +
+             shared.boundary_columns.size() + n_objects * n_bytes_an_object;
     }
 
     /** The slice [n r / size, n (r + 1) / size) for rank r. */
@@ -120,17 +126,51 @@ namespace Morula
       const hsize_t begin   = ids[0] * rank / n_ranks;
       const hsize_t end     = ids[0] * (rank + 1) / n_ranks;
 
-      PointList<dim> points;
-      points.n_slots       = properties[1];
-      const auto local_ids = file.rows<Id>(group + "/ids", begin, end);
+      PointList<dim> points(properties[1]);
+      const auto     local_ids = file.rows<Id>(group + "/ids", begin, end);
       points.ids.assign(local_ids.begin(), local_ids.end());
       const auto coordinates =
         file.rows<double>(group + "/positions", begin, end);
       points.positions.resize(points.ids.size());
       for (std::size_t i = 0; i < coordinates.size(); ++i)
         points.positions[i / dim][i % dim] = coordinates[i];
-      points.properties = file.rows<double>(group + "/properties", begin, end);
+      points.numbers = file.rows<double>(group + "/properties", begin, end);
       return points;
+    }
+
+    /** What the rows of points are, if the file says so. */
+    std::string
+    read_columns(const Hdf5Reader &file, const std::string &group)
+    {
+      for (const std::string &name : file.dataset_names(group))
+        if (name == "columns")
+          return file.text(group + "/columns");
+      return "";
+    }
+
+    /** Refuses rows of other columns. */
+    void
+    check_rows(const std::string &path,
+               const std::string &points,
+               const std::size_t  n_points,
+               const unsigned int n_numbers,
+               const std::string &layout,
+               const Columns     &columns)
+    {
+      if (!layout.empty())
+        if (const std::string text = columns.differences(layout); !text.empty())
+          refuse_snapshot(path,
+                          "a snapshot whose " + points +
+                            " have the columns that the scene's effects "
+                            "declare (this one " +
+                            text + ")");
+      // Ranks without points may not know how long the rows are.
+      if (n_points > 0 && n_numbers != columns.n_numbers())
+        refuse_snapshot(path,
+                        "a snapshot whose " + points + " have " +
+                          std::to_string(columns.n_numbers()) +
+                          " numbers each (they have " +
+                          std::to_string(n_numbers) + ")");
     }
 
     /** Refuses a file whose bytes are not those that were written: the HDF5
@@ -244,6 +284,29 @@ namespace Morula
 
   template <int dim>
   void
+  check_columns(const SnapshotData<dim> &data,
+                const Columns           &cell_columns,
+                const Columns           &boundary_columns,
+                const MPI_Comm           comm)
+  {
+    const auto check = [&](const std::string    &what,
+                           const PointList<dim> &points,
+                           const std::string    &layout,
+                           const Columns        &columns) {
+      check_rows(
+        data.file, what, points.size(), points.n_numbers, layout, columns);
+    };
+    everywhere(comm, [&]() {
+      check("cells", data.cells, data.cell_columns, cell_columns);
+      check("boundary points",
+            data.boundary_points,
+            data.boundary_columns,
+            boundary_columns);
+    });
+  }
+
+  template <int dim>
+  void
   write_snapshot(const std::string       &path,
                  const SnapshotData<dim> &data,
                  const MPI_Comm           comm)
@@ -271,8 +334,12 @@ namespace Morula
     file.group("integer tables");
     for (const auto &table : shared.integer_tables)
       file.table("integer tables/" + table.first, table.second);
-    write_points(file, "cells", data.cells, comm);
-    write_points(file, "boundary points", data.boundary_points, comm);
+    write_points(file, "cells", data.cells, shared.cell_columns, comm);
+    write_points(file,
+                 "boundary points",
+                 data.boundary_points,
+                 shared.boundary_columns,
+                 comm);
     const bool written = file.close();
 
     on_root(comm, [&]() {
@@ -310,8 +377,10 @@ namespace Morula
         data.tables[name] = file.table<double>("tables/" + name);
       for (const std::string &name : file.dataset_names("integer tables"))
         data.integer_tables[name] = file.table<int>("integer tables/" + name);
-      data.cells           = read_points<dim>(file, "cells", comm);
-      data.boundary_points = read_points<dim>(file, "boundary points", comm);
+      data.cells            = read_points<dim>(file, "cells", comm);
+      data.boundary_points  = read_points<dim>(file, "boundary points", comm);
+      data.cell_columns     = read_columns(file, "cells");
+      data.boundary_columns = read_columns(file, "boundary points");
     };
     on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() { read_checked(path, read); });
@@ -333,6 +402,16 @@ namespace Morula
 
   template struct SnapshotData<2>;
   template struct SnapshotData<3>;
+  template void
+  check_columns<2>(const SnapshotData<2> &,
+                   const Columns &,
+                   const Columns &,
+                   const MPI_Comm);
+  template void
+  check_columns<3>(const SnapshotData<3> &,
+                   const Columns &,
+                   const Columns &,
+                   const MPI_Comm);
   template void
   write_snapshot<2>(const std::string &,
                     const SnapshotData<2> &,

@@ -2,44 +2,46 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/output/surface_fields.h>
-#include <morula/particles/boundary_state.h>
 
 namespace Morula
 {
   template <int dim>
-  SurfaceFields<dim>::SurfaceFields(const double time)
+  SurfaceFields<dim>::SurfaceFields(const double                time,
+                                    const BoundaryColumns<dim> &columns)
     : time(time)
+    , declared(columns)
   {
-    table.names         = {"time",
-                           "id",
-                           "x",
-                           "y",
-                           "z",
-                           "X",
-                           "Y",
-                           "Z",
-                           "nx",
-                           "ny",
-                           "nz",
-                           "area",
-                           "condition"};
+    table.names = {"time",
+                   "id",
+                   "x",
+                   "y",
+                   "z",
+                   "X",
+                   "Y",
+                   "Z",
+                   "nx",
+                   "ny",
+                   "nz",
+                   "area",
+                   "condition"};
+    table.whole = {"id", "condition"};
+    declared.add_names(table);
     table.n_csv_columns = table.names.size();
     table.csv_only      = {"time", "x", "y", "z"};
-    table.whole         = {"id", "condition"};
     table.combine("normal", "nx", 3);
     table.add_nonscalar("displacement", 3);
+    declared.combine(table);
   }
 
   template <int dim>
   void
-  SurfaceFields<dim>::add(const types::particle_index    id,
-                          const ArrayView<const double> &properties,
-                          const Point<dim>              &position)
+  SurfaceFields<dim>::add(const types::particle_index id,
+                          const BoundaryView<dim>    &point,
+                          const Point<dim>           &position)
   {
-    const BoundaryView<dim> point(properties);
-    const Tensor<1, dim>    area_vector = point.area_vector();
-    const double            area        = area_vector.norm();
-    const Tensor<1, dim>    normal      = area_vector / area;
+    const Tensor<1, dim> area_vector = point.area_vector();
+    const double         area        = area_vector.norm();
+    const Tensor<1, dim> normal      = area_vector / area;
 
     std::vector<double> &values = table.values;
     table.ids.push_back(id);
@@ -52,6 +54,7 @@ namespace Morula
     table.add_vector(normal);
     values.push_back(area);
     values.push_back(static_cast<int>(point.condition()));
+    declared.add_values(point.row(), table);
     table.add_vector(position - point.initial_position());
   }
 

@@ -38,7 +38,7 @@ namespace Morula
     PointList<dim>
     candidates(const std::vector<Point<dim>> &queries,
                const PointStore<dim>         &points,
-               const WantedProperties        &wanted,
+               const WantedNumbers           &wanted,
                const BackgroundGrid<dim>     &grid,
                const int                      radius)
     {
@@ -46,32 +46,26 @@ namespace Morula
       const std::vector<unsigned int> near = near_queries(queries, box, radius);
       std::vector<unsigned int>       near_any(near.size());
       Utilities::MPI::max(near, grid.communicator(), near_any);
-      PointList<dim> near_points;
-      near_points.n_slots = wanted.n;
-      std::vector<double> properties;
+      PointList<dim>      near_points(wanted.n);
+      std::vector<double> numbers;
       for (const auto &cell : points.grid_cells())
         for (unsigned int p = cell.begin;
              p < cell.end && near_any[cell.number] != 0;
              ++p)
           {
-            properties.clear();
-            wanted.append(p, properties);
-            near_points.add(points.order()[p]->get_id(),
-                            points.order()[p]->get_location(),
-                            make_array_view(properties));
+            numbers.clear();
+            wanted.append(p, numbers);
+            near_points.add(points.id(p),
+                            points.position(p),
+                            make_array_view(numbers));
           }
       if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
         return near_points;
-      PointList<dim> found;
-      found.n_slots  = wanted.n;
-      const auto add = [&](const PointList<dim> &from) {
+      PointList<dim> found(wanted.n);
+      const auto     add = [&](const PointList<dim> &from) {
         for (std::size_t i = 0; i < from.size(); ++i)
           if (near[box.number(box.locate(from.positions[i]))] != 0)
-            found.add(from.ids[i],
-                      from.positions[i],
-                      ArrayView<const double>(from.properties.data() +
-                                                i * from.n_slots,
-                                              from.n_slots));
+            found.add(from.ids[i], from.positions[i], from.row(i));
       };
       add(near_points);
       add(halo(near_points, grid, radius * box.spacing()));
@@ -115,26 +109,26 @@ namespace Morula
     void
     append_wanted(const std::vector<unsigned int> &found,
                   const PointList<dim>            &list,
-                  const bool                       mean_of_ties,
-                  std::vector<double>             &properties)
+                  const Ties                       ties,
+                  std::vector<double>             &numbers)
     {
-      const std::size_t n = mean_of_ties ? found.size() : 1;
-      for (unsigned int slot = 0; slot < list.n_slots; ++slot)
+      const std::size_t n = ties == Ties::mean ? found.size() : 1;
+      for (unsigned int i = 0; i < list.n_numbers; ++i)
         {
           double sum = 0.;
           for (std::size_t k = 0; k < n; ++k)
-            sum += list.properties[found[k] * list.n_slots + slot];
-          properties.push_back(sum / n);
+            sum += list.row(found[k])[i];
+          numbers.push_back(sum / n);
         }
     }
   } // namespace
 
   template <int dim>
   std::vector<double>
-  nearest_properties(const std::vector<Point<dim>> &queries,
-                     const PointStore<dim>         &points,
-                     const WantedProperties        &wanted,
-                     const BackgroundGrid<dim>     &grid)
+  nearest_numbers(const std::vector<Point<dim>> &queries,
+                  const PointStore<dim>         &points,
+                  const WantedNumbers           &wanted,
+                  const BackgroundGrid<dim>     &grid)
   {
     const GridBox<dim> &box     = grid.box();
     int                 largest = 0;
@@ -145,32 +139,32 @@ namespace Morula
         const PointList<dim> list =
           candidates(queries, points, wanted, grid, radius);
         const auto          tree = pack_rtree_of_indices(list.positions);
-        std::vector<double> properties;
+        std::vector<double> numbers;
         double              farthest = 0.;
         for (const Point<dim> &query : queries)
           {
             const auto [found, distance] = nearest(query, list, tree);
             farthest                     = std::max(farthest, distance);
             if (!found.empty())
-              append_wanted(found, list, wanted.mean_of_ties, properties);
+              append_wanted(found, list, wanted.ties, numbers);
           }
         // Farther points than this may be missing from the list.
         const double sure = radius * box.spacing();
         if (Utilities::MPI::max(farthest, grid.communicator()) <= sure)
-          return properties;
+          return numbers;
         // Nothing in the box is farther than its diagonal.
         AssertThrow(radius <= 2 * largest, ExcMessage("There are no cells."));
       }
   }
 
   template std::vector<double>
-  nearest_properties(const std::vector<Point<2>> &,
-                     const PointStore<2> &,
-                     const WantedProperties &,
-                     const BackgroundGrid<2> &);
+  nearest_numbers(const std::vector<Point<2>> &,
+                  const PointStore<2> &,
+                  const WantedNumbers &,
+                  const BackgroundGrid<2> &);
   template std::vector<double>
-  nearest_properties(const std::vector<Point<3>> &,
-                     const PointStore<3> &,
-                     const WantedProperties &,
-                     const BackgroundGrid<3> &);
+  nearest_numbers(const std::vector<Point<3>> &,
+                  const PointStore<3> &,
+                  const WantedNumbers &,
+                  const BackgroundGrid<3> &);
 } // namespace Morula

@@ -14,36 +14,29 @@ namespace Morula
 {
   namespace
   {
-    /** Points as one row of numbers each: id, position, properties. */
+    /** Points as one row of numbers each: id, position, their own row. */
     template <int dim>
     void
     append_row(const PointList<dim> &points,
                const std::size_t     i,
                std::vector<double>  &rows)
     {
-      rows.push_back(points.ids[i]);
-      for (unsigned int d = 0; d < dim; ++d)
-        rows.push_back(points.positions[i][d]);
-      const auto first = points.properties.begin() + i * points.n_slots;
-      rows.insert(rows.end(), first, first + points.n_slots);
+      append_flat(rows, std::tuple(points.ids[i], points.positions[i]));
+      const ArrayView<const double> row = points.row(i);
+      rows.insert(rows.end(), row.begin(), row.end());
     }
 
     template <int dim>
     void
     append_points(const std::vector<double> &rows, PointList<dim> &points)
     {
-      const std::size_t width = 1 + dim + points.n_slots;
-      for (std::size_t row = 0; row < rows.size(); row += width)
+      using Head = Flat<std::tuple<types::particle_index, Point<dim>>>;
+      const std::size_t width = Head::n + points.n_numbers;
+      for (const double *row = rows.data(); row != rows.data() + rows.size();
+           row += width)
         {
-          points.ids.push_back(static_cast<types::particle_index>(rows[row]));
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = rows[row + 1 + d];
-          points.positions.push_back(x);
-          const auto first = rows.begin() + row + 1 + dim;
-          points.properties.insert(points.properties.end(),
-                                   first,
-                                   first + points.n_slots);
+          const auto [id, position] = Head::read(row);
+          points.add(id, position, {row + Head::n, points.n_numbers});
         }
     }
 
@@ -104,8 +97,7 @@ namespace Morula
       return points;
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
-    PointList<dim> mine;
-    mine.n_slots = points.n_slots;
+    PointList<dim>                              mine(points.n_numbers);
     std::vector<double>                         stay;
     std::map<unsigned int, std::vector<double>> rows_to;
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -125,8 +117,7 @@ namespace Morula
        const BackgroundGrid<dim> &grid,
        const double               reach)
   {
-    PointList<dim> others;
-    others.n_slots = points.n_slots;
+    PointList<dim> others(points.n_numbers);
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return others;
     ForeignOwners<dim> foreign(

@@ -49,16 +49,16 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  PointStore<dim>::PointStore(const unsigned int n_slots)
-    : n_slots_(n_slots)
+  PointStore<dim>::PointStore(const unsigned int n_numbers)
+    : n_numbers(n_numbers)
   {}
 
   template <int dim>
   void
   PointStore<dim>::attach(const BackgroundGrid<dim> &grid)
   {
-    Assert(order_.empty(), ExcMessage("Take the points out first."));
-    handler.initialize(grid.triangulation(), mapping, n_slots_);
+    Assert(order.empty(), ExcMessage("Take the points out first."));
+    handler.initialize(grid.triangulation(), mapping, n_numbers);
     capacity = 0;
   }
 
@@ -67,11 +67,14 @@ namespace Morula
   PointStore<dim>::insert(const PointList<dim>      &points,
                           const BackgroundGrid<dim> &grid)
   {
-    PointList<dim> received;
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      received = send_to_owners(points, grid);
-    insert_own(received.n_slots > 0 ? received : points, // no copy on one rank
-               grid);
+      // Who gives none may not know how long the rows are.
+      insert_own(send_to_owners(points.size() > 0 ? points :
+                                                    PointList<dim>(n_numbers),
+                                grid),
+                 grid);
+    else
+      insert_own(points, grid); // no copy
   }
 
   template <int dim>
@@ -79,20 +82,18 @@ namespace Morula
   PointStore<dim>::insert_own(const PointList<dim>      &points,
                               const BackgroundGrid<dim> &grid)
   {
-    if (!order_.empty())
+    if (!order.empty())
       n_disordered += points.size();
-    reserve(order_.size() + points.size());
+    reserve(order.size() + points.size());
     const GridBox<dim> &box = grid.box();
     for (const unsigned int i : canonical_order(points, box))
       {
         const GridIndex<dim> index = box.locate(points.positions[i]);
-        handler.insert_particle(
-          points.positions[i],
-          box.unit_position(points.positions[i], index),
-          points.ids[i],
-          grid.grid_cell(box.number(index)),
-          ArrayView<const double>(points.properties.data() + i * n_slots_,
-                                  n_slots_));
+        handler.insert_particle(points.positions[i],
+                                box.unit_position(points.positions[i], index),
+                                points.ids[i],
+                                grid.grid_cell(box.number(index)),
+                                points.row(i));
       }
     sort(grid);
   }
@@ -101,7 +102,7 @@ namespace Morula
   void
   PointStore<dim>::defragment(const BackgroundGrid<dim> &grid)
   {
-    if (n_disordered > worst_disorder * order_.size())
+    if (n_disordered > worst_disorder * order.size())
       insert_own(take(), grid);
   }
 
@@ -110,24 +111,23 @@ namespace Morula
   PointStore<dim>::move(const std::vector<Point<dim>> &positions,
                         const BackgroundGrid<dim>     &grid)
   {
-    AssertDimension(positions.size(), order_.size());
-    const GridBox<dim>   &box = grid.box();
-    PointList<dim>        leaving;
-    std::vector<Iterator> left;
-    leaving.n_slots = n_slots_;
+    AssertDimension(positions.size(), order.size());
+    const GridBox<dim>       &box = grid.box();
+    PointList<dim>            leaving(n_numbers);
+    std::vector<unsigned int> left;
     for (const GridCell &cell : grid_cells_)
       {
         const GridIndex<dim> index = box.index(cell.number);
         for (unsigned int p = cell.begin; p < cell.end; ++p)
           if (const Point<dim> &x = positions[p]; box.locate(x) == index)
             {
-              order_[p]->set_location(x);
-              order_[p]->set_reference_location(box.unit_position(x, index));
+              order[p]->set_location(x);
+              order[p]->set_reference_location(box.unit_position(x, index));
             }
           else
             {
-              leaving.add(order_[p]->get_id(), x, properties(p));
-              left.push_back(order_[p]);
+              leaving.add(id(p), x, row(p));
+              left.push_back(p);
             }
       }
     replace(left, leaving, grid);
@@ -135,11 +135,15 @@ namespace Morula
 
   template <int dim>
   void
-  PointStore<dim>::replace(const std::vector<Iterator> &removed,
-                           const PointList<dim>        &inserted,
-                           const BackgroundGrid<dim>   &grid)
+  PointStore<dim>::replace(const std::vector<unsigned int> &removed,
+                           const PointList<dim>            &inserted,
+                           const BackgroundGrid<dim>       &grid)
   {
-    handler.remove_particles(removed);
+    std::vector<Iterator> particles;
+    particles.reserve(removed.size());
+    for (const unsigned int p : removed)
+      particles.push_back(order[p]);
+    handler.remove_particles(particles);
     insert(inserted, grid);
   }
 
@@ -147,13 +151,10 @@ namespace Morula
   PointList<dim>
   PointStore<dim>::copy() const
   {
-    PointList<dim> points;
-    points.n_slots = n_slots_;
-    points.reserve(order_.size());
-    for (const Iterator &point : order_)
-      points.add(point->get_id(),
-                 point->get_location(),
-                 point->get_properties());
+    PointList<dim> points(n_numbers);
+    points.reserve(size());
+    for (unsigned int p = 0; p < size(); ++p)
+      points.add(id(p), position(p), row(p));
     return points;
   }
 
@@ -170,7 +171,7 @@ namespace Morula
   void
   PointStore<dim>::clear()
   {
-    order_.clear();
+    order.clear();
     grid_cells_.clear();
     handler.clear_particles(); // gives back its memory
     capacity     = 0;
@@ -195,25 +196,25 @@ namespace Morula
   {
     const GridBox<dim> &box = grid.box();
     grid_cells_.clear();
-    order_.clear();
+    order.clear();
     for (unsigned int number = 0; number < box.size(); ++number)
       {
         const auto cell = grid.grid_cell(number);
         if (cell == grid.triangulation().end())
           continue;
-        const unsigned int begin = order_.size();
+        const unsigned int begin = order.size();
         auto               range = handler.particles_in_cell(cell);
         for (auto point = range.begin(); point != range.end(); ++point)
-          order_.push_back(point);
-        if (order_.size() == begin)
+          order.push_back(point);
+        if (order.size() == begin)
           continue;
-        std::sort(order_.begin() + begin,
-                  order_.end(),
+        std::sort(order.begin() + begin,
+                  order.end(),
                   [](const Iterator &a, const Iterator &b) {
                     return a->get_id() < b->get_id();
                   });
         grid_cells_.push_back(
-          {number, begin, static_cast<unsigned int>(order_.size())});
+          {number, begin, static_cast<unsigned int>(order.size())});
       }
   }
 
@@ -225,24 +226,14 @@ namespace Morula
   }
 
   template <int dim>
-  const std::vector<typename PointStore<dim>::Iterator> &
-  PointStore<dim>::order() const
+  std::vector<Point<dim>>
+  PointStore<dim>::positions() const
   {
-    return order_;
-  }
-
-  template <int dim>
-  ArrayView<double>
-  PointStore<dim>::properties(const unsigned int p)
-  {
-    return order_[p]->get_properties();
-  }
-
-  template <int dim>
-  unsigned int
-  PointStore<dim>::n_slots() const
-  {
-    return n_slots_;
+    std::vector<Point<dim>> list;
+    list.reserve(size());
+    for (unsigned int p = 0; p < size(); ++p)
+      list.push_back(position(p));
+    return list;
   }
 
   template <int dim>

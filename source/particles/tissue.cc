@@ -15,17 +15,17 @@ namespace Morula
     /** Load of the fullest rank over the mean that is put up with. */
     constexpr double worst_imbalance = 1.15;
 
-    /** Corners of the domains of cells, whose states are state(i): the grid
-     *  must reach as far. */
-    template <int dim, typename State>
+    /** Corners of the domains of cells, which are cell(i): the grid must reach
+     *  as far. */
+    template <int dim, typename Cell>
     std::vector<Point<dim>>
-    domain_corners(const std::vector<Point<dim>> &positions, const State &state)
+    domain_corners(const std::vector<Point<dim>> &positions, const Cell &cell)
     {
       std::vector<Point<dim>> corners;
       corners.reserve(2 * positions.size());
       for (std::size_t i = 0; i < positions.size(); ++i)
         {
-          const auto bounds = cell_domain(positions[i], state(i)).bounds();
+          const auto bounds = cell_domain<dim>(positions[i], cell(i)).bounds();
           corners.push_back(bounds.first);
           corners.push_back(bounds.second);
         }
@@ -34,27 +34,23 @@ namespace Morula
 
     template <int dim>
     std::vector<Point<dim>>
-    domain_corners(const PointList<dim> &cells, const CellSlots<dim> &slots)
+    domain_corners(const PointList<dim> &cells, const CellColumns<dim> &columns)
     {
       return domain_corners(cells.positions, [&](const std::size_t i) {
-        return CellView<dim, const double>(
-          ArrayView<const double>(&cells.properties[i * cells.n_slots],
-                                  cells.n_slots),
-          slots);
+        return CellView<dim, const double>(cells.row(i), columns);
       });
     }
   } // namespace
 
   template <int dim>
-  Tissue<dim>::Tissue(const GridParameters &parameters,
-                      const CellSlots<dim> &slots,
-                      const MPI_Comm        comm,
-                      const unsigned int    n_boundary_slots)
+  Tissue<dim>::Tissue(const GridParameters       &parameters,
+                      const CellColumns<dim>     &cell_columns,
+                      const MPI_Comm              comm,
+                      const BoundaryColumns<dim> &boundary_columns)
     : parameters(parameters)
-    , slots_(slots)
     , grid_(parameters, comm)
-    , cells_(slots.n_slots)
-    , boundary_points_(n_boundary_slots)
+    , cells_(cell_columns)
+    , boundary_points_(boundary_columns)
   {}
 
   template <int dim>
@@ -87,7 +83,8 @@ namespace Morula
   {
     cells_.clear();
     boundary_points_.clear();
-    const std::vector<Point<dim>> corners = domain_corners(cells, slots_);
+    const std::vector<Point<dim>> corners =
+      domain_corners(cells, cells_.columns());
     const auto [first, last] =
       extent<dim>({&corners, &boundary_points.positions}, grid_);
     bool made_anew = !grid_.covers(first, last);
@@ -116,7 +113,7 @@ namespace Morula
   {
     const std::vector<Point<dim>> corners =
       domain_corners(cells, [&](const std::size_t i) {
-        return cell(cells_.order()[i]);
+        return std::as_const(cells_)[i];
       });
     const auto [first, last] = extent<dim>({&corners, &boundary_points}, grid_);
     if (!grid_.covers(first, last) || !balanced(count_points(cells, grid_)))
@@ -132,17 +129,17 @@ namespace Morula
   }
 
   template <int dim>
-  ArrayView<double>
-  Tissue<dim>::cell_properties(const unsigned int p)
+  CellView<dim, double>
+  Tissue<dim>::cell(const unsigned int p)
   {
-    return cells_.properties(p);
+    return cells_[p];
   }
 
   template <int dim>
-  ArrayView<double>
-  Tissue<dim>::boundary_properties(const unsigned int p)
+  BoundaryView<dim, double>
+  Tissue<dim>::boundary_point(const unsigned int p)
   {
-    return boundary_points_.properties(p);
+    return boundary_points_[p];
   }
 
   template <int dim>
@@ -163,26 +160,18 @@ namespace Morula
 
   template <int dim>
   void
-  Tissue<dim>::replace(
-    const std::vector<typename PointStore<dim>::Iterator> &mothers,
-    const PointList<dim>                                  &daughters)
+  Tissue<dim>::replace(const std::vector<unsigned int> &mothers,
+                       const PointList<dim>            &daughters)
   {
     // Daughters stand next to their mothers, but that may be the box's edge.
-    const std::vector<Point<dim>> corners = domain_corners(daughters, slots_);
-    const auto [first, last]              = extent<dim>({&corners}, grid_);
+    const std::vector<Point<dim>> corners =
+      domain_corners(daughters, cells_.columns());
+    const auto [first, last] = extent<dim>({&corners}, grid_);
     if (!grid_.covers(first, last))
       {
-        PointList<dim> all = daughters, none;
-        none.n_slots       = daughters.n_slots;
-        cells_.replace(mothers, none, grid_);
-        const PointList<dim> others = cells_.take();
-        all.ids.insert(all.ids.end(), others.ids.begin(), others.ids.end());
-        all.positions.insert(all.positions.end(),
-                             others.positions.begin(),
-                             others.positions.end());
-        all.properties.insert(all.properties.end(),
-                              others.properties.begin(),
-                              others.properties.end());
+        cells_.replace(mothers, PointList<dim>(daughters.n_numbers), grid_);
+        PointList<dim> all = daughters;
+        all.append(cells_.take());
         place(all, boundary_points_.copy());
         return;
       }
@@ -218,13 +207,13 @@ namespace Morula
     Occupancy<dim> occupancy(grid_.box(),
                              parameters.points_per_cell,
                              share_points);
-    for (const auto &particle : cells_.order())
-      occupancy.add_particle(domain(particle));
-    for (const auto &point : boundary_points_.order())
-      occupancy.add_boundary_point(point->get_location());
+    for (unsigned int p = 0; p < cells_.size(); ++p)
+      occupancy.add_particle(domain(p));
+    for (unsigned int p = 0; p < boundary_points_.size(); ++p)
+      occupancy.add_boundary_point(boundary_points_.position(p));
     occupancy.sum(grid_.communicator());
-    for (const auto &particle : cells_.order())
-      occupancy.add_quadrature_points(domain(particle));
+    for (unsigned int p = 0; p < cells_.size(); ++p)
+      occupancy.add_quadrature_points(domain(p));
     occupancy.sum_quadrature_points(grid_.communicator());
     return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
   }
@@ -237,44 +226,26 @@ namespace Morula
   }
 
   template <int dim>
-  const PointStore<dim> &
+  const Cells<dim> &
   Tissue<dim>::cells() const
   {
     return cells_;
   }
 
   template <int dim>
-  const PointStore<dim> &
+  const BoundaryPoints<dim> &
   Tissue<dim>::boundary_points() const
   {
     return boundary_points_;
   }
 
   template <int dim>
-  const CellSlots<dim> &
-  Tissue<dim>::slots() const
-  {
-    return slots_;
-  }
-
-  template <int dim>
-  CellView<dim, const double>
-  Tissue<dim>::cell(const typename PointStore<dim>::Iterator &particle) const
-  {
-    const ArrayView<const double> properties =
-      static_cast<const Particles::ParticleAccessor<dim> &>(*particle)
-        .get_properties();
-    return CellView<dim, const double>(properties, slots_);
-  }
-
-  template <int dim>
   ParticleDomain<dim>
-  Tissue<dim>::domain(const typename PointStore<dim>::Iterator &particle) const
+  Tissue<dim>::domain(const unsigned int p) const
   {
-    const auto state = cell(particle);
     return parameters.points_per_cell > 1 ?
-             cell_domain(particle->get_location(), state) :
-             ParticleDomain<dim>(particle->get_location(), volume(state));
+             cell_domain<dim>(cells_.position(p), cells_[p]) :
+             ParticleDomain<dim>(cells_.position(p), cells_.volume(p));
   }
 
   template <int dim>

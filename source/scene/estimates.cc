@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/cell_state.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/refusals.h>
 
@@ -23,8 +22,8 @@ namespace Morula
       constexpr double program = 180e6;
       // position, reference position, id, place in the grid: about 200 bytes;
       // and what a step makes of them
-      const CellSlots<dim> slots(scene.has_growth(), scene.has_proliferation());
-      const double cell = (dim == 2 ? 2.7 : 2.3) * (8. * slots.n_slots + 200.);
+      const double cell = (dim == 2 ? 2.7 : 2.3) *
+                          (8. * cell_columns_of<dim>(scene).n_numbers() + 200.);
       // a row couples with 5^dim splines, 12 bytes an entry; matrix,
       // preconditioner and positions of the entries
       const double row     = 2.6 * 12. * dim * std::pow(5., dim);

@@ -4,7 +4,6 @@
 #include <morula/base/expression.h>
 #include <morula/base/method.h>
 #include <morula/base/parameter_keys.h>
-#include <morula/particles/cell_state.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/explain.h>
@@ -16,9 +15,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 namespace Morula
@@ -183,27 +184,30 @@ namespace Morula
                    "one mean of ln J_e a grid cell");
     }
 
+    /** @param used  the scene's
+     *  @param known those of all effects of the library */
     template <int dim>
     void
-    print_slots(std::ostream &out, const CellSlots<dim> &slots)
+    print_columns(std::ostream           &out,
+                  const CellColumns<dim> &used,
+                  const CellColumns<dim> &known)
     {
-      out << "Slots of a cell: " << slots.n_slots << '\n';
-      for (const auto &[name, slot, size] :
-           {std::tuple("founder position", slots.founder_position, dim),
-            std::tuple("initial volume", slots.initial_volume, 1),
-            std::tuple("deformation", slots.deformation, dim * dim),
-            std::tuple("growth", slots.growth, dim * dim),
-            std::tuple("parent", slots.parent, 1),
-            std::tuple("generation", slots.generation, 1),
-            std::tuple("phase", slots.phase, 1),
-            std::tuple("event time", slots.event_time, 1),
-            std::tuple("lineage key", slots.lineage_key, 2),
-            std::tuple("division axis", slots.division_axis, dim),
-            std::tuple("growth before the cycle", slots.growth_pre, dim * dim)})
-        if (slot == CellSlots<dim>::absent)
-          print_effect(out, name, false, "");
-        else
-          out << "  " << std::left << std::setw(24) << name << size << '\n';
+      std::set<std::string> names;
+      out << "Slots of a cell: " << used.n_numbers() << '\n';
+      for (const auto *columns : {&used, &known})
+        for (const Columns::Entry &column : columns->entries())
+          {
+            if (!names.insert(column.name).second)
+              continue;
+            std::string name = column.name;
+            std::replace(name.begin(), name.end(), '_', ' ');
+            if (columns == &known)
+              print_effect(out, name, false, "");
+            else
+              out << "  " << std::left << std::setw(24) << name << std::setw(5)
+                  << column.n << column.meaning
+                  << (column.unit.empty() ? "" : ", " + column.unit) << '\n';
+          }
     }
 
     std::string
@@ -280,9 +284,9 @@ namespace Morula
            << scene.time.step << " day\n";
       print_method(text, scene);
       print_effects(text, scene, counts, founders.n_global, n_proliferating);
-      print_slots(text,
-                  CellSlots<dim>(scene.has_growth(),
-                                 scene.has_proliferation()));
+      CellColumns<dim> known;
+      CycleColumns<dim>{known}; // declares them
+      print_columns(text, cell_columns_of<dim>(scene), known);
       print_size(text, scene, size, available);
       for (const std::string &warning : warnings)
         text << warning << '\n';

@@ -225,6 +225,19 @@ namespace Morula
 
 
   template <int dim>
+  CellColumns<dim>
+  cell_columns_of(const Scene &scene)
+  {
+    CellColumns<dim> columns;
+    if (scene.has_growth())
+      columns.need_growth();
+    if (scene.has_proliferation())
+      CycleColumns<dim>{columns}; // declares them
+    return columns;
+  }
+
+
+  template <int dim>
   std::unique_ptr<const DivisionRule<dim>>
   division_rule_of(const Scene &scene)
   {
@@ -236,9 +249,10 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                       \
-  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &); \
-  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(          \
+#define INSTANTIATE(dim)                                                         \
+  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &);   \
+  template CellColumns<dim>                      cell_columns_of(const Scene &); \
+  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(            \
     const Scene &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,8 +7,7 @@
 #include <morula/effects/surface/dead_load.h>
 #include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
-#include <morula/particles/boundary_state.h>
-#include <morula/particles/strays.h>
+#include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
@@ -132,8 +131,8 @@ namespace Morula
     if (time_steps.finished())
       return true;
     return scene.time.stop_at_cells > 0 &&
-           Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(),
-                                              comm) >= scene.time.stop_at_cells;
+           Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm) >=
+             scene.time.stop_at_cells;
   }
 
   template <int dim>
@@ -154,7 +153,7 @@ namespace Morula
     commit(space, u);
     {
       const TimerOutput::Scope section(timer, "strays");
-      take_back_strays(tissue);
+      pull_back_detached_points(tissue);
     }
 
     row.dt = time_steps.next() - time_steps.time();
@@ -340,13 +339,11 @@ namespace Morula
     };
     if (body_force)
       add("body force", [&]() {
+        const Cells<dim>           &cells = tissue.cells();
         std::vector<Tensor<1, dim>> forces;
-        for (const auto &particle : tissue.cells().order())
-          {
-            const auto cell = tissue.cell(particle);
-            forces.push_back(cell.initial_volume() *
-                             body_force->vector(cell.founder_position(), t));
-          }
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          forces.push_back(cells.initial_volume(p) *
+                           body_force->vector(cells.founder_position(p), t));
         return std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
                                                std::move(forces));
       });
@@ -370,15 +367,13 @@ namespace Morula
   std::vector<typename RigidModes<dim>::Mass>
   Simulation<dim>::masses(const SplineSpace<dim> &space) const
   {
+    const Cells<dim>                           &cells = tissue.cells();
     std::vector<typename RigidModes<dim>::Mass> list;
-    for (const auto &cell : tissue.cells().grid_cells())
-      for (unsigned int p = cell.begin; p < cell.end; ++p)
-        {
-          const auto &particle = tissue.cells().order()[p];
-          list.push_back({space.piece(cell.number),
-                          particle->get_location(),
-                          tissue.cell(particle).initial_volume()});
-        }
+    for (const auto &grid_cell : cells.grid_cells())
+      for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+        list.push_back({space.piece(grid_cell.number),
+                        cells.position(p),
+                        cells.initial_volume(p)});
     return list;
   }
 
@@ -423,11 +418,11 @@ namespace Morula
       theta[space.grid_cells()[c].number] =
         force.mean_log_volume_ratio(c, displacement.on_grid_cell(c));
     Utilities::MPI::sum(theta, comm, theta);
-    for (const auto &particle : tissue.cells().order())
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         double mean = 0.;
         space.occupancy().for_each_share(
-          particle->get_location(),
+          tissue.cells().position(p),
           [&](const Point<dim> &share, const unsigned int n) {
             mean += theta[box.number(box.locate(share))] / n;
           });
@@ -445,8 +440,12 @@ namespace Morula
       return;
     const TimerOutput::Scope section(timer, "surface refinement");
     PointList<dim>           points = tissue.boundary_points().copy();
-    if (Morula::refine_surface(
-          points, 0.5 * scene.grid.spacing, crowded, next_boundary_id, comm))
+    if (Morula::refine_surface(points,
+                               tissue.boundary_points().columns(),
+                               0.5 * scene.grid.spacing,
+                               crowded,
+                               next_boundary_id,
+                               comm))
       tissue.replace_surface(points);
   }
 
@@ -478,10 +477,10 @@ namespace Morula
       return;
     const TimerOutput::Scope        section(timer, "division");
     const std::vector<unsigned int> due =
-      cells_due(tissue, *growth.cycle(), time_steps.time());
+      cells_due(tissue, growth, time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
     if (row.dividing > 0)
-      births = Morula::divide(tissue, *growth.cycle(), due, next_id);
+      births = Morula::divide(tissue, growth, due, next_id);
   }
 
   template <int dim>

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/displacement_field.h>
-#include <morula/particles/boundary_state.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
@@ -46,8 +45,8 @@ namespace Morula
           const MPI_Comm                comm)
     {
       Moved<dim> result;
-      result.positions.reserve(store.order().size());
-      result.deformations.reserve(store.order().size());
+      result.positions.reserve(store.size());
+      result.deformations.reserve(store.size());
       Motion largest{0., 0.};
       displacement.at_points(store,
                              [&](const unsigned int       p,
@@ -58,7 +57,7 @@ namespace Morula
                                const Tensor<1, dim> u    = field.value(splines);
                                const double         size = u.norm();
                                result.positions.push_back(
-                                 store.order()[p]->get_location() +
+                                 store.position(p) +
                                  (size > limit.u ? limit.u / size * u : u));
                                result.deformations.push_back(f);
                                largest.u = std::max(largest.u, size);
@@ -82,7 +81,7 @@ namespace Morula
       moved(tissue.cells(), displacement, Motion(), comm);
     // Where the surface stands off from the cells the field is extrapolated: no
     // reason to move farther, or to deform more, than the cells do. See also
-    // take_back_strays().
+    // pull_back_detached_points().
     const Motion     limit{2. * cells.largest.u + space.box().spacing(),
                        2. * cells.largest.f};
     const Moved<dim> surface =
@@ -96,25 +95,23 @@ namespace Morula
 
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
-        const CellView<dim, double> cell(tissue.cell_properties(p),
-                                         tissue.slots());
+        const CellView<dim, double> cell = tissue.cell(p);
         if (growth.present())
           growth.commit(cell,
                         time_steps.time(),
                         time_steps.next(),
                         growth_of_step.current[p]);
         // doc/theory.md (1.1)
-        Tensor<2, dim> F = cells.deformations[p] * cell.deformation();
+        Tensor<2, dim> F = cells.deformations[p] * cell.F();
         if (!volumes.empty())
           F *=
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
                      1. / dim);
-        cell.set_tensor(tissue.slots().deformation, F);
+        cell.set(cell.columns().deformation, F);
       }
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.deformations[p].norm() <= limit.f)
-        deform_boundary_point<dim>(tissue.boundary_properties(p),
-                                   surface.deformations[p]);
+        tissue.boundary_point(p).deform(surface.deformations[p]);
     growth_of_step = {};
     tissue.move(cells.positions, surface.positions);
   }

@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
-#include <morula/particles/boundary_state.h>
 #include <morula/particles/cell_domain.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene/checks.h>
@@ -74,11 +73,9 @@ namespace Morula
     , growth(growth_of<dim>(scene))
     , body_force(body_force_of<dim>(scene))
     , tissue(scene.grid,
-             CellSlots<dim>(scene.has_growth(), scene.has_proliferation()),
+             growth.columns(),
              comm,
-             scene.tissue.refine_surface ?
-               BoundarySlots<dim>::n_slots_with_patch :
-               BoundarySlots<dim>::n_slots)
+             BoundaryColumns<dim>(scene.tissue.refine_surface))
     , time_steps(scene.time)
   {
     const TimerOutput::Scope section(timer, "seeding");
@@ -86,11 +83,11 @@ namespace Morula
       restore();
     else
       seed();
-    double largest = 0.;
-    for (const auto &particle : tissue.cells().order())
-      largest = std::max(largest,
-                         material.youngs_modulus(
-                           tissue.cell(particle).founder_position()));
+    double            largest = 0.;
+    const Cells<dim> &cells   = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      largest =
+        std::max(largest, material.youngs_modulus(cells.founder_position(p)));
     typical_stiffness = Utilities::MPI::max(largest, comm);
   }
 
@@ -105,43 +102,30 @@ namespace Morula
     check_at_surface(scene, patches, comm);
     warnings = scene_warnings(scene, founders, patches, comm);
 
-    PointList<dim> cells;
-    cells.n_slots = tissue.slots().n_slots;
+    const CellColumns<dim> &columns = tissue.cells().columns();
+    PointList<dim>          cells(columns.n_numbers());
     cells.reserve(founders.positions.size());
     births.reserve(founders.positions.size());
-    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
     for (std::size_t i = 0; i < founders.positions.size(); ++i)
       {
-        std::vector<double>         slots(cells.n_slots);
-        const CellView<dim, double> cell(make_array_view(slots),
-                                         tissue.slots());
-        cell.set_vector(tissue.slots().founder_position, founders.positions[i]);
-        cell.set_scalar(tissue.slots().initial_volume, founders.volumes[i]);
-        cell.set_tensor(tissue.slots().deformation, identity);
-        growth.initialize(founders.first_id + i, cell);
-        cells.add(founders.first_id + i,
-                  founders.positions[i],
-                  make_array_view(slots));
-        births.push_back({cells.ids.back(), -1, 0, 0., founders.positions[i]});
+        const Point<dim>    X   = founders.positions[i];
+        const auto          id  = founders.first_id + i;
+        std::vector<double> row = columns.founder(X, founders.volumes[i]);
+        growth.initialize(id,
+                          CellView<dim, double>(make_array_view(row), columns));
+        cells.add(id, X, make_array_view(row));
+        births.push_back({cells.ids.back(), -1, 0, 0., X});
       }
 
-    const bool     refine = scene.tissue.refine_surface;
-    PointList<dim> points;
-    points.n_slots = refine ? BoundarySlots<dim>::n_slots_with_patch :
-                              BoundarySlots<dim>::n_slots;
+    const BoundaryColumns<dim> &boundary = tissue.boundary_points().columns();
+    PointList<dim>              points(boundary.n_numbers());
     for (std::size_t i = 0; i < patches.positions.size(); ++i)
       {
-        std::vector<double> slots = initial_boundary_slots<dim>(
-          patches.positions[i],
-          patches.normals[i],
-          patches.areas[i],
-          boundary_conditions.condition(patches.positions[i],
-                                        patches.normals[i]));
-        if (refine)
-          slots = with_patch<dim>(std::move(slots));
-        points.add(patches.first_id + i,
-                   patches.positions[i],
-                   make_array_view(slots));
+        const Point<dim>          X   = patches.positions[i];
+        const Tensor<1, dim>      N   = patches.normals[i];
+        const std::vector<double> row = boundary.initial_point(
+          X, N, patches.areas[i], boundary_conditions.condition(X, N));
+        points.add(patches.first_id + i, X, make_array_view(row));
       }
     tissue.place(cells, points);
     next_id          = founders.n_global;
@@ -151,36 +135,15 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::check_points(const SnapshotData<dim> &data) const
-  {
-    // Ranks without points may not know the number of slots.
-    const auto check = [this, &data](const PointList<dim> &points,
-                                     const std::string    &what,
-                                     const unsigned int    n_slots) {
-      everywhere(comm, [&]() {
-        if (points.size() > 0 && points.n_slots != n_slots)
-          refuse_snapshot(data.file,
-                          "a snapshot whose " + what + " have " +
-                            std::to_string(n_slots) + " numbers each (they " +
-                            "have " + std::to_string(points.n_slots) + ")");
-      });
-    };
-    check(data.cells, "cells", tissue.slots().n_slots);
-    check(data.boundary_points,
-          "boundary points",
-          scene.tissue.refine_surface ?
-            static_cast<unsigned int>(BoundarySlots<dim>::n_slots_with_patch) :
-            static_cast<unsigned int>(BoundarySlots<dim>::n_slots));
-  }
-
-  template <int dim>
-  void
   Simulation<dim>::restore()
   {
     const std::string path = scene.output_directory + "/snapshot.h5";
     check_resumable(scene, read_snapshot_parameters(path, comm));
     resumed_from = read_snapshot<dim>(path, comm);
-    check_points(*resumed_from);
+    check_columns(*resumed_from,
+                  tissue.cells().columns(),
+                  tissue.boundary_points().columns(),
+                  comm);
 
     const std::vector<int> &box_first =
       resumed_from->integer_table("box_first", dim);
@@ -227,8 +190,8 @@ namespace Morula
     if (growth.cycle() == nullptr)
       return;
     std::vector<Point<dim>> founders;
-    for (const auto &particle : tissue.cells().order())
-      founders.push_back(tissue.cell(particle).founder_position());
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      founders.push_back(tissue.cells().founder_position(p));
     everywhere(comm,
                [&]() { growth.cycle()->check(founders, scene.time.step); });
   }
@@ -257,8 +220,10 @@ namespace Morula
     data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
     data.integer_tables["box_weights"].assign(tissue.grid().weights().begin(),
                                               tissue.grid().weights().end());
-    data.cells           = tissue.cells().copy();
-    data.boundary_points = tissue.boundary_points().copy();
+    data.cells            = tissue.cells().copy();
+    data.boundary_points  = tissue.boundary_points().copy();
+    data.cell_columns     = tissue.cells().columns().layout();
+    data.boundary_columns = tissue.boundary_points().columns().layout();
     return data;
   }
 
@@ -269,7 +234,7 @@ namespace Morula
     constexpr unsigned int does_not_proliferate = 9;
     return growth.cycle() == nullptr ?
              does_not_proliferate :
-             growth.cycle()->phase_number(CycleState<dim>::load(cell),
+             growth.cycle()->phase_number(growth.clock(cell),
                                           cell.founder_position(),
                                           time_steps.time());
   }
@@ -279,10 +244,10 @@ namespace Morula
   Simulation<dim>::is_held(const CellView<dim, const double> &cell) const
   {
     return growth.cycle() != nullptr &&
-           growth.cycle()->is_held(CycleState<dim>::load(cell),
+           growth.cycle()->is_held(growth.clock(cell),
                                    cell.founder_position(),
                                    time_steps.time(),
-                                   elastic_volume_ratio(cell));
+                                   cell.elastic_volume_ratio());
   }
 
   template <int dim>
@@ -298,26 +263,25 @@ namespace Morula
   StatisticsRow
   Simulation<dim>::statistics() const
   {
-    StatisticsRow    state;
-    TissueSums<dim>  sums;
-    LongestCell<dim> longest(scene.grid.spacing);
-    std::uint64_t    held = 0;
-    for (const auto &particle : tissue.cells().order())
+    StatisticsRow     state;
+    TissueSums<dim>   sums;
+    LongestCell<dim>  longest(scene.grid.spacing);
+    std::uint64_t     held  = 0;
+    const Cells<dim> &cells = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto cell = tissue.cell(particle);
-        sums.add_cell(quantities(cell), particle->get_location());
+        const auto cell = cells[p];
+        sums.add_cell(quantities(cell), cells.position(p));
         held += is_held(cell);
-        longest.add(
-          cell_domain(particle->get_location(), tissue.cell(particle)));
+        longest.add(cell_domain<dim>(cells.position(p), cell));
       }
-    for (const auto &point : tissue.boundary_points().order())
-      sums.add_boundary_point(point->get_location());
-    state.step = n_steps;
-    state.time = time_steps.time();
-    state.cells =
-      Utilities::MPI::sum<std::uint64_t>(tissue.cells().order().size(), comm);
-    state.tissue             = sums.totals(comm);
-    state.lengths            = longest.over_all_ranks(comm);
+    for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+      sums.add_boundary_point(tissue.boundary_points().position(p));
+    state.step    = n_steps;
+    state.time    = time_steps.time();
+    state.cells   = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
+    state.tissue  = sums.totals(comm);
+    state.lengths = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
     return state;
   }
@@ -383,23 +347,20 @@ namespace Morula
         const TimerOutput::Scope section(timer, "output");
         const bool               has_checkpoint =
           growth.cycle() != nullptr && growth.cycle()->has_checkpoint();
-        CellFields<dim> cells(t, tissue.cells().order().size(), has_checkpoint);
-        for (const auto &particle : tissue.cells().order())
-          {
-            const auto cell = tissue.cell(particle);
-            cells.add(particle->get_id(),
-                      cell,
-                      particle->get_location(),
-                      phase(cell),
-                      is_held(cell),
-                      quantities(cell));
-          }
-        SurfaceFields<dim> surface(t);
-        for (const auto &point : tissue.boundary_points().order())
-          surface.add(point->get_id(),
-                      boundary_properties<dim>(point),
-                      point->get_location());
-        files->write_points(cells.fields(), surface.fields(), t);
+        const Cells<dim>          &cells  = tissue.cells();
+        const BoundaryPoints<dim> &points = tissue.boundary_points();
+        CellFields<dim> table(t, cells.size(), cells.columns(), has_checkpoint);
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          table.add(cells.id(p),
+                    cells[p],
+                    cells.position(p),
+                    phase(cells[p]),
+                    is_held(cells[p]),
+                    quantities(cells[p]));
+        SurfaceFields<dim> surface(t, points.columns());
+        for (unsigned int p = 0; p < points.size(); ++p)
+          surface.add(points.id(p), points[p], points.position(p));
+        files->write_points(table.fields(), surface.fields(), t);
       }
     if (files->snapshot_due(t, last))
       files->write_snapshot(snapshot(), timer);

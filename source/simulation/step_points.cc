@@ -29,7 +29,7 @@ namespace Morula
                   const Tensor<2, dim>              &F_g,
                   const TissueMaterial              &material)
     {
-      return {cell.deformation() * invert(F_g),
+      return {cell.F() * invert(F_g),
               cell.initial_volume() *
                 (material.per_grown_volume() ? determinant(F_g) : 1.)};
     }
@@ -42,8 +42,8 @@ namespace Morula
             const GrowthOfStep<dim> &growth,
             const TissueMaterial    &material)
     {
-      const auto     cell = tissue.cell(tissue.cells().order()[i]);
-      PointData<dim> data;
+      const auto     cell = tissue.cells()[i];
+      PointData<dim> data{};
       data.lame = material.lame_at(cell.founder_position());
       if (growth.present)
         {
@@ -77,43 +77,11 @@ namespace Morula
       return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
     }
 
-    // Rows of numbers, for the exchange of points between ranks.
+    /** What ranks tell each other of a quadrature point: λ, μ, and A and W of
+     *  both states. */
     template <int dim>
-    constexpr unsigned int row_length = 2 + 2 * (dim * dim + 1);
-
-    template <int dim>
-    void
-    append_row(const PointData<dim> &data,
-               const double          part,
-               std::vector<double>  &rows)
-    {
-      rows.push_back(data.lame.lambda);
-      rows.push_back(data.lame.mu);
-      for (const auto *state : {&data.current, &data.previous})
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = 0; e < dim; ++e)
-              rows.push_back(state->A[d][e]);
-          rows.push_back(part * state->W);
-        }
-    }
-
-    template <int dim>
-    PointData<dim>
-    from_row(const double *row)
-    {
-      PointData<dim> data;
-      data.lame = {row[0], row[1]};
-      row += 2;
-      for (auto *state : {&data.current, &data.previous})
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = 0; e < dim; ++e)
-              state->A[d][e] = *row++;
-          state->W = *row++;
-        }
-      return data;
-    }
+    using Message = std::
+      tuple<double, double, Tensor<2, dim>, double, Tensor<2, dim>, double>;
 
     /** Cells with several points, which may lie in grid cells of other ranks,
      *  or with points that several grid cells share. */
@@ -125,21 +93,25 @@ namespace Morula
                       const TissueMaterial    &material)
     {
       const GridBox<dim> &box = space.box();
-      PointList<dim>      list;
-      list.n_slots = row_length<dim>;
-      for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
+      PointList<dim>      list(Flat<Message<dim>>::n);
+      for (unsigned int i = 0; i < tissue.cells().size(); ++i)
         {
-          const auto               &particle = tissue.cells().order()[i];
           const PointData<dim>      data = data_of(tissue, i, growth, material);
-          const ParticleDomain<dim> domain = tissue.domain(particle);
+          const ParticleDomain<dim> domain = tissue.domain(i);
           const auto   n    = space.occupancy().n_points_per_edge(domain);
           const double part = 1. / n_points(n);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
             space.occupancy().for_each_share(
               point, [&](const Point<dim> &share, const unsigned int n_shares) {
-                list.ids.push_back(particle->get_id());
-                list.positions.push_back(share);
-                append_row(data, part / n_shares, list.properties);
+                const double of_cell = part / n_shares;
+                list.add_value(tissue.cells().id(i),
+                               share,
+                               Message<dim>(data.lame.lambda,
+                                            data.lame.mu,
+                                            data.current.A,
+                                            of_cell * data.current.W,
+                                            data.previous.A,
+                                            of_cell * data.previous.W));
               });
           });
         }
@@ -170,10 +142,12 @@ namespace Morula
             {
               points.xi.push_back(
                 box.unit_position(list.positions[order[k]], index));
-              append(from_row<dim>(&list.properties[order[k] * list.n_slots]),
-                     growth.present,
-                     material.is_uniform(),
-                     points);
+              const auto [lambda, mu, A, W, A_before, W_before] =
+                list.template value<Message<dim>>(order[k]);
+              append<dim>({{lambda, mu}, {A, W}, {A_before, W_before}},
+                          growth.present,
+                          material.is_uniform(),
+                          points);
             }
           points.offsets.push_back(points.xi.size());
         }
@@ -191,15 +165,14 @@ namespace Morula
                        return true;
                      }).offsets;
     points.h       = space.box().spacing();
-    points.xi.reserve(tissue.cells().order().size());
+    points.xi.reserve(tissue.cells().size());
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
         const GridIndex<dim> index =
           space.box().index(space.grid_cells()[c].number);
         for (unsigned int p = points.offsets[c]; p < points.offsets[c + 1]; ++p)
           points.xi.push_back(
-            space.box().unit_position(tissue.cells().order()[p]->get_location(),
-                                      index));
+            space.box().unit_position(tissue.cells().position(p), index));
       }
     return points;
   }
@@ -212,11 +185,12 @@ namespace Morula
                   const TissueMaterial    &material)
   {
     bool several = false;
-    for (const auto &particle : tissue.cells().order())
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        several = several || n_points(space.occupancy().n_points_per_edge(
-                               tissue.domain(particle))) > 1;
-        space.occupancy().for_each_share(particle->get_location(),
+        several =
+          several ||
+          n_points(space.occupancy().n_points_per_edge(tissue.domain(p))) > 1;
+        space.occupancy().for_each_share(tissue.cells().position(p),
                                          [&](const Point<dim> &,
                                              const unsigned int n) {
                                            several = several || n > 1;
@@ -230,7 +204,7 @@ namespace Morula
     points.current.reserve(points.xi.size());
     if (growth.present)
       points.previous.reserve(points.xi.size());
-    for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
+    for (unsigned int i = 0; i < tissue.cells().size(); ++i)
       append(data_of(tissue, i, growth, material),
              growth.present,
              material.is_uniform(),

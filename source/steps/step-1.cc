@@ -39,28 +39,17 @@ namespace Step1
   constexpr unsigned int dim = 2;
 
   // The disc, filled with cells on a regular lattice: a list of ids, positions,
-  // and a row of properties each. Where in the row a property stands, the slots
-  // know. Every rank seeds its part of the lattice.
+  // and a row of numbers each. What the numbers of a row are, the columns know.
+  // Every rank seeds its part of the lattice.
   PointList<dim>
-  cells_of_disc(const TissueParameters &disc, const CellSlots<dim> &slots)
+  cells_of_disc(const TissueParameters &disc, const CellColumns<dim> &columns)
   {
     const Founders<dim> founders = seed_founders<dim>(disc, MPI_COMM_WORLD);
-    PointList<dim>      cells;
-    cells.n_slots = slots.n_slots;
+    PointList<dim>      cells(columns.n_numbers());
     for (std::size_t i = 0; i < founders.positions.size(); ++i)
-      {
-        std::vector<double>         properties(slots.n_slots);
-        const CellView<dim, double> cell(make_array_view(properties), slots);
-        cell.set_vector(slots.founder_position, founders.positions[i]);
-        cell.set_scalar(slots.initial_volume, founders.volumes[i]);
-        cell.set_tensor(slots.deformation,
-                        Tensor<2, dim>(unit_symmetric_tensor<dim>()));
-        cells.ids.push_back(founders.first_id + i);
-        cells.positions.push_back(founders.positions[i]);
-        cells.properties.insert(cells.properties.end(),
-                                properties.begin(),
-                                properties.end());
-      }
+      cells.add(founders.first_id + i,
+                founders.positions[i],
+                columns.founder(founders.positions[i], founders.volumes[i]));
     return cells;
   }
 
@@ -106,12 +95,11 @@ namespace Step1
   // unknowns. In Morula each is a vector; here f is a scalar.
   Projection::Projection(const Scene &scene)
     : tissue(scene.grid,
-             CellSlots<dim>(/*growing*/ false, /*proliferating*/ false),
+             CellColumns<dim>(), // nothing grows or divides
              MPI_COMM_WORLD)
   {
-    PointList<dim> no_boundary_points;
-    no_boundary_points.n_slots = BoundarySlots<dim>::n_slots;
-    tissue.place(cells_of_disc(scene.tissue, tissue.slots()),
+    const PointList<dim> no_boundary_points;
+    tissue.place(cells_of_disc(scene.tissue, tissue.cells().columns()),
                  no_boundary_points);
     space.emplace(tissue.splines());
     n_unknowns = space->n_unknowns() / dim;
@@ -146,9 +134,7 @@ namespace Step1
 
         for (unsigned int p = group.begin; p < group.end; ++p)
           {
-            const auto      &particle = tissue.cells().order()[p];
-            const Point<dim> x        = particle->get_location();
-
+            const Point<dim>        x = tissue.cells().position(p);
             const SplineValues<dim> N(space->box().unit_position(x, index),
                                       space->box().spacing());
             std::vector<double>     phi(m, 0.);
@@ -158,7 +144,7 @@ namespace Step1
                   (grid_cell->weights.empty() ? (a == s ? 1. : 0.) :
                                                 grid_cell->weights[a * m + s]) *
                   N.value[a];
-            visit(x, volume(tissue.cell(particle)), unknowns, phi);
+            visit(x, tissue.cells().volume(p), unknowns, phi);
           }
       }
   }

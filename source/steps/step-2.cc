@@ -113,30 +113,30 @@ namespace Step2
 
 
   // After run(), state() is the tissue as it is. Cells and boundary points are
-  // visited in the same way: order() lists this rank's ones, and a view gives
-  // names to their properties.
+  // visited in the same way: this rank's ones are numbered from 0 on, and what
+  // they have is asked for by its name.
   Errors
   errors_of(const Simulation<dim> &simulation, const Waves &waves)
   {
     const Tissue<dim> &tissue = simulation.state();
     Errors             errors;
     double             volume = 0.;
-    for (const auto &particle : tissue.cells().order())
+    const Cells<dim>  &cells  = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto           cell = tissue.cell(particle);
-        const Point<dim>     X    = cell.founder_position();
-        const double         V    = cell.initial_volume();
-        const Tensor<1, dim> u    = particle->get_location() - X;
+        const Point<dim>     X = cells.founder_position(p);
+        const double         V = cells.initial_volume(p);
+        const Tensor<1, dim> u = cells.position(p) - X;
         errors.displacement += V * (u - waves.displacement(X)).norm_square();
         errors.deformation +=
-          V * (cell.deformation() - waves.deformation(X)).norm_square();
+          V * (cells.F(p) - waves.deformation(X)).norm_square();
         volume += V;
       }
-    for (const auto &particle : tissue.boundary_points().order())
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const BoundaryView<dim> point(boundary_properties<dim>(particle));
-        const Point<dim>        X = point.initial_position();
-        const Tensor<1, dim>    u = particle->get_location() - X;
+        const Point<dim>     X = points[p].initial_position();
+        const Tensor<1, dim> u = points.position(p) - X;
         errors.gap = std::max(errors.gap, (u - waves.displacement(X)).norm());
       }
 

@@ -51,10 +51,9 @@ namespace Step3
   {
     const Tissue<dim> &tissue = simulation.state();
     double             volume = 0., trace = 0., size = 0.;
-    for (const auto &particle : tissue.cells().order())
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        const CellQuantities cell =
-          simulation.quantities(tissue.cell(particle));
+        const CellQuantities cell = simulation.quantities(tissue.cells()[p]);
         volume += cell.volume;
         trace += cell.volume * dealii::trace(cell.stress);
         size += cell.volume * cell.stress.norm();
@@ -75,14 +74,12 @@ namespace Step3
   double
   largest_distance_from_free_growth(const Tissue<dim> &tissue)
   {
-    double largest = 0.;
-    for (const auto &particle : tissue.cells().order())
-      {
-        const auto cell = tissue.cell(particle);
-        largest         = std::max(largest,
-                           particle->get_location().distance(Point<dim>(
-                             cell.growth() * cell.founder_position())));
-      }
+    const Cells<dim> &cells   = tissue.cells();
+    double            largest = 0.;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      largest = std::max(largest,
+                         cells.position(p).distance(Point<dim>(
+                           cells.growth(p) * cells.founder_position(p))));
     return Utilities::MPI::max(largest, tissue.communicator());
   }
 

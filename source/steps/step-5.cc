@@ -124,9 +124,10 @@ namespace Step5
   }
 
 
-  // Ancestry stands in the cells' slots: the generation counts the divisions
+  // Ancestry stands in the cells' columns: the generation counts the divisions
   // since the founder. Two daughters of the first generation are one division.
-  // The axes are in the slots, too. They should point everywhere alike: the
+  // The axes are in a column of the cell cycle, found by its name. They
+  // should point everywhere alike: the
   // mean of $n_z^2$ over random directions is 1/3.
   struct Census
   {
@@ -137,12 +138,13 @@ namespace Step5
   Census
   census(const Tissue<dim> &tissue)
   {
-    double n_daughters = 0., n_z_2 = 0., n_cycling = 0.;
-    for (const auto &particle : tissue.cells().order())
+    const Cells<dim> &cells = tissue.cells();
+    const auto axes = cells.columns().find<Tensor<1, dim>>("division_axis");
+    double     n_daughters = 0., n_z_2 = 0., n_cycling = 0.;
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto cell = tissue.cell(particle);
-        n_daughters += (cell.generation() == 1);
-        const Tensor<1, dim> axis = cell.vector(tissue.slots().division_axis);
+        n_daughters += (cells[p].generation() == 1);
+        const Tensor<1, dim> axis = cells.get(axes, p);
         if (axis.norm() > 0.) // else the cell waits
           {
             n_z_2 += axis[2] * axis[2];

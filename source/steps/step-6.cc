@@ -66,13 +66,13 @@ namespace Step6
   layers_of(const Tissue<dim> &tissue, const TissueParameters &sphere)
   {
     std::vector<double> sums(4 * n_layers);
-    for (const auto &particle : tissue.cells().order())
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        const auto         cell = tissue.cell(particle);
+        const auto         cell = tissue.cells()[p];
         const unsigned int i    = layer_of(cell.founder_position(), sphere);
         sums[4 * i + 0] += std::pow(0.5, cell.generation());
         sums[4 * i + 1] += 1.;
-        sums[4 * i + 2] += elastic_volume_ratio(cell); // J_e, (1.3)
+        sums[4 * i + 2] += cell.elastic_volume_ratio(); // J_e, (1.3)
         sums[4 * i + 3] += cell.generation();
       }
     Utilities::MPI::sum(sums, tissue.communicator(), sums);

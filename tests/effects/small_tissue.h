@@ -6,7 +6,6 @@
 
 #include <morula/effects/growth/cell_growth.h>
 #include <morula/effects/growth/isotropic.h>
-#include <morula/particles/boundary_state.h>
 #include <morula/particles/tissue.h>
 
 #include <cmath>
@@ -55,24 +54,17 @@ namespace Morula
   PointList<dim>
   founders(const std::vector<Point<dim>> &positions,
            const double                   V0,
-           const CellSlots<dim>          &slots,
            const CellGrowth<dim>         &growth,
            const Deformation             &deformation)
   {
-    PointList<dim> cells;
-    cells.n_slots   = slots.n_slots;
-    cells.positions = positions;
-    cells.properties.resize(positions.size() * slots.n_slots);
+    const CellColumns<dim> &columns = growth.columns();
+    PointList<dim>          cells(columns.n_numbers());
     for (unsigned int i = 0; i < positions.size(); ++i)
       {
-        cells.ids.push_back(i);
-        const CellView<dim, double> cell(
-          ArrayView<double>(&cells.properties[i * slots.n_slots],
-                            slots.n_slots),
-          slots);
-        cell.set_vector(slots.founder_position, positions[i] - Point<dim>());
-        cell.set_scalar(slots.initial_volume, V0 * (1. + 0.1 * (i % 3)));
-        cell.set_tensor(slots.deformation, deformation(positions[i]));
+        const double V = V0 * (1. + 0.1 * (i % 3));
+        cells.add(i, positions[i], columns.founder(positions[i], V));
+        const CellView<dim, double> cell(cells.row(i), columns);
+        cell.set(columns.deformation, deformation(positions[i]));
         growth.initialize(i, cell);
       }
     return cells;
@@ -85,9 +77,7 @@ namespace Morula
   {
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       return points;
-    PointList<dim> none;
-    none.n_slots = points.n_slots;
-    return none;
+    return PointList<dim>(points.n_numbers);
   }
 
   /** Moves no cell, grows them over (t0, t1], as a step does. */
@@ -98,20 +88,12 @@ namespace Morula
        const double           t0,
        const double           t1)
   {
-    const auto     of_step = growth.of_step(tissue, t0, t1);
-    PointList<dim> cells   = tissue.cells().copy();
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      growth.commit(CellView<dim, double>(
-                      ArrayView<double>(&cells.properties[i * cells.n_slots],
-                                        cells.n_slots),
-                      tissue.slots()),
-                    t0,
-                    t1,
-                    of_step.current[i]);
-    tissue.place(cells, tissue.boundary_points().copy());
+    const auto of_step = growth.of_step(tissue, t0, t1);
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      growth.commit(tissue.cell(p), t0, t1, of_step.current[p]);
   }
 
-  /** All cells of all ranks: position and properties by id. */
+  /** All cells of all ranks: position and row by id. */
   template <int dim>
   std::map<types::particle_index, std::pair<Point<dim>, std::vector<double>>>
   all_cells(const Tissue<dim> &tissue)
@@ -122,8 +104,8 @@ namespace Morula
     Cells                mine, all;
     for (std::size_t i = 0; i < own.size(); ++i)
       {
-        const auto first = own.properties.begin() + i * own.n_slots;
-        mine[own.ids[i]] = {own.positions[i], {first, first + own.n_slots}};
+        const auto row   = own.row(i);
+        mine[own.ids[i]] = {own.positions[i], {row.begin(), row.end()}};
       }
     for (const Cells &part :
          Utilities::MPI::all_gather(tissue.communicator(), mine))

@@ -165,13 +165,13 @@ namespace
   points(const unsigned int n)
   {
     PointList<3> list;
-    list.n_slots = 5;
+    list.n_numbers = 5;
     for (unsigned int id = 0; id < n; ++id)
       {
         list.ids.push_back(id);
         list.positions.emplace_back(id, std::sqrt(id), -1. / (1. + id));
-        for (unsigned int slot = 0; slot < list.n_slots; ++slot)
-          list.properties.push_back(std::sin(id + 100. * slot));
+        for (unsigned int slot = 0; slot < list.n_numbers; ++slot)
+          list.numbers.push_back(std::sin(id + 100. * slot));
       }
     return list;
   }

@@ -14,30 +14,34 @@ using namespace Morula;
 
 namespace
 {
-  /** Sets up a cell's property array. */
+  /** A cell of its own. */
   template <int dim>
   class Cell
   {
   public:
     Cell(const bool growing, const bool proliferating)
-      : slots(growing, proliferating)
-      , data(slots.n_slots, 0.)
-    {}
+    {
+      if (growing)
+        columns.need_growth();
+      if (proliferating)
+        columns.need_lineage();
+      row = columns.initial_row();
+    }
 
     CellView<dim, double>
     writer()
     {
-      return {ArrayView<double>(data.data(), data.size()), slots};
+      return {make_array_view(row), columns};
     }
 
     CellView<dim, const double>
     reader() const
     {
-      return {ArrayView<const double>(data.data(), data.size()), slots};
+      return {make_array_view(row), columns};
     }
 
-    CellSlots<dim>      slots;
-    std::vector<double> data;
+    CellColumns<dim>    columns;
+    std::vector<double> row;
   };
 
   template <int dim>
@@ -83,8 +87,8 @@ TEST(CellFields, GivesCauchyStressInThreeDimensions)
 {
   // F = diag(2, 1, 1) without growth: b = diag(4, 1, 1), J = 2
   Cell<3> cell(false, false);
-  cell.writer().set_scalar(cell.slots.initial_volume, 1000.);
-  cell.writer().set_tensor(cell.slots.deformation, diagonal<3>({2., 1., 1.}));
+  cell.writer().set(cell.columns.initial_volume, 1000.);
+  cell.writer().set(cell.columns.deformation, diagonal<3>({2., 1., 1.}));
   for (const bool per_grown_volume : {false, true})
     {
       const CellQuantities q =
@@ -112,9 +116,9 @@ TEST(CellFields, GivesShearStress)
   Tensor<2, 3> F = diagonal<3>({1., 1., 1.});
   F[0][1]        = 0.5;
   F[1][2]        = 0.25;
-  cell.writer().set_scalar(cell.slots.initial_volume, 1.);
-  cell.writer().set_tensor(cell.slots.deformation, F);
-  CellFields<3> fields(0., 1, false);
+  cell.writer().set(cell.columns.initial_volume, 1.);
+  cell.writer().set(cell.columns.deformation, F);
+  CellFields<3> fields(0., 1, cell.columns, false);
   fields.add(0,
              cell.reader(),
              {},
@@ -135,9 +139,9 @@ TEST(CellFields, CountsTheEnergyPerInitialOrGrownVolume)
   // the rigid box with θ = 1.1: F = I, F_e = I / θ; mean pressure per initial
   // volume μ(1 - θ⁻²) + 3 λ ln θ, per grown volume θ³ times as much, 626.18 Pa
   Cell<3> cell(true, false);
-  cell.writer().set_scalar(cell.slots.initial_volume, 8.);
-  cell.writer().set_tensor(cell.slots.deformation, diagonal<3>({1., 1., 1.}));
-  cell.writer().set_tensor(cell.slots.growth, diagonal<3>({1.1, 1.1, 1.1}));
+  cell.writer().set(cell.columns.initial_volume, 8.);
+  cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
+  cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
   const auto initial = cell_quantities<3>(cell.reader(), lame_constants, false);
   const auto grown   = cell_quantities<3>(cell.reader(), lame_constants, true);
   const double pressure = mu * (1. - 1. / 1.21) + 3. * lambda * std::log(1.1);
@@ -158,14 +162,14 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   Cell<2>      cell(true, true);
   const double third = 1. / 3.;
   const auto   write = cell.writer();
-  write.set_vector(cell.slots.founder_position, Point<2>(3., 4.));
-  write.set_scalar(cell.slots.initial_volume, 50.);
-  write.set_tensor(cell.slots.deformation, diagonal<2>({2., 1.}));
-  write.set_tensor(cell.slots.growth, diagonal<2>({1.25, 1.25}));
-  write.set_scalar(cell.slots.parent, 7.);
-  write.set_scalar(cell.slots.generation, 2.);
+  write.set(cell.columns.founder_position, Point<2>(3., 4.));
+  write.set(cell.columns.initial_volume, 50.);
+  write.set(cell.columns.deformation, diagonal<2>({2., 1.}));
+  write.set(cell.columns.growth, diagonal<2>({1.25, 1.25}));
+  write.set(cell.columns.parent, 7);
+  write.set(cell.columns.generation, 2);
 
-  CellFields<2> fields(third, 1, false);
+  CellFields<2> fields(third, 1, cell.columns, false);
   const auto    q = cell_quantities<2>(cell.reader(), lame_constants, true);
   fields.add(12, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
@@ -241,13 +245,13 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
 TEST(CellFields, SayWhichCellsTheCheckpointHolds)
 {
   Cell<3> cell(true, true);
-  cell.writer().set_scalar(cell.slots.initial_volume, 8.);
-  cell.writer().set_tensor(cell.slots.deformation, diagonal<3>({1., 1., 1.}));
-  cell.writer().set_tensor(cell.slots.growth, diagonal<3>({1.1, 1.1, 1.1}));
+  cell.writer().set(cell.columns.initial_volume, 8.);
+  cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
+  cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
   const auto q = cell_quantities<3>(cell.reader(), lame_constants, false);
   for (const bool held : {false, true})
     {
-      CellFields<3> fields(0., 1, true);
+      CellFields<3> fields(0., 1, cell.columns, true);
       fields.add(0, cell.reader(), {}, 0, held, q);
       const auto &table = fields.fields();
       EXPECT_EQ(table.names[table.n_csv_columns - 1], "held_at_checkpoint");
@@ -259,25 +263,87 @@ TEST(CellFields, SayWhichCellsTheCheckpointHolds)
     }
 }
 
+TEST(CellFields, HaveTheColumnsThatEffectsWantThere)
+{
+  Cell<2>    cell(false, false);
+  const auto dose  = cell.columns.add<double>({"dose", "nM", "received"});
+  const auto shown = cell.columns.add<unsigned int>(
+    {"type", "", "kind", 2u, AtDivision::copied, true});
+  const auto axis = cell.columns.add<Tensor<1, 2>>(
+    {"axis", "", "a direction", {}, AtDivision::copied, true});
+  const auto fabric = cell.columns.add<Tensor<2, 2>>(
+    {"fabric", "", "a tensor", {}, AtDivision::copied, true});
+  cell.row = cell.columns.founder(Point<2>(3., 4.), 50.);
+  cell.writer().set(dose, 9.);
+  cell.writer().set(axis, Tensor<1, 2>({5., 6.}));
+  cell.writer().set(fabric, Tensor<2, 2>({{1., 2.}, {3., 4.}}));
+  EXPECT_EQ(cell.reader().get(shown), 2u);
+
+  CellFields<2> fields(0., 1, cell.columns, true);
+  const auto    q = cell_quantities<2>(cell.reader(), lame_constants, false);
+  fields.add(7, cell.reader(), Point<2>(5., 6.), 3, false, q);
+  const auto &table  = fields.fields();
+  auto        values = row(table, 0);
+  EXPECT_EQ(values.count("dose"), 0u);
+  const std::vector<std::pair<std::string, double>> expected = {
+    {"held_at_checkpoint", 0.},
+    {"type", 2.},
+    {"axis_x", 5.},
+    {"axis_y", 6.},
+    {"axis_z", 0.},
+    {"fabric_xx", 1.},
+    {"fabric_xy", 2.},
+    {"fabric_xz", 0.},
+    {"fabric_yx", 3.},
+    {"fabric_yy", 4.},
+    {"fabric_yz", 0.},
+    {"fabric_zx", 0.},
+    {"fabric_zy", 0.},
+    {"fabric_zz", 0.}};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      const std::size_t column = table.n_csv_columns - expected.size() + i;
+      EXPECT_EQ(table.names[column], expected[i].first);
+      EXPECT_EQ(table.row(0)[column], expected[i].second);
+    }
+  EXPECT_EQ(table.values.size(), table.names.size());
+  EXPECT_EQ(table.whole.count("type"), 1u);
+  EXPECT_EQ(table.whole.count("axis_x"), 0u);
+  EXPECT_EQ(vtu_value(table, "axis"), 5.);
+  EXPECT_EQ(table.nonscalars.back().name, "fabric");
+  EXPECT_EQ(table.nonscalars.back().n_columns, 9u);
+  EXPECT_EQ(table.nonscalars.back().components[3], "yx");
+  EXPECT_EQ(vtu_value(table, "displacement"), 2.);
+
+  // Names that the table has, and numbers that its files cannot hold.
+  for (const char *name : {"volume", "phase", "pressure", "sigma"})
+    {
+      CellColumns<2> columns;
+      columns.add<double>({name, "", "", 0., AtDivision::copied, true});
+      EXPECT_THROW(CellFields<2>(0., 1, columns, false), std::invalid_argument)
+        << name;
+    }
+  CellColumns<2> columns;
+  columns.add<std::uint64_t>({"key", "", "", 0, AtDivision::copied, true});
+  EXPECT_THROW(CellFields<2>(0., 1, columns, false), std::invalid_argument);
+}
+
 TEST(SurfaceFields, FollowNanson)
 {
-  using Slots = BoundarySlots<3>;
-  std::vector<double> data(Slots::n_slots, 0.);
-  data[Slots::initial_position]   = 1.;
-  data[Slots::initial_normal + 2] = 1.;
-  data[Slots::initial_area]       = 10.;
-  data[Slots::condition]          = 2.;
+  const BoundaryColumns<3> columns;
+  Tensor<1, 3>             N;
+  N[2] = 1.;
+  std::vector<double> data =
+    columns.initial_point(Point<3>(1., 0., 0.), N, 10., SurfaceCondition::slip);
   // F = [2 0 0; 0 3 0; 1 0 1]: the patch spanned by e_x and e_y becomes the one
   // spanned by (2, 0, 1) and (0, 3, 0), whose cross product is (-3, 0, 6)
-  data[Slots::deformation + 0] = 2.;
-  data[Slots::deformation + 4] = 3.;
-  data[Slots::deformation + 6] = 1.;
-  data[Slots::deformation + 8] = 1.;
+  Tensor<2, 3> F = diagonal<3>({2., 3., 1.});
+  F[2][0]        = 1.;
+  const BoundaryView<3, double> point(make_array_view(data), columns);
+  point.set(columns.deformation, F);
 
-  SurfaceFields<3> fields(0.5);
-  fields.add(4,
-             ArrayView<const double>(data.data(), data.size()),
-             Point<3>(7., 8., 9.));
+  SurfaceFields<3> fields(0.5, columns);
+  fields.add(4, point, Point<3>(7., 8., 9.));
   auto values = row(fields.fields(), 0);
   EXPECT_EQ(values.size(), 13u);
   EXPECT_EQ(values["time"], 0.5);
@@ -296,17 +362,17 @@ TEST(SurfaceFields, FollowNanson)
 
 TEST(SurfaceFields, AreLengthsInTwoDimensions)
 {
-  using Slots = BoundarySlots<2>;
-  std::vector<double> data(Slots::n_slots, 0.);
-  data[Slots::initial_normal] = 1.;
-  data[Slots::initial_area]   = 2.;
+  const BoundaryColumns<2> columns;
+  Tensor<1, 2>             N;
+  N[0] = 1.;
+  std::vector<double> data =
+    columns.initial_point(Point<2>(), N, 2., SurfaceCondition::free);
   // F = [1 1; 0 3]: the edge along e_y becomes (1, 3), its normal (3, -1)
-  data[Slots::deformation + 0] = 1.;
-  data[Slots::deformation + 1] = 1.;
-  data[Slots::deformation + 3] = 3.;
-  const auto vector =
-    BoundaryView<2>(ArrayView<const double>(data.data(), data.size()))
-      .area_vector();
+  Tensor<2, 2> F = diagonal<2>({1., 3.});
+  F[0][1]        = 1.;
+  const BoundaryView<2, double> point(make_array_view(data), columns);
+  point.set(columns.deformation, F);
+  const auto vector = point.area_vector();
   EXPECT_NEAR(vector[0], 6., 1e-15);
   EXPECT_NEAR(vector[1], -2., 1e-15);
 }

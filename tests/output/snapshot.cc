@@ -5,6 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
+#include <morula/particles/tissue.h>
 
 #include <gtest/gtest.h>
 
@@ -36,13 +37,13 @@ namespace
     return value;
   }
 
-  constexpr unsigned int n_slots = 7;
+  constexpr unsigned int n_numbers = 7;
 
-  /** Property @p slot of point @p id: values whose bits are easily lost. */
+  /** Property @p column of point @p id: values whose bits are easily lost. */
   double
-  property(const unsigned int id, const unsigned int slot)
+  property(const unsigned int id, const unsigned int column)
   {
-    switch (slot)
+    switch (column)
       {
         case 0:
           return 1. / (3. + id);
@@ -67,7 +68,7 @@ namespace
   points(const unsigned int first, const unsigned int n)
   {
     PointList<dim> list;
-    list.n_slots = n > 0 ? n_slots : 0;
+    list.n_numbers = n > 0 ? n_numbers : 0;
     for (unsigned int id = first; id < first + n; ++id)
       {
         list.ids.push_back(id);
@@ -75,8 +76,8 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           position[d] = std::sqrt(2. + id) * (d + 1);
         list.positions.push_back(position);
-        for (unsigned int slot = 0; slot < n_slots; ++slot)
-          list.properties.push_back(property(id, slot));
+        for (unsigned int column = 0; column < n_numbers; ++column)
+          list.numbers.push_back(property(id, column));
       }
     return list;
   }
@@ -93,6 +94,8 @@ namespace
     data.program_version         = "1.2";
     data.parameters              = "set Dimension = 3 # \xc2\xb5m\n";
     data.time                    = 0.1 + 0.2;
+    data.cell_columns            = "bits 4\nothers 3\n";
+    data.boundary_columns        = "all 7\n";
     data.numbers["next id"]      = 4294967296.;
     data.numbers["a/b"]          = from_bits(0x7ff8000000000123ull);
     data.tables["output times"]  = {0.25, 1. / 3.};
@@ -117,18 +120,18 @@ namespace
     const std::size_t begin = ids.size() * rank / n_ranks;
     const std::size_t end   = ids.size() * (rank + 1) / n_ranks;
     ASSERT_EQ(read.size(), end - begin);
-    ASSERT_EQ(read.n_slots, n_slots);
+    ASSERT_EQ(read.n_numbers, n_numbers);
     ASSERT_EQ(read.positions.size(), read.size());
-    ASSERT_EQ(read.properties.size(), n_slots * read.size());
+    ASSERT_EQ(read.numbers.size(), n_numbers * read.size());
     for (std::size_t i = 0; i < read.size(); ++i)
       {
         EXPECT_EQ(read.ids[i], ids[begin + i]);
         for (unsigned int d = 0; d < dim; ++d)
           EXPECT_EQ(read.positions[i][d],
                     std::sqrt(2. + read.ids[i]) * (d + 1));
-        for (unsigned int slot = 0; slot < n_slots; ++slot)
-          EXPECT_EQ(bits(read.properties[i * n_slots + slot]),
-                    bits(property(read.ids[i], slot)));
+        for (unsigned int column = 0; column < n_numbers; ++column)
+          EXPECT_EQ(bits(read.numbers[i * n_numbers + column]),
+                    bits(property(read.ids[i], column)));
       }
   }
 
@@ -151,6 +154,8 @@ namespace
     const auto written = data_of<dim>(MPI_COMM_SELF);
     EXPECT_EQ(read.program_version, written.program_version);
     EXPECT_EQ(read.parameters, written.parameters);
+    EXPECT_EQ(read.cell_columns, written.cell_columns);
+    EXPECT_EQ(read.boundary_columns, written.boundary_columns);
     EXPECT_EQ(bits(read.time), bits(written.time));
     EXPECT_EQ(read.numbers.size(), written.numbers.size());
     for (const auto &number : written.numbers)
@@ -193,6 +198,161 @@ TEST(Snapshot, KeepsEveryBitForAnyNumberOfRanks)
       round_trip<3>(n);
       round_trip<2>(n);
     }
+}
+
+namespace
+{
+  /** Columns of a user's own effect, behind those of every cell. */
+  template <int dim>
+  struct Own
+  {
+    CellColumns<dim>       columns;
+    Column<double>         dose;
+    Column<Tensor<1, dim>> polarity;
+    Column<std::uint64_t>  key;
+
+    Own()
+    {
+      dose     = columns.template add<double>({"dose", "nM", "dose received"});
+      polarity = columns.template add<Tensor<1, dim>>({"polarity", "", "axis"});
+      key      = columns.template add<std::uint64_t>({"key", "", "a key"});
+    }
+  };
+
+  constexpr unsigned int n_cells = 60;
+
+  double
+  dose_of(const unsigned int id)
+  {
+    return 1. / (3. + id);
+  }
+
+  std::uint64_t
+  key_of(const unsigned int id)
+  {
+    return 0xfedcba9876543210ull - id;
+  }
+
+  /** The state of a tissue with these columns. */
+  template <int dim>
+  SnapshotData<dim>
+  snapshot_of(const Tissue<dim> &tissue)
+  {
+    SnapshotData<dim> data;
+    data.cells            = tissue.cells().copy();
+    data.boundary_points  = tissue.boundary_points().copy();
+    data.cell_columns     = tissue.cells().columns().layout();
+    data.boundary_columns = tissue.boundary_points().columns().layout();
+    return data;
+  }
+
+  template <int dim>
+  void
+  check_own_columns()
+  {
+    const ScratchDirectory directory;
+    const std::string      path = directory / "s.h5";
+    const Own<dim>         own;
+    const auto is_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    PointList<dim> founders(own.columns.n_numbers());
+    for (unsigned int id = 0; is_first && id < n_cells; ++id)
+      {
+        Point<dim> X;
+        X[0] = 20. * id;
+        founders.add(id, X, own.columns.founder(X, 8000.));
+      }
+    Tissue<dim> tissue(GridParameters(), own.columns, MPI_COMM_WORLD);
+    tissue.place(founders, PointList<dim>());
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const auto         cell = tissue.cell(p);
+        const unsigned int id   = tissue.cells().id(p);
+        Tensor<1, dim>     axis;
+        axis[id % dim] = -1.;
+        cell.set(own.dose, dose_of(id));
+        cell.set(own.polarity, axis);
+        cell.set(own.key, key_of(id));
+      }
+    write_snapshot(path, snapshot_of(tissue), MPI_COMM_WORLD);
+
+    const auto  read = read_snapshot<dim>(path, MPI_COMM_WORLD);
+    Tissue<dim> again(GridParameters(), own.columns, MPI_COMM_WORLD);
+    check_columns(read,
+                  again.cells().columns(),
+                  again.boundary_points().columns(),
+                  MPI_COMM_WORLD);
+    again.restore(read.cells,
+                  read.boundary_points,
+                  tissue.grid().box().first(),
+                  tissue.grid().box().n(),
+                  tissue.grid().weights());
+    const Cells<dim> &cells = again.cells();
+    EXPECT_EQ(Utilities::MPI::sum(cells.size(), MPI_COMM_WORLD), n_cells);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const unsigned int id = cells.id(p);
+        EXPECT_EQ(bits(cells.get(own.dose, p)), bits(dose_of(id)));
+        EXPECT_EQ(cells.get(own.polarity, p)[id % dim], -1.);
+        EXPECT_EQ(cells.get(own.key, p), key_of(id));
+        EXPECT_EQ(cells.volume(p), 8000.);
+      }
+  }
+
+  /** What check_columns() says of a snapshot of a cell with own columns. */
+  std::string
+  refusal(const SnapshotData<3>    &data,
+          const CellColumns<3>     &columns,
+          const BoundaryColumns<3> &boundary = BoundaryColumns<3>())
+  {
+    try
+      {
+        check_columns(data, columns, boundary, MPI_COMM_WORLD);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+} // namespace
+
+TEST(Snapshot, KeepsColumnsOfAnEffectForAnyNumberOfRanks)
+{
+  check_own_columns<2>();
+  check_own_columns<3>();
+}
+
+TEST(Snapshot, RefusesOtherColumnsByName)
+{
+  const Own<3>    own;
+  SnapshotData<3> data;
+  data.file             = "there/snapshot.h5";
+  data.cell_columns     = own.columns.layout();
+  data.boundary_columns = BoundaryColumns<3>().layout();
+  EXPECT_EQ(refusal(data, own.columns), "");
+
+  CellColumns<3> other;
+  other.add<double>({"rate", "1/day", "a rate"});
+  const std::string text = refusal(data, other);
+  for (const char *part : {"there/snapshot.h5",
+                           "whose cells have the columns",
+                           "this one lacks 'rate'",
+                           "has 'dose'",
+                           "has 'polarity'",
+                           "start the run anew"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_NE(refusal(data, own.columns, BoundaryColumns<3>(true))
+              .find("boundary points have the columns that the scene's effects "
+                    "declare (this one lacks 'edge_1'"),
+            std::string::npos);
+
+  // Without names the numbers are counted, as in older snapshots.
+  data.cell_columns.clear();
+  data.cells = PointList<3>(own.columns.n_numbers());
+  data.cells.add(0, Point<3>(), own.columns.initial_row());
+  EXPECT_EQ(refusal(data, own.columns), "");
+  EXPECT_NE(refusal(data, CellColumns<3>()).find("numbers each"),
+            std::string::npos);
 }
 
 TEST(Snapshot, IsTheSameFileEveryTime)

@@ -47,32 +47,53 @@ namespace
       if (grid.owner(grid.box().number(grid.box().locate(query))) ==
           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
         queries.push_back(query);
-    PointStore<dim> store(all.n_slots);
+    PointStore<dim> store(all.n_numbers);
     store.attach(grid);
     store.insert(owned(all, grid), grid);
     const auto append = [&](const unsigned int p, std::vector<double> &list) {
-      const auto properties = store.properties(p);
-      list.insert(list.end(), properties.begin(), properties.end());
+      for (unsigned int i = 0; i < all.n_numbers; ++i)
+        list.push_back(mark(store.id(p), i));
     };
-    for (const bool mean_of_ties : {false, true})
+    for (const Ties ties : {Ties::lowest_id, Ties::mean})
       {
-        const auto found = nearest_properties(
-          queries, store, {all.n_slots, append, mean_of_ties}, grid);
-        ASSERT_EQ(found.size(), queries.size() * all.n_slots);
+        const auto found =
+          nearest_numbers(queries, store, {all.n_numbers, append, ties}, grid);
+        ASSERT_EQ(found.size(), queries.size() * all.n_numbers);
         for (std::size_t q = 0; q < queries.size(); ++q)
-          for (unsigned int slot = 0; slot < all.n_slots; ++slot)
+          for (unsigned int i = 0; i < all.n_numbers; ++i)
             {
               const auto ids  = nearest_ids(queries[q], all);
               double     mean = 0.;
               for (const auto id : ids)
-                mean += mark(id, slot) / ids.size();
+                mean += mark(id, i) / ids.size();
               const double expected =
-                mean_of_ties ? mean : mark(*ids.begin(), slot);
-              EXPECT_NEAR(found[q * all.n_slots + slot],
+                ties == Ties::mean ? mean : mark(*ids.begin(), i);
+              EXPECT_NEAR(found[q * all.n_numbers + i],
                           expected,
-                          mean_of_ties ? 1e-12 * std::abs(expected) : 0.)
+                          ties == Ties::mean ? 1e-12 * std::abs(expected) : 0.)
                 << queries[q];
             }
+      }
+
+    // The same as values.
+    const auto values = nearest_values(
+      queries,
+      store,
+      [&](const unsigned int p) {
+        return std::tuple(store.position(p), static_cast<int>(store.id(p)));
+      },
+      Ties::lowest_id,
+      grid);
+    ASSERT_EQ(values.size(), queries.size());
+    for (std::size_t q = 0; q < queries.size(); ++q)
+      {
+        const auto &[x, id] = values[q];
+        EXPECT_EQ(id, static_cast<int>(*nearest_ids(queries[q], all).begin()));
+        EXPECT_EQ(x,
+                  all.positions[std::find(all.ids.begin(),
+                                          all.ids.end(),
+                                          static_cast<unsigned int>(id)) -
+                                all.ids.begin()]);
       }
   }
 
@@ -95,8 +116,7 @@ namespace
       lattice_points<dim>(Point<dim>(), 100., spacing, [](const auto &) {
         return true;
       });
-    PointList<dim> all;
-    all.n_slots = 1;
+    PointList<dim> all(1);
     for (std::size_t i = 0; i < sites.size(); ++i)
       append<dim>(all, (i * 31) % sites.size(), sites[i]);
     std::vector<Point<dim>> queries;
@@ -119,9 +139,8 @@ namespace
   {
     for (const double distance : {200., 990., 1300.})
       {
-        PointList<dim> all;
-        all.n_slots = 1;
-        Point<dim> x, query;
+        PointList<dim> all(1);
+        Point<dim>     x, query;
         for (unsigned int d = 0; d < dim; ++d)
           {
             x[d]     = 10.;

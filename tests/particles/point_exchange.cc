@@ -24,9 +24,7 @@ namespace
     expect_same_points(send_to_owners(dealt(all), grid), owned(all, grid));
 
     // No rank has any; one rank has all.
-    PointList<dim> none;
-    none.n_slots = 3;
-    EXPECT_EQ(send_to_owners(none, grid).size(), 0u);
+    EXPECT_EQ(send_to_owners(PointList<dim>(3), grid).size(), 0u);
     const auto one = selected(all, [](const std::size_t) {
       return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     });

@@ -15,7 +15,7 @@ using namespace Morula;
 
 namespace
 {
-  /** Order, grid cells and properties of a store that holds these points. */
+  /** Order, grid cells and rows of a store that holds these points. */
   template <int dim>
   void
   expect_store(const PointStore<dim>     &store,
@@ -31,19 +31,17 @@ namespace
         EXPECT_GT(cell.end, cell.begin);
         for (unsigned int p = cell.begin; p < cell.end; ++p)
           {
-            const auto &point = store.order()[p];
-            EXPECT_EQ(grid.box().number(
-                        grid.box().locate(point->get_location())),
+            EXPECT_EQ(grid.box().number(grid.box().locate(store.position(p))),
                       cell.number);
             if (p > cell.begin)
               {
-                EXPECT_LT(store.order()[p - 1]->get_id(), point->get_id());
+                EXPECT_LT(store.id(p - 1), store.id(p));
               }
           }
         last_number = cell.number;
         end         = cell.end;
       }
-    EXPECT_EQ(end, store.order().size());
+    EXPECT_EQ(end, store.size());
   }
 
   template <int dim>
@@ -54,14 +52,13 @@ namespace
     BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
     enclose(grid, all);
     PointStore<dim> store(5);
-    EXPECT_EQ(store.n_slots(), 5u);
     store.attach(grid);
     store.insert(dealt(all), grid);
     expect_store(store, grid, all);
 
     // Again, from one rank only, and in two portions.
     expect_same_points(store.take(), owned(all, grid));
-    EXPECT_TRUE(store.order().empty());
+    EXPECT_EQ(store.size(), 0u);
     EXPECT_TRUE(store.grid_cells().empty());
     const auto portion = [&](const std::size_t begin, const std::size_t end) {
       return selected(all, [&](const std::size_t i) {
@@ -84,20 +81,18 @@ namespace
     PointStore<dim> store(2);
     store.attach(grid);
     store.insert(dealt(all), grid);
-    std::vector<typename PointStore<dim>::Iterator> removed;
-    for (const auto &point : store.order())
-      if (point->get_id() % 3 == 0)
-        removed.push_back(point);
-    PointList<dim> none;
-    none.n_slots = 2;
-    store.replace(removed, none, grid);
+    std::vector<unsigned int> removed;
+    for (unsigned int p = 0; p < store.size(); ++p)
+      if (store.id(p) % 3 == 0)
+        removed.push_back(p);
+    store.replace(removed, PointList<dim>(), grid);
     expect_store(store, grid, selected(all, [&](const std::size_t i) {
                    return all.ids[i] % 3 != 0;
                  }));
   }
 
   /** Points that stay in their grid cell, leave it, and leave their rank, with
-   *  properties written in place. */
+   *  numbers written in place. */
   template <int dim>
   void
   check_moves()
@@ -112,7 +107,7 @@ namespace
             for (unsigned int d = 0; d < dim; ++d)
               end.positions[i][d] +=
                 (((i + d) % 3) - 1.) * distance * (1. + 1e-3 * i);
-            end.properties[2 * i] = -1. * end.ids[i];
+            end.row(i)[0] = -1. * end.ids[i];
           }
         PointList<dim> both = all;
         both.ids.insert(both.ids.end(), end.ids.begin(), end.ids.end());
@@ -124,32 +119,40 @@ namespace
         for (std::size_t i = 0; i < end.size(); ++i)
           targets[end.ids[i]] = end.positions[i];
 
-        PointStore<dim> store(2);
+        Columns    columns;
+        const auto first = columns.add<double>({"first", "", ""});
+        columns.add<double>({"second", "", ""});
+        PointStore<dim> store(columns.n_numbers());
         store.attach(grid);
         store.insert(dealt(all), grid);
         std::vector<Point<dim>> positions;
-        for (unsigned int p = 0; p < store.order().size(); ++p)
+        for (unsigned int p = 0; p < store.size(); ++p)
           {
-            const auto id = store.order()[p]->get_id();
-            positions.push_back(targets.at(id));
-            store.properties(p)[0] = -1. * id;
+            positions.push_back(targets.at(store.id(p)));
+            store.set(first, p, -1. * store.id(p));
           }
         store.move(positions, grid);
         expect_store(store, grid, end);
       }
   }
 
-  /** In memory each point stands where it is in the order. */
+  /** A store whose rows can be looked at. */
   template <int dim>
-  bool
-  is_in_order_in_memory(PointStore<dim> &store)
+  class OpenStore : public PointStore<dim>
   {
-    for (unsigned int p = 1; p < store.order().size(); ++p)
-      if (store.properties(p).begin() !=
-          store.properties(p - 1).begin() + store.n_slots())
-        return false;
-    return true;
-  }
+  public:
+    using PointStore<dim>::PointStore;
+
+    /** In memory each row stands behind the one before. */
+    bool
+    is_in_order_in_memory() const
+    {
+      for (unsigned int p = 1; p < this->size(); ++p)
+        if (this->row(p).begin() != this->row(p - 1).end())
+          return false;
+      return true;
+    }
+  };
 
   template <int dim>
   void
@@ -158,25 +161,25 @@ namespace
     const auto          all = random_points<dim>(500, 120., 3, 4);
     BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
     enclose(grid, all);
-    PointStore<dim> store(3);
+    OpenStore<dim> store(3);
     store.attach(grid);
     store.insert(dealt(all), grid);
-    EXPECT_TRUE(is_in_order_in_memory(store));
+    EXPECT_TRUE(store.is_in_order_in_memory());
 
     // Few points out of order stay so, many are mended.
     for (const unsigned int n : {5u, 100u})
       {
-        std::vector<typename PointStore<dim>::Iterator> removed;
-        for (const auto &point : store.order())
-          if (point->get_id() < n)
-            removed.push_back(point);
+        std::vector<unsigned int> removed;
+        for (unsigned int p = 0; p < store.size(); ++p)
+          if (store.id(p) < n)
+            removed.push_back(p);
         const auto again =
           selected(all, [&](const std::size_t i) { return all.ids[i] < n; });
         store.replace({removed.rbegin(), removed.rend()}, dealt(again), grid);
         store.defragment(grid);
         expect_store(store, grid, all);
       }
-    EXPECT_TRUE(is_in_order_in_memory(store));
+    EXPECT_TRUE(store.is_in_order_in_memory());
   }
 
   template <int dim>

@@ -20,11 +20,11 @@
 
 namespace Morula
 {
-  /** A property that tells which point, and which of its slots, this is. */
+  /** A number that tells which point, and which place in its row, this is. */
   inline double
-  mark(const types::particle_index id, const unsigned int slot)
+  mark(const types::particle_index id, const unsigned int place)
   {
-    return 1000. * id + slot + 0.125;
+    return 1000. * id + place + 0.125;
   }
 
   template <int dim>
@@ -33,10 +33,10 @@ namespace Morula
          const types::particle_index id,
          const Point<dim>           &x)
   {
-    list.ids.push_back(id);
-    list.positions.push_back(x);
-    for (unsigned int slot = 0; slot < list.n_slots; ++slot)
-      list.properties.push_back(mark(id, slot));
+    std::vector<double> row;
+    for (unsigned int i = 0; i < list.n_numbers; ++i)
+      row.push_back(mark(id, i));
+    list.add(id, x, row);
   }
 
   /** Marked points, the same on all ranks, within @p reach of the origin by
@@ -45,12 +45,11 @@ namespace Morula
   PointList<dim>
   random_points(const unsigned int n,
                 const double       reach,
-                const unsigned int n_slots,
+                const unsigned int n_numbers,
                 const unsigned int seed)
   {
     std::mt19937   generator(seed);
-    PointList<dim> list;
-    list.n_slots = n_slots;
+    PointList<dim> list(n_numbers);
     for (unsigned int i = 0; i < n; ++i)
       append(list,
              (7 * i + 3) % n, // n is no multiple of 7
@@ -63,18 +62,10 @@ namespace Morula
   PointList<dim>
   selected(const PointList<dim> &all, const Select &select)
   {
-    PointList<dim> part;
-    part.n_slots = all.n_slots;
+    PointList<dim> part(all.n_numbers);
     for (std::size_t i = 0; i < all.size(); ++i)
       if (select(i))
-        {
-          part.ids.push_back(all.ids[i]);
-          part.positions.push_back(all.positions[i]);
-          const auto first = all.properties.begin() + i * all.n_slots;
-          part.properties.insert(part.properties.end(),
-                                 first,
-                                 first + all.n_slots);
-        }
+        part.add(all.ids[i], all.positions[i], all.row(i));
     return part;
   }
 
@@ -101,7 +92,7 @@ namespace Morula
     });
   }
 
-  /** The same points, with their properties, whatever the order. */
+  /** The same points, with their rows, whatever the order. */
   template <int dim>
   void
   expect_same_points(const PointList<dim> &found,
@@ -113,16 +104,15 @@ namespace Morula
         result;
       for (std::size_t i = 0; i < list.size(); ++i)
         {
-          const auto first    = list.properties.begin() + i * list.n_slots;
-          result[list.ids[i]] = {list.positions[i],
-                                 {first, first + list.n_slots}};
+          const auto row      = list.row(i);
+          result[list.ids[i]] = {list.positions[i], {row.begin(), row.end()}};
         }
       return result;
     };
-    EXPECT_EQ(found.n_slots, expected.n_slots);
+    EXPECT_EQ(found.n_numbers, expected.n_numbers);
     EXPECT_EQ(found.size(), expected.size());
     EXPECT_EQ(found.positions.size(), found.size());
-    EXPECT_EQ(found.properties.size(), found.size() * found.n_slots);
+    EXPECT_EQ(found.numbers.size(), found.size() * found.n_numbers);
     EXPECT_TRUE(rows(found) == rows(expected));
   }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/boundary_state.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/particles/tissue.h>
 
@@ -25,20 +24,13 @@ namespace
   }
 
   template <int dim>
-  ArrayView<double>
-  slots_of(PointList<dim> &points, const std::size_t i)
-  {
-    return ArrayView<double>(&points.properties[i * points.n_slots],
-                             points.n_slots);
-  }
+  const BoundaryColumns<dim> columns(/*with_patch*/ true);
 
   template <int dim>
   BoundaryView<dim>
   view(const PointList<dim> &points, const std::size_t i)
   {
-    return BoundaryView<dim>(
-      ArrayView<const double>(&points.properties[i * points.n_slots],
-                              points.n_slots));
+    return {points.row(i), columns<dim>};
   }
 
   /** A point with a square patch at x = X, deformed by F. */
@@ -52,15 +44,9 @@ namespace
             const Tensor<2, dim>       &F,
             const SurfaceCondition      condition = SurfaceCondition::free)
   {
-    points.n_slots = BoundarySlots<dim>::n_slots_with_patch;
-    const auto slots =
-      with_patch<dim>(initial_boundary_slots<dim>(X, N, area, condition));
-    points.ids.push_back(id);
-    points.positions.push_back(X);
-    points.properties.insert(points.properties.end(),
-                             slots.begin(),
-                             slots.end());
-    deform_boundary_point<dim>(slots_of(points, points.size() - 1), F);
+    points.add(id, X, columns<dim>.initial_point(X, N, area, condition));
+    BoundaryView<dim, double>(points.row(points.size() - 1), columns<dim>)
+      .deform(F);
   }
 
   /** Patches of all sizes and directions, strongly deformed. */
@@ -69,7 +55,7 @@ namespace
   random_patches(const unsigned int n)
   {
     std::mt19937   generator(3);
-    PointList<dim> points;
+    PointList<dim> points(columns<dim>.n_numbers());
     for (unsigned int i = 0; i < n; ++i)
       {
         Tensor<1, dim> N = random_tensor<1, dim>(generator);
@@ -132,7 +118,7 @@ namespace
         else
           N = random_tensor<1, dim>(generator);
         N /= N.norm();
-        PointList<dim>   points;
+        PointList<dim>   points(columns<dim>.n_numbers());
         const Point<dim> X(7. * random_tensor<1, dim>(generator));
         const double     area = 13.;
         add_point<dim>(points, 0, X, N, area, unit_tensor<dim>());
@@ -170,13 +156,12 @@ namespace
     Tensor<2, dim> F = unit_tensor<dim>();
     F[0][0]          = 8.;
     F[dim - 1][0]    = 6.; // shear: the edge now points along (0.8, 0.6)
-    PointList<dim> all;
+    PointList<dim> all(columns<dim>.n_numbers());
     add_point<dim>(all, 5, Point<dim>(), N, std::pow(10., dim - 1), F);
-    PointList<dim> points      = dealt(all);
-    points.n_slots             = all.n_slots;
-    types::particle_index next = 9;
-    EXPECT_TRUE(
-      refine_surface<dim>(points, 25., nowhere<dim>, next, MPI_COMM_WORLD));
+    PointList<dim>        points = dealt(all);
+    types::particle_index next   = 9;
+    EXPECT_TRUE(refine_surface<dim>(
+      points, columns<dim>, 25., nowhere<dim>, next, MPI_COMM_WORLD));
     EXPECT_EQ(next, 12u);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
@@ -203,8 +188,8 @@ namespace
         EXPECT_LT((view(points, i).initial_normal() - N).norm(), 1e-15);
       }
     const auto before = points.ids.size();
-    EXPECT_FALSE(
-      refine_surface<dim>(points, 25., nowhere<dim>, next, MPI_COMM_SELF));
+    EXPECT_FALSE(refine_surface<dim>(
+      points, columns<dim>, 25., nowhere<dim>, next, MPI_COMM_SELF));
     EXPECT_EQ(points.ids.size(), before);
   }
 
@@ -215,8 +200,8 @@ namespace
     PointList<dim>        points = random_patches<dim>(60);
     const Sums<dim>       before(points);
     types::particle_index next = 60;
-    EXPECT_TRUE(
-      refine_surface<dim>(points, 6., nowhere<dim>, next, MPI_COMM_SELF));
+    EXPECT_TRUE(refine_surface<dim>(
+      points, columns<dim>, 6., nowhere<dim>, next, MPI_COMM_SELF));
     EXPECT_EQ(points.size(), next);
     EXPECT_GT(points.size(), 200u);
     const Sums<dim> after(points);
@@ -229,10 +214,8 @@ namespace
               1e-11);
     for (std::size_t i = 0; i < points.size(); ++i)
       for (unsigned int k = 0; k < dim - 1; ++k)
-        EXPECT_LE((view(points, i).deformation() *
-                   view(points, i).initial_edge(k))
-                    .norm(),
-                  6.);
+        EXPECT_LE(
+          (view(points, i).F() * view(points, i).initial_edge(k)).norm(), 6.);
   }
 
   template <int dim>
@@ -243,7 +226,8 @@ namespace
     PointList<dim>       points = all;
     const auto crowded          = [](const Point<dim> &x) { return x[0] > 0.; };
     types::particle_index next  = 60;
-    EXPECT_TRUE(refine_surface<dim>(points, 6., crowded, next, MPI_COMM_SELF));
+    EXPECT_TRUE(refine_surface<dim>(
+      points, columns<dim>, 6., crowded, next, MPI_COMM_SELF));
     unsigned int n_crowded = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (crowded(all.positions[i]))
@@ -260,7 +244,8 @@ namespace
       return !crowded(all.positions[i]);
     });
     next                  = 60;
-    refine_surface<dim>(others, 6., nowhere<dim>, next, MPI_COMM_SELF);
+    refine_surface<dim>(
+      others, columns<dim>, 6., nowhere<dim>, next, MPI_COMM_SELF);
     EXPECT_EQ(points.size(), others.size() + n_crowded);
   }
 
@@ -271,9 +256,10 @@ namespace
     const PointList<dim>  all   = random_patches<dim>(60);
     PointList<dim>        alone = all, mine = dealt(all);
     types::particle_index next_alone = 60, next = 60;
-    refine_surface<dim>(alone, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
-    EXPECT_TRUE(
-      refine_surface<dim>(mine, 6., nowhere<dim>, next, MPI_COMM_WORLD));
+    refine_surface<dim>(
+      alone, columns<dim>, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
+    EXPECT_TRUE(refine_surface<dim>(
+      mine, columns<dim>, 6., nowhere<dim>, next, MPI_COMM_WORLD));
     EXPECT_EQ(next, next_alone);
     const PointList<dim> expected = selected(alone, [&](const std::size_t i) {
       return std::find(mine.ids.begin(), mine.ids.end(), alone.ids[i]) !=
@@ -297,7 +283,7 @@ namespace
             Tensor<1, dim> to_corner;
             for (unsigned int k = 0; k < dim - 1; ++k)
               to_corner += ((corner >> k) & 1 ? 0.5 : -0.5) *
-                           (point.deformation() * point.initial_edge(k));
+                           (point.F() * point.initial_edge(k));
             EXPECT_LE(to_corner.norm(), point.spacing() * (1. + 1e-12));
           }
       }
@@ -308,21 +294,19 @@ namespace
   void
   check_tissue()
   {
-    const unsigned int   n_slots = BoundarySlots<dim>::n_slots_with_patch;
     Tissue<dim>          tissue(GridParameters(),
-                       CellSlots<dim>(false, false),
+                       CellColumns<dim>(),
                        MPI_COMM_WORLD,
-                       n_slots);
-    PointList<dim>       none;
+                       columns<dim>);
     const PointList<dim> all = random_patches<dim>(60);
-    none.n_slots             = CellSlots<dim>(false, false).n_slots;
-    tissue.place(none, dealt(all));
-    EXPECT_EQ(tissue.boundary_points().n_slots(), n_slots);
+    tissue.place(PointList<dim>(), dealt(all));
 
     PointList<dim>        alone = all, mine = tissue.boundary_points().copy();
     types::particle_index next_alone = 60, next = 60;
-    refine_surface<dim>(alone, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
-    refine_surface<dim>(mine, 6., nowhere<dim>, next, MPI_COMM_WORLD);
+    refine_surface<dim>(
+      alone, columns<dim>, 6., nowhere<dim>, next_alone, MPI_COMM_SELF);
+    refine_surface<dim>(
+      mine, columns<dim>, 6., nowhere<dim>, next, MPI_COMM_WORLD);
     tissue.replace_surface(mine);
     expect_same_points(tissue.boundary_points().copy(),
                        owned(alone, tissue.grid()));

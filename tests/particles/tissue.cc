@@ -14,27 +14,17 @@ using namespace Morula;
 
 namespace
 {
-  template <int dim>
-  unsigned int
-  n_boundary_slots()
-  {
-    return BoundarySlots<dim>::n_slots;
-  }
-
   /** Makes cells of marked points: V⁰ and F that a cell can have. */
   template <int dim>
   void
   make_cells(PointList<dim> &points)
   {
-    const CellSlots<dim> slots(false, false);
+    const CellColumns<dim> columns;
     for (std::size_t i = 0; i < points.size(); ++i)
       {
-        const CellView<dim, double> cell(
-          ArrayView<double>(&points.properties[i * points.n_slots],
-                            points.n_slots),
-          slots);
-        cell.set_scalar(slots.initial_volume, 500. + points.ids[i]);
-        cell.set_tensor(slots.deformation, unit_tensor<dim>());
+        const CellView<dim, double> cell(points.row(i), columns);
+        cell.set(columns.initial_volume, 500. + points.ids[i]);
+        cell.set(columns.deformation, unit_tensor<dim>());
       }
   }
 
@@ -44,10 +34,10 @@ namespace
     PointList<dim> cells, boundary;
 
     explicit Points(const unsigned int seed)
-      : cells(random_points<dim>(
-          400, 150., CellSlots<dim>(false, false).n_slots, seed))
-      , boundary(
-          random_points<dim>(150, 160., n_boundary_slots<dim>(), seed + 1))
+      : cells(
+          random_points<dim>(400, 150., CellColumns<dim>().n_numbers(), seed))
+      , boundary(random_points<dim>(
+          150, 160., BoundaryColumns<dim>().n_numbers(), seed + 1))
     {
       make_cells(cells);
     }
@@ -77,7 +67,7 @@ namespace
   Tissue<dim>
   make_tissue()
   {
-    return {GridParameters(), CellSlots<dim>(false, false), MPI_COMM_WORLD};
+    return {GridParameters(), CellColumns<dim>(), MPI_COMM_WORLD};
   }
 
   template <int dim>
@@ -150,10 +140,9 @@ namespace
     expect_tissue(again, points);
     for (unsigned int number = 0; number < tissue.grid().box().size(); ++number)
       EXPECT_EQ(again.grid().owner(number), tissue.grid().owner(number));
-    ASSERT_EQ(again.cells().order().size(), tissue.cells().order().size());
-    for (std::size_t i = 0; i < again.cells().order().size(); ++i)
-      EXPECT_EQ(again.cells().order()[i]->get_id(),
-                tissue.cells().order()[i]->get_id());
+    ASSERT_EQ(again.cells().size(), tissue.cells().size());
+    for (unsigned int p = 0; p < again.cells().size(); ++p)
+      EXPECT_EQ(again.cells().id(p), tissue.cells().id(p));
   }
 
   /** Replaces every fifth cell by two at @p distance on both sides. */
@@ -165,10 +154,9 @@ namespace
     auto        tissue = make_tissue<dim>();
     tissue.place(dealt(points.cells), dealt(points.boundary));
 
-    std::vector<typename PointStore<dim>::Iterator> mothers;
-    PointList<dim>                                  daughters;
-    daughters.n_slots    = points.cells.n_slots;
-    const auto is_mother = [](const types::particle_index id) {
+    std::vector<unsigned int> mothers;
+    PointList<dim>            daughters(points.cells.n_numbers);
+    const auto                is_mother = [](const types::particle_index id) {
       return id % 5 == 0;
     };
     const auto divide = [&](const types::particle_index id,
@@ -180,11 +168,12 @@ namespace
       append(list, 1001 + 2 * id, x + by);
       make_cells(list);
     };
-    for (const auto &cell : tissue.cells().order())
-      if (is_mother(cell->get_id()))
+    const Cells<dim> &cells = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      if (is_mother(cells.id(p)))
         {
-          mothers.push_back(cell);
-          divide(cell->get_id(), cell->get_location(), daughters);
+          mothers.push_back(p);
+          divide(cells.id(p), cells.position(p), daughters);
         }
     tissue.replace(mothers, daughters);
 
@@ -196,8 +185,7 @@ namespace
       if (is_mother(points.cells.ids[i]))
         divide(points.cells.ids[i], points.cells.positions[i], after.cells);
     expect_tissue(tissue, after);
-    EXPECT_EQ(Utilities::MPI::sum<unsigned int>(tissue.cells().order().size(),
-                                                MPI_COMM_WORLD),
+    EXPECT_EQ(Utilities::MPI::sum<unsigned int>(cells.size(), MPI_COMM_WORLD),
               after.cells.size());
   }
 

@@ -35,7 +35,7 @@ namespace Morula
 
     /**
      * Calls action(p, field, splines) for each point of a store in order:
-     * with its position in PointStore::order(), the field on its grid cell, and
+     * with its position p in the store, the field on its grid cell, and
      * the splines at its place.
      */
     template <typename Action>
@@ -63,8 +63,8 @@ namespace Morula
         for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
           action(p,
                  field,
-                 SplineValues<dim>(space.box().unit_position(
-                                     store.order()[p]->get_location(), index),
+                 SplineValues<dim>(space.box().unit_position(store.position(p),
+                                                             index),
                                    space.box().spacing()));
       }
   }

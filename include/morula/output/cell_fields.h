@@ -5,6 +5,7 @@
 #define morula_output_cell_fields_h
 
 #include <morula/mechanics/material.h>
+#include <morula/output/declared_fields.h>
 #include <morula/output/point_fields.h>
 #include <morula/particles/cell_state.h>
 
@@ -42,7 +43,8 @@ namespace Morula
   /**
    * The table behind cells-NNNN.csv and cells-NNNN.vtu. The latter also gets
    * pressure (-tr σ / 3), the principal stresses (largest first), and the
-   * displacement x - X; σ is a tensor there.
+   * displacement x - X; σ is a tensor there. Columns that effects have declared
+   * for the output are the last ones of the CSV file.
    */
   template <int dim>
   class CellFields
@@ -51,12 +53,16 @@ namespace Morula
     /**
      * @param time           day
      * @param n_cells        as many as will be added
+     * @param columns        of the cells
      * @param has_checkpoint whether there is a column of the cells that the
      *                       size checkpoint holds
+     * @throws std::invalid_argument for declared columns with heads that the
+     *                       table has already
      */
-    CellFields(const double      time,
-               const std::size_t n_cells,
-               const bool        has_checkpoint);
+    CellFields(const double            time,
+               const std::size_t       n_cells,
+               const CellColumns<dim> &columns,
+               const bool              has_checkpoint);
 
     /**
      * Adds one cell of this rank.
@@ -79,9 +85,10 @@ namespace Morula
     }
 
   private:
-    double           time;
-    bool             has_checkpoint;
-    PointFields<dim> table;
+    double              time;
+    bool                has_checkpoint;
+    DeclaredFields<dim> declared;
+    PointFields<dim>    table;
   };
 } // namespace Morula
 

@@ -4,6 +4,7 @@
 #ifndef morula_output_snapshot_h
 #define morula_output_snapshot_h
 
+#include <morula/particles/columns.h>
 #include <morula/particles/point_list.h>
 
 #include <mpi.h>
@@ -35,6 +36,9 @@ namespace Morula
     std::map<std::string, std::vector<int>>    integer_tables;
     PointList<dim>                             cells;
     PointList<dim>                             boundary_points;
+    /** What the rows of the points are, as Columns::layout() says; empty in
+     *  files of programs that did not write it. */
+    std::string cell_columns, boundary_columns;
     /** The file that this was read from. */
     std::string file;
 
@@ -57,6 +61,18 @@ namespace Morula
    */
   [[noreturn]] void
   refuse_snapshot(const std::string &path, const std::string &allowed);
+
+  /**
+   * Refuses a snapshot whose points have other columns than these: an effect
+   * would read what another one has written. Collective.
+   * @throws InputError, on all ranks, which names the columns that differ
+   */
+  template <int dim>
+  void
+  check_columns(const SnapshotData<dim> &data,
+                const Columns           &cell_columns,
+                const Columns           &boundary_columns,
+                const MPI_Comm           comm);
 
   /**
    * Writes snapshot.h5, all ranks together. Doubles keep their bits. The file

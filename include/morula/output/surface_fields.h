@@ -4,34 +4,39 @@
 #ifndef morula_output_surface_fields_h
 #define morula_output_surface_fields_h
 
+#include <morula/output/declared_fields.h>
 #include <morula/output/point_fields.h>
-#include <morula/particles/cell_state.h>
+#include <morula/particles/boundary_state.h>
 
-#include <deal.II/base/array_view.h>
 #include <deal.II/base/tensor.h>
 
 namespace Morula
 {
   /**
    * The table behind surface-NNNN.csv and surface-NNNN.vtu. The latter also
-   * gets normal and displacement as vectors.
+   * gets normal and displacement as vectors. Columns that effects have declared
+   * for the output are the last ones of the CSV file.
    */
   template <int dim>
   class SurfaceFields
   {
   public:
-    /** @param time day */
-    explicit SurfaceFields(const double time);
+    /**
+     * @param time    day
+     * @param columns of the boundary points
+     * @throws std::invalid_argument for declared columns with heads that the
+     *                table has already
+     */
+    SurfaceFields(const double time, const BoundaryColumns<dim> &columns);
 
     /**
      * Adds one boundary point of this rank.
-     * @param properties layout BoundarySlots
-     * @param position   current, µm
+     * @param position current, µm
      */
     void
-    add(const types::particle_index    id,
-        const ArrayView<const double> &properties,
-        const Point<dim>              &position);
+    add(const types::particle_index id,
+        const BoundaryView<dim>    &point,
+        const Point<dim>           &position);
 
     const PointFields<dim> &
     fields() const
@@ -40,8 +45,9 @@ namespace Morula
     }
 
   private:
-    double           time;
-    PointFields<dim> table;
+    double              time;
+    DeclaredFields<dim> declared;
+    PointFields<dim>    table;
   };
 } // namespace Morula
 

@@ -4,62 +4,164 @@
 #ifndef morula_particles_boundary_state_h
 #define morula_particles_boundary_state_h
 
-#include <morula/particles/cell_state.h>
+#include <morula/particles/columns.h>
 
-#include <deal.II/particles/particle_iterator.h>
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 namespace Morula
 {
-  /** Named view on a boundary point's property array; does not own the data. */
+  using namespace dealii;
+
+  /** What holds or loads a boundary point; numbers as in surface-NNNN.csv. */
+  enum class SurfaceCondition
+  {
+    free   = 0,
+    fixed  = 1,
+    slip   = 2,
+    loaded = 3
+  };
+
+  /**
+   * The columns of the boundary points: the same for every scene, and those of
+   * a point's patch where the scene refines the surface.
+   */
   template <int dim>
+  class BoundaryColumns : public Columns
+  {
+  public:
+    /** @param with_patch whether the scene refines the surface */
+    explicit BoundaryColumns(const bool with_patch = false);
+
+    /**
+     * The row of a point at t = 0: at @p X (µm), with outward unit normal
+     * @p N and @p area (µm^(dim-1)). Its patch, if it has one, is square:
+     * doc/theory.md, section 4.5. The patch's edges are parallel to the axes
+     * where the normal is.
+     */
+    std::vector<double>
+    initial_point(const Point<dim>      &X,
+                  const Tensor<1, dim>  &N,
+                  const double           area,
+                  const SurfaceCondition condition) const;
+
+    /** X, µm. */
+    Column<Point<dim>> initial_position;
+    /** N. */
+    Column<Tensor<1, dim>> initial_normal;
+    /** a⁰, µm^(dim-1). */
+    Column<double> initial_area;
+    /** What holds or loads it. */
+    Column<SurfaceCondition> condition;
+    /** F. */
+    Column<Tensor<2, dim>> deformation;
+    /** With patch: initial position of the point of t = 0 that this one is a
+     *  part of, µm. */
+    Column<Point<dim>> seed_position;
+    /** With patch: its tangential edges in the initial configuration, µm. They
+     *  span a⁰. */
+    std::array<Column<Tensor<1, dim>>, dim - 1> edges;
+  };
+
+  /**
+   * One boundary point: its row of numbers by the names of the columns. Does
+   * not own them. Number is `double` (may write) or `const double`.
+   */
+  template <int dim, typename Number = const double>
   class BoundaryView
   {
   public:
-    explicit BoundaryView(const ArrayView<const double> &data)
-      : data(data)
+    /** @param columns must outlive this */
+    BoundaryView(const ArrayView<Number>    &row,
+                 const BoundaryColumns<dim> &columns)
+      : row_(row)
+      , columns(columns)
     {}
+
+    /** Who may write may read. */
+    BoundaryView(const BoundaryView<dim, double> &other)
+      : row_(other.row_)
+      , columns(other.columns)
+    {}
+
+    /** The value in a column that exists. */
+    template <typename T>
+    T
+    get(const Column<T> &column) const
+    {
+      return column.get(row_);
+    }
+
+    /** Writes it. */
+    template <typename T>
+    void
+    set(const Column<T> &column, const typename Column<T>::Type &value) const
+    {
+      column.set(row_, value);
+    }
+
+    /** All numbers, to be copied. */
+    const ArrayView<Number> &
+    row() const
+    {
+      return row_;
+    }
 
     /** X, µm. */
     Point<dim>
     initial_position() const
     {
-      return Point<dim>(vector(BoundarySlots<dim>::initial_position));
+      return get(columns.initial_position);
     }
 
     /** N. */
     Tensor<1, dim>
     initial_normal() const
     {
-      return vector(BoundarySlots<dim>::initial_normal);
+      return get(columns.initial_normal);
     }
 
     /** a⁰, µm^(dim-1). */
     double
     initial_area() const
     {
-      return data[BoundarySlots<dim>::initial_area];
+      return get(columns.initial_area);
     }
 
+    /** What holds or loads it. */
     SurfaceCondition
     condition() const
     {
-      return static_cast<SurfaceCondition>(
-        static_cast<int>(data[BoundarySlots<dim>::condition]));
+      return get(columns.condition);
     }
 
     /** F. */
     Tensor<2, dim>
-    deformation() const
+    F() const
     {
-      Tensor<2, dim> F;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          F[i][j] = data[BoundarySlots<dim>::deformation + i * dim + j];
-      return F;
+      return get(columns.deformation);
+    }
+
+    /** F -> f F: doc/theory.md (1.1), equation (10) of the paper. */
+    void
+    deform(const Tensor<2, dim> &f) const
+    {
+      set(columns.deformation, f * F());
+    }
+
+    /** a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2), equation (11) of the paper.
+     */
+    Tensor<1, dim>
+    area_vector() const
+    {
+      const Tensor<2, dim> F = this->F();
+      return determinant(F) * initial_area() * (initial_normal() * invert(F));
     }
 
     /** Whether the patch's edges are known: only where the scene refines the
@@ -67,7 +169,7 @@ namespace Morula
     bool
     has_patch() const
     {
-      return data.size() > BoundarySlots<dim>::n_slots;
+      return columns.seed_position.exists();
     }
 
     /** Initial position of the point of t = 0 that this one is a part of, µm:
@@ -75,9 +177,7 @@ namespace Morula
     Point<dim>
     seed_position() const
     {
-      return Point<dim>(vector(has_patch() ?
-                                 BoundarySlots<dim>::seed_position :
-                                 BoundarySlots<dim>::initial_position));
+      return has_patch() ? get(columns.seed_position) : initial_position();
     }
 
     /** Edge @p k of the patch in the initial configuration, µm. Only with
@@ -85,7 +185,18 @@ namespace Morula
     Tensor<1, dim>
     initial_edge(const unsigned int k) const
     {
-      return vector(BoundarySlots<dim>::edges + k * dim);
+      return get(columns.edges[k]);
+    }
+
+    /** Takes half of the patch, of the edge @p k: the half at its end (sign +1)
+     *  or at its beginning (-1). Only with has_patch(). */
+    void
+    halve(const unsigned int k, const double sign) const
+    {
+      const Tensor<1, dim> E = initial_edge(k);
+      set(columns.initial_position, initial_position() + 0.25 * sign * E);
+      set(columns.edges[k], 0.5 * E);
+      set(columns.initial_area, 0.5 * initial_area());
     }
 
     /**
@@ -96,7 +207,7 @@ namespace Morula
     double
     spacing() const
     {
-      const Tensor<2, dim> F = deformation();
+      const Tensor<2, dim> F = this->F();
       if (!has_patch())
         return std::pow(area_vector().norm(), 1. / (dim - 1));
       const Tensor<1, dim> first = F * initial_edge(0);
@@ -107,69 +218,13 @@ namespace Morula
              std::sqrt(2.);
     }
 
-    /** a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2), equation (11) of the paper.
-     */
-    Tensor<1, dim>
-    area_vector() const
-    {
-      const Tensor<2, dim> F = deformation();
-      return determinant(F) * initial_area() * (initial_normal() * invert(F));
-    }
-
   private:
-    Tensor<1, dim>
-    vector(const unsigned int slot) const
-    {
-      Tensor<1, dim> v;
-      for (unsigned int d = 0; d < dim; ++d)
-        v[d] = data[slot + d];
-      return v;
-    }
+    template <int, typename>
+    friend class BoundaryView;
 
-    ArrayView<const double> data;
+    ArrayView<Number>           row_;
+    const BoundaryColumns<dim> &columns;
   };
-
-  /** The property array of a boundary point in its ParticleHandler. */
-  template <int dim>
-  ArrayView<const double>
-  boundary_properties(const Particles::ParticleIterator<dim> &point)
-  {
-    const Particles::ParticleAccessor<dim> &accessor = *point;
-    return accessor.get_properties();
-  }
-
-  /** Properties at t = 0. */
-  template <int dim>
-  std::vector<double>
-  initial_boundary_slots(const Point<dim>      &X,
-                         const Tensor<1, dim>  &N,
-                         const double           area,
-                         const SurfaceCondition condition)
-  {
-    using Slots = BoundarySlots<dim>;
-    std::vector<double> slots(Slots::n_slots, 0.);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        slots[Slots::initial_position + d]        = X[d];
-        slots[Slots::initial_normal + d]          = N[d];
-        slots[Slots::deformation + d * (dim + 1)] = 1.;
-      }
-    slots[Slots::initial_area] = area;
-    slots[Slots::condition]    = static_cast<int>(condition);
-    return slots;
-  }
-
-  /** F -> f F: doc/theory.md (1.1), equation (10) of the paper. */
-  template <int dim>
-  void
-  deform_boundary_point(const ArrayView<double> &properties,
-                        const Tensor<2, dim>    &f)
-  {
-    const Tensor<2, dim> F = f * BoundaryView<dim>(properties).deformation();
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        properties[BoundarySlots<dim>::deformation + i * dim + j] = F[i][j];
-  }
 } // namespace Morula
 
 #endif

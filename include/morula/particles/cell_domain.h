@@ -15,18 +15,18 @@ namespace Morula
    * deformation counts: a cell that grows to double length and divides leaves
    * two of the shape that it had, though F stays doubled.
    */
-  template <int dim, typename Number>
+  template <int dim>
   ParticleDomain<dim>
-  cell_domain(const Point<dim> &x, const CellView<dim, Number> &cell)
+  cell_domain(const Point<dim> &x, const CellView<dim, const double> &cell)
   {
-    if (cell.layout().division_axis == CellSlots<dim>::absent)
+    if (!cell.columns().parent.exists())
       return ParticleDomain<dim>(x,
                                  std::pow(cell.initial_volume(), 1. / dim) *
-                                   cell.deformation());
+                                   cell.F());
     const double grown = cell.initial_volume() * determinant(cell.growth());
     return ParticleDomain<dim>(x,
                                std::pow(grown, 1. / dim) *
-                                 elastic_deformation(cell));
+                                 cell.elastic_deformation());
   }
 } // namespace Morula
 

@@ -4,277 +4,176 @@
 #ifndef morula_particles_cell_state_h
 #define morula_particles_cell_state_h
 
-#include <deal.II/base/array_view.h>
-#include <deal.II/base/numbers.h>
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
+#include <morula/particles/columns.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <type_traits>
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
 namespace Morula
 {
   using namespace dealii;
 
   /**
-   * Where the named quantities of a biological cell stand in its particle's
-   * property array. Only the slots that the scene's effects need exist; the
-   * others are `absent` and take no storage.
+   * The columns of the cells. Every cell has the first three; effects declare
+   * what else they need, and what no effect needs takes no storage.
    */
   template <int dim>
-  struct CellSlots
+  class CellColumns : public Columns
   {
-    static constexpr unsigned int absent = numbers::invalid_unsigned_int;
+  public:
+    /** What every cell has. */
+    CellColumns();
 
-    /** Slots of a scene with these effects. */
-    CellSlots(const bool growing, const bool proliferating)
-    {
-      if (growing || proliferating)
-        growth = add(dim * dim);
-      if (proliferating)
-        {
-          parent        = add(1);
-          generation    = add(1);
-          phase         = add(1);
-          event_time    = add(1);
-          lineage_key   = add(2);
-          division_axis = add(dim);
-          growth_pre    = add(dim * dim);
-        }
-    }
+    /** Declares growth unless it is declared: for all that makes cells grow. */
+    void
+    need_growth();
 
-    unsigned int n_slots = 0;
+    /** Declares parent and generation unless they are declared: for all that
+     *  makes cells divide. */
+    void
+    need_lineage();
 
-    /** Initial position of the founder, µm (dim). */
-    unsigned int founder_position = add(dim);
+    /** The row of a founder at @p X (µm) of this volume (µm^dim). */
+    std::vector<double>
+    founder(const Point<dim> &X, const double volume) const;
+
+    /** Initial position of the founder, µm. */
+    Column<Point<dim>> founder_position;
     /** V⁰, µm^dim: the founder's, halved at every division. */
-    unsigned int initial_volume = add(1);
-    /** F, row by row (dim x dim). */
-    unsigned int deformation = add(dim * dim);
-    /** F_g at the time of the state (dim x dim). */
-    unsigned int growth = absent;
+    Column<double> initial_volume;
+    /** F. */
+    Column<Tensor<2, dim>> deformation;
+    /** F_g at the time of the state. */
+    Column<Tensor<2, dim>> growth;
     /** Id of the mother, -1 for founders. */
-    unsigned int parent = absent;
+    Column<int> parent;
     /** Number of divisions since the founder. */
-    unsigned int generation = absent;
-    /** A CyclePhase as a number. */
-    unsigned int phase = absent;
-    /** End of the G0 wait, or onset t_S of the running cycle, day. */
-    unsigned int event_time = absent;
-    /** The two 32-bit halves of the key of the random numbers (2). */
-    unsigned int lineage_key = absent;
-    /** n_s (dim). */
-    unsigned int division_axis = absent;
-    /** F_g of the cycle before the onset of S (dim x dim). */
-    unsigned int growth_pre = absent;
-
-  private:
-    unsigned int
-    add(const unsigned int size)
-    {
-      n_slots += size;
-      return n_slots - size;
-    }
+    Column<unsigned int> generation;
   };
 
   /**
-   * Named view on one particle's property array; does not own the data.
-   * Number is `double` (may write) or `const double`.
+   * One cell: its row of numbers by the names of the columns. Does not own
+   * them. Number is `double` (may write) or `const double`.
    */
   template <int dim, typename Number>
   class CellView
   {
   public:
-    CellView(const ArrayView<Number> &data, const CellSlots<dim> &slots)
-      : data(data)
-      , slots(slots)
+    /** @param columns must outlive this */
+    CellView(const ArrayView<Number> &row, const CellColumns<dim> &columns)
+      : row_(row)
+      , columns_(columns)
     {}
 
+    /** Who may write may read. */
+    CellView(const CellView<dim, double> &other)
+      : row_(other.row_)
+      , columns_(other.columns_)
+    {}
+
+    /** The value in a column that exists. */
+    template <typename T>
+    T
+    get(const Column<T> &column) const
+    {
+      return column.get(row_);
+    }
+
+    /** Writes it. */
+    template <typename T>
+    void
+    set(const Column<T> &column, const typename Column<T>::Type &value) const
+    {
+      column.set(row_, value);
+    }
+
+    /** Initial position of the founder, µm. */
     Point<dim>
     founder_position() const
     {
-      Point<dim> X;
-      for (unsigned int d = 0; d < dim; ++d)
-        X[d] = data[slots.founder_position + d];
-      return X;
+      return get(columns_.founder_position);
     }
 
+    /** V⁰, µm^dim. */
     double
     initial_volume() const
     {
-      return data[slots.initial_volume];
+      return get(columns_.initial_volume);
     }
 
+    /** F, the deformation gradient since t = 0. */
     Tensor<2, dim>
-    deformation() const
+    F() const
     {
-      return tensor(slots.deformation);
+      return get(columns_.deformation);
     }
 
     /** F_g; the identity where no effect grows. */
     Tensor<2, dim>
     growth() const
     {
-      return slots.growth == CellSlots<dim>::absent ? identity() :
-                                                      tensor(slots.growth);
+      return columns_.growth.exists() ?
+               get(columns_.growth) :
+               Tensor<2, dim>(unit_symmetric_tensor<dim>());
     }
 
+    /** Id of the mother; -1 for founders. */
     int
     parent() const
     {
-      return slots.parent == CellSlots<dim>::absent ?
-               -1 :
-               static_cast<int>(data[slots.parent]);
+      return columns_.parent.exists() ? get(columns_.parent) : -1;
     }
 
+    /** Number of divisions since the founder. */
     unsigned int
     generation() const
     {
-      return slots.generation == CellSlots<dim>::absent ?
-               0 :
-               static_cast<unsigned int>(data[slots.generation]);
+      return columns_.generation.exists() ? get(columns_.generation) : 0;
     }
 
-    /** A scalar slot that must exist. */
+    /** V = V⁰ det F, µm^dim: doc/theory.md (1.2), equation (8) of the paper. */
     double
-    scalar(const unsigned int slot) const
+    volume() const
     {
-      return data[slot];
+      return initial_volume() * determinant(F());
     }
 
-    /** Sets the number in a slot. */
-    void
-    set_scalar(const unsigned int slot, const double value) const
-    {
-      data[slot] = value;
-    }
-
-    /** The vector that begins in a slot. */
-    Tensor<1, dim>
-    vector(const unsigned int slot) const
-    {
-      Tensor<1, dim> v;
-      for (unsigned int d = 0; d < dim; ++d)
-        v[d] = data[slot + d];
-      return v;
-    }
-
-    /** Sets the vector that begins in a slot. */
-    void
-    set_vector(const unsigned int slot, const Tensor<1, dim> &v) const
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        data[slot + d] = v[d];
-    }
-
-    /** The tensor that begins in a slot, row by row. */
+    /** F_e = F F_g⁻¹, equation (1.3). */
     Tensor<2, dim>
-    tensor(const unsigned int slot) const
+    elastic_deformation() const
     {
-      Tensor<2, dim> t;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          t[i][j] = data[slot + i * dim + j];
-      return t;
+      return F() * invert(growth());
     }
 
-    /** Sets the tensor that begins in a slot. */
-    void
-    set_tensor(const unsigned int slot, const Tensor<2, dim> &t) const
+    /** J_e = det F / det F_g. */
+    double
+    elastic_volume_ratio() const
     {
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          data[slot + i * dim + j] = t[i][j];
+      return determinant(F()) / determinant(growth());
     }
 
-    const CellSlots<dim> &
-    layout() const
+    /** All numbers, to be copied. */
+    const ArrayView<Number> &
+    row() const
     {
-      return slots;
+      return row_;
     }
 
-    ArrayView<Number>
-    raw() const
+    /** The columns of all cells. */
+    const CellColumns<dim> &
+    columns() const
     {
-      return data;
+      return columns_;
     }
 
   private:
-    static Tensor<2, dim>
-    identity()
-    {
-      Tensor<2, dim> I;
-      for (unsigned int d = 0; d < dim; ++d)
-        I[d][d] = 1.;
-      return I;
-    }
+    template <int, typename>
+    friend class CellView;
 
-    ArrayView<Number>     data;
-    const CellSlots<dim> &slots;
-  };
-
-  /** V = V⁰ det F, µm^dim: doc/theory.md (1.2), equation (8) of the paper. */
-  template <int dim, typename Number>
-  double
-  volume(const CellView<dim, Number> &cell)
-  {
-    return cell.initial_volume() * determinant(cell.deformation());
-  }
-
-  /** F_e = F F_g⁻¹, equation (1.3). */
-  template <int dim, typename Number>
-  Tensor<2, dim>
-  elastic_deformation(const CellView<dim, Number> &cell)
-  {
-    return cell.deformation() * invert(cell.growth());
-  }
-
-  /** J_e = det F / det F_g. */
-  template <int dim, typename Number>
-  double
-  elastic_volume_ratio(const CellView<dim, Number> &cell)
-  {
-    return determinant(cell.deformation()) / determinant(cell.growth());
-  }
-
-  /**
-   * The property array of a boundary point: the same for every scene, followed
-   * by those of its patch where the scene refines the surface.
-   */
-  template <int dim>
-  struct BoundarySlots
-  {
-    /** Initial position X, µm. */
-    static constexpr unsigned int initial_position = 0;
-    /** Initial outward unit normal N. */
-    static constexpr unsigned int initial_normal = dim;
-    /** Initial area a⁰, µm^(dim-1). */
-    static constexpr unsigned int initial_area = 2 * dim;
-    /** A SurfaceCondition as a number. */
-    static constexpr unsigned int condition = 2 * dim + 1;
-    /** F, row by row. */
-    static constexpr unsigned int deformation = 2 * dim + 2;
-    static constexpr unsigned int n_slots     = 2 * dim + 2 + dim * dim;
-
-    // Only where the scene refines the surface:
-    /** Initial position of the point of t = 0 that this one is a part of, µm.
-     */
-    static constexpr unsigned int seed_position = n_slots;
-    /** The patch's dim-1 tangential edges in the initial configuration, one
-     *  after the other, µm. They span a⁰. */
-    static constexpr unsigned int edges = n_slots + dim;
-    static constexpr unsigned int n_slots_with_patch =
-      n_slots + dim + (dim - 1) * dim;
-  };
-
-  /** What holds or loads a boundary point; numbers as in surface-NNNN.csv. */
-  enum class SurfaceCondition
-  {
-    free   = 0,
-    fixed  = 1,
-    slip   = 2,
-    loaded = 3
+    ArrayView<Number>       row_;
+    const CellColumns<dim> &columns_;
   };
 } // namespace Morula
 

@@ -8,19 +8,25 @@
 #include <morula/particles/point_store.h>
 
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace Morula
 {
-  /** What is wanted of a point, given by its position in PointStore::order():
-   *  append(p, list) adds @p n numbers to the list. Of several points that are
-   *  equally near the mean, which is the same in any frame, or else what is
-   *  wanted of the one with the lowest id. */
-  struct WantedProperties
+  /** What counts where several points are equally near. */
+  enum class Ties
+  {
+    mean,     // of all of them, which is the same in any frame
+    lowest_id // only the one with the lowest id
+  };
+
+  /** What is wanted of a point, given by its position p in the canonical order:
+   *  append(p, list) adds @p n numbers to the list. */
+  struct WantedNumbers
   {
     unsigned int                                             n;
     std::function<void(unsigned int, std::vector<double> &)> append;
-    bool                                                     mean_of_ties;
+    Ties                                                     ties;
   };
 
   /**
@@ -30,10 +36,31 @@ namespace Morula
    */
   template <int dim>
   std::vector<double>
-  nearest_properties(const std::vector<Point<dim>> &queries,
-                     const PointStore<dim>         &points,
-                     const WantedProperties        &wanted,
-                     const BackgroundGrid<dim>     &grid);
+  nearest_numbers(const std::vector<Point<dim>> &queries,
+                  const PointStore<dim>         &points,
+                  const WantedNumbers           &wanted,
+                  const BackgroundGrid<dim>     &grid);
+
+  /** The same for the values value(p) of a type that is Flat. */
+  template <int dim, typename Value>
+  auto
+  nearest_values(const std::vector<Point<dim>> &queries,
+                 const PointStore<dim>         &points,
+                 const Value                   &value,
+                 const Ties                     ties,
+                 const BackgroundGrid<dim>     &grid)
+  {
+    using T           = std::invoke_result_t<Value, unsigned int>;
+    const auto append = [&](const unsigned int p, std::vector<double> &list) {
+      append_flat(list, value(p));
+    };
+    const std::vector<double> numbers =
+      nearest_numbers(queries, points, {Flat<T>::n, append, ties}, grid);
+    std::vector<T> values;
+    for (std::size_t first = 0; first < numbers.size(); first += Flat<T>::n)
+      values.push_back(Flat<T>::read(&numbers[first]));
+    return values;
+  }
 } // namespace Morula
 
 #endif

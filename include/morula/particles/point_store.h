@@ -5,6 +5,7 @@
 #define morula_particles_point_store_h
 
 #include <morula/grid/background_grid.h>
+#include <morula/particles/columns.h>
 #include <morula/particles/point_list.h>
 
 #include <deal.II/fe/mapping_q1.h>
@@ -25,17 +26,15 @@ namespace Morula
   class PointStore
   {
   public:
-    using Iterator =
-      typename Particles::ParticleHandler<dim>::particle_iterator;
-
-    /** The points of one grid cell: `order()[begin...end)`. */
+    /** The points of one grid cell: those from begin to end - 1. */
     struct GridCell
     {
       unsigned int number; // of the grid cell in the box
       unsigned int begin, end;
     };
 
-    explicit PointStore(const unsigned int n_slots);
+    /** @param n_numbers in a point's row */
+    explicit PointStore(const unsigned int n_numbers);
 
     /**
      * Binds the store to the grid's present triangulation. All points must
@@ -59,12 +58,12 @@ namespace Morula
     move(const std::vector<Point<dim>> &positions,
          const BackgroundGrid<dim>     &grid);
 
-    /** Removes these points of this rank, and inserts others as insert() does.
-     *  Collective. */
+    /** Removes these points of this rank, given by their positions in the
+     *  order, and inserts others as insert() does. Collective. */
     void
-    replace(const std::vector<Iterator> &removed,
-            const PointList<dim>        &inserted,
-            const BackgroundGrid<dim>   &grid);
+    replace(const std::vector<unsigned int> &removed,
+            const PointList<dim>            &inserted,
+            const BackgroundGrid<dim>       &grid);
 
     /** Takes all points of this rank out of the store. */
     void
@@ -78,7 +77,6 @@ namespace Morula
      * Puts the points of this rank in memory in the canonical order, if many
      * have been replaced or have changed their grid cell since they last were:
      * what goes through them in this order is then several times as fast.
-     * Invalidates iterators.
      */
     void
     defragment(const BackgroundGrid<dim> &grid);
@@ -91,18 +89,69 @@ namespace Morula
     const std::vector<GridCell> &
     grid_cells() const;
 
-    /** All points of this rank in the canonical order. */
-    const std::vector<Iterator> &
-    order() const;
-
-    /** Properties of the point order()[p], to be changed. */
-    ArrayView<double>
-    properties(const unsigned int p);
-
+    /** How many points this rank has. */
     unsigned int
-    n_slots() const;
+    size() const
+    {
+      return order.size();
+    }
+
+    /** Id of the point at position @p p of the canonical order. */
+    types::particle_index
+    id(const unsigned int p) const
+    {
+      return order[p]->get_id();
+    }
+
+    /** Where it is, µm. */
+    const Point<dim> &
+    position(const unsigned int p) const
+    {
+      return order[p]->get_location();
+    }
+
+    /** Where all points of this rank are, µm. */
+    std::vector<Point<dim>>
+    positions() const;
+
+    /** The value in a column. */
+    template <typename T>
+    T
+    get(const Column<T> &column, const unsigned int p) const
+    {
+      return column.get(row(p));
+    }
+
+    /** Writes it. */
+    template <typename T>
+    void
+    set(const Column<T>                &column,
+        const unsigned int              p,
+        const typename Column<T>::Type &value)
+    {
+      column.set(row(p), value);
+    }
+
+  protected:
+    /** Its row of numbers. */
+    ArrayView<const double>
+    row(const unsigned int p) const
+    {
+      const Particles::ParticleAccessor<dim> &point = *order[p];
+      return point.get_properties();
+    }
+
+    /** The same, to be written. */
+    ArrayView<double>
+    row(const unsigned int p)
+    {
+      return order[p]->get_properties();
+    }
 
   private:
+    using Iterator =
+      typename Particles::ParticleHandler<dim>::particle_iterator;
+
     /** Inserts points of this rank's grid cells, in their canonical order. */
     void
     insert_own(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
@@ -114,14 +163,14 @@ namespace Morula
     void
     reserve(const std::size_t n);
 
-    const unsigned int n_slots_;
+    const unsigned int n_numbers;
     std::size_t        capacity = 0; // points there is room for
     /** Points inserted since all of them were in order in memory. */
     std::size_t                     n_disordered = 0;
     MappingQ1<dim>                  mapping;
     Particles::ParticleHandler<dim> handler;
     std::vector<GridCell>           grid_cells_;
-    std::vector<Iterator>           order_;
+    std::vector<Iterator>           order;
   };
 
   /**

@@ -4,6 +4,7 @@
 #ifndef morula_particles_surface_refinement_h
 #define morula_particles_surface_refinement_h
 
+#include <morula/particles/boundary_state.h>
 #include <morula/particles/point_list.h>
 
 #include <mpi.h>
@@ -23,15 +24,6 @@ namespace Morula
   };
 
   /**
-   * The properties of a boundary point (initial_boundary_slots()) followed by
-   * those of its patch, which is square: doc/theory.md, section 4.5. Its edges
-   * are parallel to the axes where the normal is.
-   */
-  template <int dim>
-  std::vector<double>
-  with_patch(std::vector<double> slots);
-
-  /**
    * Splits every boundary point whose patch has an edge F E, doc/theory.md
    * (4.11), longer than @p longest_edge (µm) in two along its longest edge,
    * again and again until none is left: each takes half of the area and stands
@@ -47,7 +39,8 @@ namespace Morula
    * crumpled, and further points would be carried apart like these, ever more
    * of them.
    *
-   * @param points  this rank's boundary points, with patches
+   * @param points  this rank's boundary points
+   * @param columns of these, with patches
    * @param crowded whether there are enough points around a place already
    * @param next_id first free id, the same on all ranks; advanced
    * @return whether any rank has split a point. Collective.
@@ -57,6 +50,7 @@ namespace Morula
   template <int dim>
   bool
   refine_surface(PointList<dim>                                &points,
+                 const BoundaryColumns<dim>                    &columns,
                  const double                                   longest_edge,
                  const std::function<bool(const Point<dim> &)> &crowded,
                  types::particle_index                         &next_id,

@@ -7,8 +7,8 @@
 #include <morula/grid/background_grid.h>
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/spline_space.h>
-#include <morula/particles/cell_state.h>
-#include <morula/particles/point_store.h>
+#include <morula/particles/boundary_points.h>
+#include <morula/particles/cells.h>
 
 #include <vector>
 
@@ -22,11 +22,12 @@ namespace Morula
   class Tissue
   {
   public:
-    /** @param n_boundary_slots properties of a boundary point */
-    Tissue(const GridParameters &parameters,
-           const CellSlots<dim> &slots,
-           const MPI_Comm        comm,
-           const unsigned int n_boundary_slots = BoundarySlots<dim>::n_slots);
+    /** A tissue of no cells yet, which will have these columns. */
+    Tissue(
+      const GridParameters       &parameters,
+      const CellColumns<dim>     &cell_columns,
+      const MPI_Comm              comm,
+      const BoundaryColumns<dim> &boundary_columns = BoundaryColumns<dim>());
 
     /**
      * Takes these points as the tissue, wherever they are; this rank gives any
@@ -38,20 +39,20 @@ namespace Morula
 
     /**
      * Moves this rank's cells and boundary points to these positions (µm), in
-     * the order of their stores; what has been written to cell_properties() and
-     * boundary_properties() goes with them. Collective.
+     * the order of their stores; what has been written to cell() and
+     * boundary_point() goes with them. Collective.
      */
     void
     move(const std::vector<Point<dim>> &cells,
          const std::vector<Point<dim>> &boundary_points);
 
-    /** Properties of this rank's points, by position in their stores. */
-    ArrayView<double>
-    cell_properties(const unsigned int p);
+    /** Cell @p p of this rank, to be written. */
+    CellView<dim, double>
+    cell(const unsigned int p);
 
-    /** The same of a boundary point. */
-    ArrayView<double>
-    boundary_properties(const unsigned int p);
+    /** Boundary point @p p of this rank, to be written. */
+    BoundaryView<dim, double>
+    boundary_point(const unsigned int p);
 
     /**
      * The same as place() on a given box and partition, as they were when a
@@ -64,10 +65,11 @@ namespace Morula
             const GridIndex<dim>            &n,
             const std::vector<unsigned int> &weights);
 
-    /** Removes mothers and inserts daughters. Collective. */
+    /** Removes mothers, given by their positions in cells(), and inserts
+     *  daughters. Collective. */
     void
-    replace(const std::vector<typename PointStore<dim>::Iterator> &mothers,
-            const PointList<dim>                                  &daughters);
+    replace(const std::vector<unsigned int> &mothers,
+            const PointList<dim>            &daughters);
 
     /** Takes these boundary points in place of the present ones. Collective. */
     void
@@ -87,23 +89,16 @@ namespace Morula
     const BackgroundGrid<dim> &
     grid() const;
 
-    const PointStore<dim> &
+    const Cells<dim> &
     cells() const;
 
-    const PointStore<dim> &
+    const BoundaryPoints<dim> &
     boundary_points() const;
 
-    const CellSlots<dim> &
-    slots() const;
-
-    /** State of a cell of this rank. */
-    CellView<dim, const double>
-    cell(const typename PointStore<dim>::Iterator &particle) const;
-
-    /** The box that a cell of this rank occupies: its cube, deformed where
+    /** The box that cell @p p of this rank occupies: its cube, deformed where
      *  cells have several points by the scene's wish, doc/theory.md (2.2b). */
     ParticleDomain<dim>
-    domain(const typename PointStore<dim>::Iterator &particle) const;
+    domain(const unsigned int p) const;
 
     MPI_Comm
     communicator() const;
@@ -114,16 +109,15 @@ namespace Morula
     balanced(const std::vector<unsigned int> &counts) const;
 
     const GridParameters parameters;
-    const CellSlots<dim> slots_;
     BackgroundGrid<dim>  grid_;
-    PointStore<dim>      cells_;
-    PointStore<dim>      boundary_points_;
+    Cells<dim>           cells_;
+    BoundaryPoints<dim>  boundary_points_;
   };
 
   /**
    * A selection of a store's points by active grid cell: the selected points
    * of active grid cell c are points[offsets[c]...offsets[c+1]), as positions
-   * in PointStore::order().
+   * in the store.
    */
   struct PointGroups
   {
@@ -131,7 +125,7 @@ namespace Morula
     std::vector<unsigned int> points;
   };
 
-  /** Groups the points for which select(iterator) holds. */
+  /** Groups the points for which select(p) holds. */
   template <int dim, typename Select>
   PointGroups
   group_points(const PointStore<dim>  &store,
@@ -146,7 +140,7 @@ namespace Morula
         if (cell != store.grid_cells().end() && cell->number == active.number)
           {
             for (unsigned int p = cell->begin; p < cell->end; ++p)
-              if (select(store.order()[p]))
+              if (select(p))
                 groups.points.push_back(p);
             ++cell;
           }

@@ -16,7 +16,7 @@ namespace Morula
   /**
    * Seeds the tissue, makes all checks, and prints on rank 0 what the scene
    * will simulate: number of cells and boundary points, which effects are on
-   * and which are off, the slots that every particle carries, cells and memory
+   * and which are off, the columns of a cell, cells and memory
    * to expect, also estimates of unknowns and time, and the warnings.
    * Simulates nothing and writes no file. Collective.
    * @param n_unknowns counts those of the first step; called when all checks

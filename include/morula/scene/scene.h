@@ -157,6 +157,11 @@ namespace Morula
   std::unique_ptr<const GrowthLaw<dim>>
   growth_law_of(const Scene &scene);
 
+  /** The columns that the scene's effects need in a cell. */
+  template <int dim>
+  CellColumns<dim>
+  cell_columns_of(const Scene &scene);
+
   /** The scene's rule for the axes of divisions, or null where the cell cycle
    *  draws them. @throws InputError */
   template <int dim>

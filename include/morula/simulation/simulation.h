@@ -72,8 +72,6 @@ namespace Morula
     void
     restore();
     void
-    check_points(const SnapshotData<dim> &data) const; // InputError
-    void
     check_resumed_cycle() const; // Step may have changed
 
     void

@@ -4,37 +4,33 @@
 #include <morula/effects/division/divide.h>
 #include <morula/effects/division/numbering.h>
 #include <morula/effects/division/wall_distance.h>
-#include <morula/particles/boundary_state.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace Morula
 {
   namespace
   {
-    /** The dividing cells as the Voronoi room sees them. */
+    /** The dividing cells as daughter_distances() sees them. */
     template <int dim>
     std::vector<DividingCell<dim>>
     dividing_cells(const Tissue<dim>               &tissue,
-                   const CellCycle<dim>            &cycle,
+                   const CellGrowth<dim>           &growth,
                    const std::vector<unsigned int> &due)
     {
+      const Cells<dim>              &cells = tissue.cells();
       std::vector<DividingCell<dim>> list;
-      for (const unsigned int i : due)
-        {
-          const auto &particle                   = tissue.cells().order()[i];
-          const CellView<dim, const double> cell = tissue.cell(particle);
-          list.push_back({particle->get_id(),
-                          particle->get_location(),
-                          cycle.placement_axis(CycleState<dim>::load(cell),
-                                               elastic_deformation(cell)),
-                          std::pow(volume(cell), 1. / dim)});
-        }
+      for (const unsigned int p : due)
+        list.push_back(
+          {cells.id(p),
+           cells.position(p),
+           growth.cycle()->placement_axis(growth.clock(cells[p]),
+                                          cells[p].elastic_deformation()),
+           std::pow(cells.volume(p), 1. / dim)});
       return list;
     }
 
@@ -44,16 +40,9 @@ namespace Morula
     neighborhood(const Tissue<dim> &tissue, const double reach)
     {
       PointList<dim> points;
-      for (const auto &particle : tissue.cells().order())
-        {
-          points.ids.push_back(particle->get_id());
-          points.positions.push_back(particle->get_location());
-        }
-      const PointList<dim> others = halo(points, tissue.grid(), reach);
-      points.ids.insert(points.ids.end(), others.ids.begin(), others.ids.end());
-      points.positions.insert(points.positions.end(),
-                              others.positions.begin(),
-                              others.positions.end());
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        points.add(tissue.cells().id(p), tissue.cells().position(p), {});
+      points.append(halo(points, tissue.grid(), reach));
       return points;
     }
 
@@ -63,70 +52,66 @@ namespace Morula
     std::vector<WallPoint<dim>>
     walls(const Tissue<dim> &tissue, const double longest)
     {
-      PointList<dim> points;
-      double         largest_spacing = 0.;
-      points.n_slots                 = dim + 1;
-      for (const auto &particle : tissue.boundary_points().order())
+      // present normal and spacing
+      using Patch                      = std::tuple<Tensor<1, dim>, double>;
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      PointList<dim>             points(Flat<Patch>::n);
+      double                     largest_spacing = 0.;
+      for (unsigned int p = 0; p < store.size(); ++p)
         {
-          const BoundaryView<dim> point(boundary_properties<dim>(particle));
+          const auto point = store[p];
           if (point.condition() != SurfaceCondition::fixed &&
               point.condition() != SurfaceCondition::slip)
             continue;
-          points.ids.push_back(particle->get_id());
-          points.positions.push_back(particle->get_location());
-          const Tensor<1, dim> area = point.area_vector();
-          for (unsigned int d = 0; d < dim; ++d)
-            points.properties.push_back(area[d] / area.norm());
-          points.properties.push_back(point.spacing());
-          largest_spacing = std::max(largest_spacing, points.properties.back());
+          const Tensor<1, dim> area    = point.area_vector();
+          const double         spacing = point.spacing();
+          points.add_value(store.id(p),
+                           store.position(p),
+                           Patch(area / area.norm(), spacing));
+          largest_spacing = std::max(largest_spacing, spacing);
         }
-      std::vector<WallPoint<dim>> list;
       largest_spacing =
         Utilities::MPI::max(largest_spacing, tissue.communicator());
-      const PointList<dim> others =
-        halo(points, tissue.grid(), longest + largest_spacing);
-      for (const PointList<dim> *from :
-           std::array<const PointList<dim> *, 2>{{&points, &others}})
-        for (std::size_t i = 0; i < from->size(); ++i)
-          {
-            const double  *slots = &from->properties[i * from->n_slots];
-            Tensor<1, dim> normal;
-            for (unsigned int d = 0; d < dim; ++d)
-              normal[d] = slots[d];
-            list.push_back({from->positions[i], normal, slots[dim]});
-          }
+      points.append(halo(points, tissue.grid(), longest + largest_spacing));
+      std::vector<WallPoint<dim>> list;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const auto [normal, spacing] = points.template value<Patch>(i);
+          list.push_back({points.positions[i], normal, spacing});
+        }
       return list;
     }
   } // namespace
 
   template <int dim>
   std::vector<unsigned int>
-  cells_due(const Tissue<dim>    &tissue,
-            const CellCycle<dim> &cycle,
-            const double          t)
+  cells_due(const Tissue<dim>     &tissue,
+            const CellGrowth<dim> &growth,
+            const double           t)
   {
+    const Cells<dim>         &cells = tissue.cells();
     std::vector<unsigned int> due;
-    for (unsigned int i = 0; i < tissue.cells().order().size(); ++i)
-      {
-        const auto cell = tissue.cell(tissue.cells().order()[i]);
-        if (cycle.divides(CycleState<dim>::load(cell),
-                          cell.founder_position(),
-                          t))
-          due.push_back(i);
-      }
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      if (growth.cycle()->divides(growth.clock(cells[p]),
+                                  cells.founder_position(p),
+                                  t))
+        due.push_back(p);
     return due;
   }
 
   template <int dim>
   std::vector<Birth<dim>>
   divide(Tissue<dim>                     &tissue,
-         const CellCycle<dim>            &cycle,
+         const CellGrowth<dim>           &growth,
          const std::vector<unsigned int> &due,
          types::particle_index           &next_id)
   {
-    const MPI_Comm comm     = tissue.communicator();
-    const auto     dividing = dividing_cells(tissue, cycle, due);
-    double         longest  = 0.;
+    const MPI_Comm          comm     = tissue.communicator();
+    const Cells<dim>       &cells    = tissue.cells();
+    const CellColumns<dim> &columns  = cells.columns();
+    const CellCycle<dim>   &cycle    = *growth.cycle();
+    const auto              dividing = dividing_cells(tissue, growth, due);
+    double                  longest  = 0.;
     for (const auto &cell : dividing)
       longest = std::max(longest, cell.length);
     longest = Utilities::MPI::max(longest, comm);
@@ -138,64 +123,49 @@ namespace Morula
                                               walls(tissue, longest),
                                               tissue.grid().box());
 
-    std::vector<DivisionEvent>                      events;
-    std::vector<typename PointStore<dim>::Iterator> mothers;
-    for (const unsigned int i : due)
-      {
-        mothers.push_back(tissue.cells().order()[i]);
-        const auto cell = tissue.cell(mothers.back());
-        events.push_back({cycle.division_time(CycleState<dim>::load(cell),
-                                              cell.founder_position()),
-                          mothers.back()->get_id()});
-      }
+    std::vector<DivisionEvent> events;
+    for (const unsigned int p : due)
+      events.push_back(
+        {cycle.division_time(growth.clock(cells[p]), cells.founder_position(p)),
+         cells.id(p)});
     const auto first_ids = number_daughters(events, next_id, comm);
 
-    PointList<dim>          daughters;
+    PointList<dim>          daughters(columns.n_numbers());
     std::vector<Birth<dim>> births;
-    const CellSlots<dim>   &slots = tissue.slots();
-    daughters.n_slots             = slots.n_slots;
-    for (std::size_t k = 0; k < mothers.size(); ++k)
+    for (std::size_t k = 0; k < due.size(); ++k)
       {
-        const CellView<dim, const double> mother = tissue.cell(mothers[k]);
-        const auto [minus, plus] =
-          cycle.daughters(CycleState<dim>::load(mother));
+        const auto         mother     = cells[due[k]];
+        const unsigned int generation = mother.generation() + 1;
+        const auto [minus, plus]      = cycle.daughters(growth.clock(mother));
         for (unsigned int which = 0; which < 2; ++which)
           {
-            std::vector<double>         properties(mother.raw().begin(),
-                                           mother.raw().end());
-            const CellView<dim, double> daughter(make_array_view(properties),
-                                                 slots);
-            (which == 0 ? minus : plus).store(daughter);
-            daughter.set_scalar(slots.initial_volume,
-                                0.5 * mother.initial_volume());
-            daughter.set_scalar(slots.parent, events[k].mother);
-            daughter.set_scalar(slots.generation, mother.generation() + 1);
+            std::vector<double>         row = columns.daughter(mother.row());
+            const CellView<dim, double> daughter(make_array_view(row), columns);
+            growth.set_clock(daughter, which == 0 ? minus : plus);
+            daughter.set(columns.parent, static_cast<int>(events[k].mother));
+            daughter.set(columns.generation, generation);
 
             const Point<dim> position =
               dividing[k].position +
               (which == 0 ? -1. : 1.) * distances[k][which] * dividing[k].axis;
-            daughters.ids.push_back(first_ids[k] + which);
-            daughters.positions.push_back(position);
-            daughters.properties.insert(daughters.properties.end(),
-                                        properties.begin(),
-                                        properties.end());
+            daughters.add(first_ids[k] + which, position, make_array_view(row));
             births.push_back({first_ids[k] + which,
                               static_cast<int>(events[k].mother),
-                              mother.generation() + 1,
+                              generation,
                               events[k].time,
                               position});
           }
       }
-    tissue.replace(mothers, daughters);
+    tissue.replace(due, daughters);
     return births;
   }
 
 #define INSTANTIATE(dim)                                                   \
   template std::vector<unsigned int> cells_due(const Tissue<dim> &,        \
-                                               const CellCycle<dim> &,     \
+                                               const CellGrowth<dim> &,    \
                                                const double);              \
   template std::vector<Birth<dim>>   divide(Tissue<dim> &,                 \
-                                            const CellCycle<dim> &,        \
+                                            const CellGrowth<dim> &,       \
                                             const std::vector<unsigned> &, \
                                             types::particle_index &);
   INSTANTIATE(2)

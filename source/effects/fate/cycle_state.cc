@@ -6,51 +6,51 @@
 namespace Morula
 {
   template <int dim>
-  template <typename Number>
-  CycleState<dim>
-  CycleState<dim>::load(const CellView<dim, Number> &cell)
+  CycleColumns<dim>::CycleColumns(CellColumns<dim> &columns)
   {
-    const CellSlots<dim> &slots = cell.layout();
+    columns.need_growth();
+    columns.need_lineage();
+    phase = columns.template add<CyclePhase>(
+      {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
+    event_time = columns.template add<double>(
+      {"event_time", "day", "end of the G0 wait, or onset of S"});
+    lineage_key = columns.template add<std::uint64_t>(
+      {"lineage_key", "", "key of the random numbers"});
+    division_axis = columns.template add<Tensor<1, dim>>(
+      {"division_axis", "", "n_s of the running cycle"});
+    growth_pre = columns.template add<Tensor<2, dim>>(
+      {"growth_before_the_cycle",
+       "",
+       "F_g of the cycle before the onset of S",
+       Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+  }
 
-    const auto half = [&](const unsigned int i) {
-      return static_cast<std::uint64_t>(cell.scalar(slots.lineage_key + i));
-    };
 
-    CycleState state;
-    state.phase =
-      static_cast<CyclePhase>(static_cast<int>(cell.scalar(slots.phase)));
-    state.event_time = cell.scalar(slots.event_time);
-    state.key        = half(0) | (half(1) << 32);
-    state.axis       = cell.vector(slots.division_axis);
-    state.growth_pre = cell.tensor(slots.growth_pre);
-    return state;
+  template <int dim>
+  CycleState<dim>
+  CycleColumns<dim>::load(const CellView<dim, const double> &cell) const
+  {
+    return {cell.get(phase),
+            cell.get(event_time),
+            cell.get(lineage_key),
+            cell.get(division_axis),
+            cell.get(growth_pre)};
   }
 
 
   template <int dim>
   void
-  CycleState<dim>::store(const CellView<dim, double> &cell) const
+  CycleColumns<dim>::store(const CycleState<dim>       &state,
+                           const CellView<dim, double> &cell) const
   {
-    const CellSlots<dim> &slots = cell.layout();
-
-    cell.set_scalar(slots.phase, static_cast<int>(phase));
-    cell.set_scalar(slots.event_time, event_time);
-    cell.set_scalar(slots.lineage_key, static_cast<std::uint32_t>(key));
-    cell.set_scalar(slots.lineage_key + 1,
-                    static_cast<std::uint32_t>(key >> 32));
-    cell.set_vector(slots.division_axis, axis);
-    cell.set_tensor(slots.growth_pre, growth_pre);
+    cell.set(phase, state.phase);
+    cell.set(event_time, state.event_time);
+    cell.set(lineage_key, state.key);
+    cell.set(division_axis, state.axis);
+    cell.set(growth_pre, state.growth_pre);
   }
 
 
-  template struct CycleState<2>;
-  template struct CycleState<3>;
-  template CycleState<2>
-  CycleState<2>::load(const CellView<2, double> &);
-  template CycleState<2>
-  CycleState<2>::load(const CellView<2, const double> &);
-  template CycleState<3>
-  CycleState<3>::load(const CellView<3, double> &);
-  template CycleState<3>
-  CycleState<3>::load(const CellView<3, const double> &);
+  template class CycleColumns<2>;
+  template class CycleColumns<3>;
 } // namespace Morula

@@ -12,7 +12,12 @@ namespace Morula
     : law(std::move(law))
     , cycle_(std::move(cycle))
     , rule(std::move(rule))
-  {}
+  {
+    if (this->law)
+      columns_.need_growth();
+    if (cycle_)
+      cycle_columns.emplace(columns_);
+  }
 
   template <int dim>
   bool
@@ -29,37 +34,52 @@ namespace Morula
   }
 
   template <int dim>
+  const CellColumns<dim> &
+  CellGrowth<dim>::columns() const
+  {
+    return columns_;
+  }
+
+  template <int dim>
+  CycleState<dim>
+  CellGrowth<dim>::clock(const CellView<dim, const double> &cell) const
+  {
+    return cycle_columns->load(cell);
+  }
+
+  template <int dim>
+  void
+  CellGrowth<dim>::set_clock(const CellView<dim, double> &cell,
+                             const CycleState<dim>       &state) const
+  {
+    cycle_columns->store(state, cell);
+  }
+
+  template <int dim>
   void
   CellGrowth<dim>::initialize(const types::particle_index  id,
                               const CellView<dim, double> &cell) const
   {
-    if (!present())
-      return;
-    cell.set_tensor(cell.layout().growth,
-                    Tensor<2, dim>(unit_symmetric_tensor<dim>()));
     if (!cycle_)
       return;
-    cell.set_scalar(cell.layout().parent, -1.);
-    cell.set_scalar(cell.layout().generation, 0.);
     const Point<dim> X     = cell.founder_position();
     CycleState<dim>  state = cycle_->founder(id, X);
     choose_axis(CycleState<dim>(), X, unit_symmetric_tensor<dim>(), state);
-    state.store(cell);
+    set_clock(cell, state);
   }
 
   template <int dim>
-  template <typename Number>
   CycleState<dim>
-  CellGrowth<dim>::advance(const CellView<dim, Number> &cell,
-                           const double                 t0,
-                           const double                 t1) const
+  CellGrowth<dim>::advance(const CellView<dim, const double> &cell,
+                           const double                       t0,
+                           const double                       t1) const
   {
-    const CycleState<dim> before = CycleState<dim>::load(cell);
+    const CycleState<dim> before = clock(cell);
     const Point<dim>      X      = cell.founder_position();
     CycleState<dim>       after =
-      cycle_->advance(before, X, t0, t1, elastic_volume_ratio(cell));
+      cycle_->advance(before, X, t0, t1, cell.elastic_volume_ratio());
     if (rule)
-      choose_axis(before, X, elastic_deformation(cell), after);
+      choose_axis(before, X, cell.elastic_deformation(), after);
     return after;
   }
 
@@ -78,11 +98,10 @@ namespace Morula
   }
 
   template <int dim>
-  template <typename Number>
   Tensor<2, dim>
-  CellGrowth<dim>::growth(const CellView<dim, Number> &cell,
-                          const double                 t0,
-                          const double                 t1) const
+  CellGrowth<dim>::growth(const CellView<dim, const double> &cell,
+                          const double                       t0,
+                          const double                       t1) const
   {
     const Point<dim> X = cell.founder_position();
     Tensor<2, dim>   of_cycle(unit_symmetric_tensor<dim>());
@@ -90,13 +109,12 @@ namespace Morula
     if (cycle_)
       {
         if (law)
-          of_law =
-            of_law * invert(cycle_->growth(CycleState<dim>::load(cell), X, t0));
+          of_law = of_law * invert(cycle_->growth(clock(cell), X, t0));
         of_cycle = cycle_->growth(advance(cell, t0, t1), X, t1);
       }
     if (!law)
       return of_cycle;
-    return law->growth({X, of_law, elastic_deformation(cell)}, t0, t1) *
+    return law->growth({X, of_law, cell.elastic_deformation()}, t0, t1) *
            of_cycle;
   }
 
@@ -110,13 +128,13 @@ namespace Morula
     growth_of_step.present = present();
     if (!present())
       return growth_of_step;
-    growth_of_step.previous.reserve(tissue.cells().order().size());
-    growth_of_step.current.reserve(tissue.cells().order().size());
-    for (const auto &particle : tissue.cells().order())
+    const Cells<dim> &cells = tissue.cells();
+    growth_of_step.previous.reserve(cells.size());
+    growth_of_step.current.reserve(cells.size());
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const CellView<dim, const double> cell = tissue.cell(particle);
-        growth_of_step.previous.push_back(cell.growth());
-        growth_of_step.current.push_back(growth(cell, t0, t1));
+        growth_of_step.previous.push_back(cells.growth(p));
+        growth_of_step.current.push_back(growth(cells[p], t0, t1));
       }
     return growth_of_step;
   }
@@ -131,8 +149,8 @@ namespace Morula
     if (!present())
       return;
     if (cycle_)
-      advance(cell, t0, t1).store(cell);
-    cell.set_tensor(cell.layout().growth, F_g);
+      set_clock(cell, advance(cell, t0, t1));
+    cell.set(columns_.growth, F_g);
   }
 
   template class CellGrowth<2>;

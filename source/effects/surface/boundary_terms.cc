@@ -6,9 +6,8 @@
 #include <morula/effects/surface/following_pressure.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/neo_hookean.h>
-#include <morula/particles/boundary_state.h>
+#include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
-#include <morula/particles/strays.h>
 
 #include <algorithm>
 
@@ -16,16 +15,6 @@ namespace Morula
 {
   namespace
   {
-    template <int dim>
-    using Iterator = typename PointStore<dim>::Iterator;
-
-    template <int dim>
-    BoundaryView<dim>
-    view(const Iterator<dim> &point)
-    {
-      return BoundaryView<dim>(boundary_properties<dim>(point));
-    }
-
     bool
     is_dirichlet(const SurfaceCondition condition)
     {
@@ -55,28 +44,30 @@ namespace Morula
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
         for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
           points.xi.push_back(space.box().unit_position(
-            tissue.boundary_points().order()[groups.points[k]]->get_location(),
+            tissue.boundary_points().position(groups.points[k]),
             space.box().index(space.grid_cells()[c].number)));
       return points;
     }
 
-    /** Of the cells nearest to points: F_g at t and t + dt, row by row. */
+    /** F_g at t and t + dt. */
     template <int dim>
-    std::vector<double>
-    nearest_cells(const std::vector<Point<dim>> &queries,
-                  const Tissue<dim>             &tissue,
-                  const GrowthOfStep<dim>       &growth)
+    using BothGrowths = std::tuple<Tensor<2, dim>, Tensor<2, dim>>;
+
+    /** Of the cells nearest to points. */
+    template <int dim>
+    std::vector<BothGrowths<dim>>
+    nearest_growth(const std::vector<Point<dim>> &queries,
+                   const Tissue<dim>             &tissue,
+                   const GrowthOfStep<dim>       &growth)
     {
-      const auto append = [&](const unsigned int p, std::vector<double> &list) {
-        for (const auto *F_g : {&growth.previous[p], &growth.current[p]})
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = 0; e < dim; ++e)
-              list.push_back((*F_g)[d][e]);
-      };
-      return nearest_properties(queries,
-                                tissue.cells(),
-                                {2 * dim * dim, append, true},
-                                tissue.grid());
+      return nearest_values(
+        queries,
+        tissue.cells(),
+        [&](const unsigned int p) {
+          return BothGrowths<dim>(growth.previous[p], growth.current[p]);
+        },
+        Ties::mean,
+        tissue.grid());
     }
 
     /** State of a boundary point with its F and a cell's F_g. */
@@ -107,12 +98,10 @@ namespace Morula
     PointGroups
     loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
     {
-      return group_points(tissue.boundary_points(),
-                          space,
-                          [](const Iterator<dim> &point) {
-                            return view<dim>(point).condition() ==
-                                   SurfaceCondition::loaded;
-                          });
+      const BoundaryPoints<dim> &points = tissue.boundary_points();
+      return group_points(points, space, [&](const unsigned int p) {
+        return points.condition(p) == SurfaceCondition::loaded;
+      });
     }
   } // namespace
 
@@ -125,34 +114,26 @@ namespace Morula
                const GrowthOfStep<dim>       &growth,
                const double                   t)
   {
-    const auto       &store = tissue.boundary_points();
-    const PointGroups groups =
-      group_points(store, space, [](const Iterator<dim> &point) {
-        return is_dirichlet(view<dim>(point).condition());
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const PointGroups          groups =
+      group_points(store, space, [&](const unsigned int p) {
+        return is_dirichlet(store.condition(p));
       });
     std::vector<Point<dim>> queries;
     for (const unsigned int p : groups.points)
-      queries.push_back(store.order()[p]->get_location());
-    const std::vector<double> trust = trust_in_surface(queries, tissue);
-    std::vector<double>       nearest;
+      queries.push_back(store.position(p));
+    const std::vector<double>     attached = attachment(queries, tissue);
+    std::vector<BothGrowths<dim>> nearest;
     if (growth.present)
-      nearest = nearest_cells(queries, tissue, growth);
+      nearest = nearest_growth(queries, tissue, growth);
 
     std::vector<typename Nitsche<dim>::Condition> list;
     std::vector<ElasticState<dim>>                current, previous;
-    const auto tensor = [&](const std::size_t first) {
-      Tensor<2, dim> F_g;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          F_g[d][e] = nearest[first + d * dim + e];
-      return F_g;
-    };
     for (std::size_t k = 0; k < groups.points.size(); ++k)
       {
-        const BoundaryView<dim> point =
-          view<dim>(store.order()[groups.points[k]]);
-        const Point<dim> x = queries[k], X = point.initial_position();
-        Point<dim>       target = X;
+        const BoundaryView<dim> point = store[groups.points[k]];
+        const Point<dim>        x = queries[k], X = point.initial_position();
+        Point<dim>              target = X;
         if (point.condition() == SurfaceCondition::fixed)
           target += conditions.displacement(X, t);
         const Tensor<1, dim>             area = point.area_vector();
@@ -163,20 +144,18 @@ namespace Morula
         condition.area           = area.norm();
         condition.normal         = area / area.norm();
         condition.lame           = material.lame_at(X);
-        condition.trust          = trust[k];
+        condition.trust          = attached[k];
 
-        const Tensor<2, dim> F = point.deformation();
+        const Tensor<2, dim> F = point.F();
         if (!growth.present)
           current.push_back(state(F,
                                   Tensor<2, dim>(unit_symmetric_tensor<dim>()),
                                   material.per_grown_volume()));
         else
           {
-            const std::size_t row = 2 * dim * dim * k;
-            previous.push_back(
-              state(F, tensor(row), material.per_grown_volume()));
-            current.push_back(
-              state(F, tensor(row + dim * dim), material.per_grown_volume()));
+            const auto &[at_t, at_end] = nearest[k];
+            previous.push_back(state(F, at_t, material.per_grown_volume()));
+            current.push_back(state(F, at_end, material.per_grown_volume()));
           }
         // Without trust there is no traction that the penalty must hold down.
         condition.penalty = conditions.penalty(material.youngs_modulus(X),
@@ -211,7 +190,7 @@ namespace Morula
     std::vector<Tensor<1, dim>> forces;
     for (const unsigned int p : groups.points)
       {
-        const auto point = view<dim>(tissue.boundary_points().order()[p]);
+        const auto point = tissue.boundary_points()[p];
         forces.push_back(point.initial_area() *
                          conditions.traction(point.seed_position(),
                                              point.initial_position(),
@@ -232,7 +211,7 @@ namespace Morula
     std::vector<typename FollowingPressure<dim>::Load> loads;
     for (const unsigned int p : groups.points)
       {
-        const auto point = view<dim>(tissue.boundary_points().order()[p]);
+        const auto point = tissue.boundary_points()[p];
         loads.push_back({conditions.pressure(point.seed_position(),
                                              point.initial_position(),
                                              t),
@@ -251,10 +230,11 @@ namespace Morula
     std::vector<typename RigidModes<dim>::Support> list;
     if (!conditions.has_dirichlet())
       return list;
-    for (const auto &particle : tissue.boundary_points().order())
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const BoundaryView<dim> point = view<dim>(particle);
-        const Point<dim>        x     = particle->get_location();
+        const BoundaryView<dim> point = points[p];
+        const Point<dim>        x     = points.position(p);
         if (is_dirichlet(point.condition()))
           list.push_back(
             {space.piece(space.box().number(space.box().locate(x))),
@@ -275,12 +255,13 @@ namespace Morula
     std::vector<HeldPoint<dim>> list;
     if (!conditions.has_dirichlet())
       return list;
-    for (const auto &particle : tissue.boundary_points().order())
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const BoundaryView<dim> point = view<dim>(particle);
+        const BoundaryView<dim> point = points[p];
         if (!is_dirichlet(point.condition()))
           continue;
-        const Point<dim> x = particle->get_location();
+        const Point<dim> x = points.position(p);
         HeldPoint<dim>   held{x, x, x, projection(point), point.initial_area()};
         if (point.condition() == SurfaceCondition::fixed)
           {

@@ -30,7 +30,6 @@ namespace
                            std::pair<Point<dim>, std::vector<double>>>;
 
     const CellGrowth<dim>   growth;
-    const CellSlots<dim>    slots;
     Tissue<dim>             tissue;
     Cells                   before, after;
     types::particle_index   next_id;
@@ -39,28 +38,24 @@ namespace
 
     Division(const std::string &start, const double t, const MPI_Comm comm)
       : growth({}, cell_cycle<dim>(start))
-      , slots(false, true)
-      , tissue(GridParameters(), slots, comm)
+      , tissue(GridParameters(), growth.columns(), comm)
     {
       const auto points =
         ball_points(Point<dim>(), 5. * spacing<dim>(), spacing<dim>());
-      PointList<dim> none;
-      none.n_slots = BoundarySlots<dim>::n_slots;
       tissue.place(only_first_rank(founders(points,
                                             std::pow(spacing<dim>(), dim),
-                                            slots,
                                             growth,
                                             some_deformation<dim>),
                                    comm),
-                   none);
+                   PointList<dim>());
       next_id           = points.size();
       const double half = 0.5 * t;
       grow(tissue, growth, 0., half);
       grow(tissue, growth, half, t);
       before         = all_cells(tissue);
-      const auto due = cells_due(tissue, *growth.cycle(), t);
+      const auto due = cells_due(tissue, growth, t);
       n_due          = Utilities::MPI::sum(due.size(), comm);
-      births         = divide(tissue, *growth.cycle(), due, next_id);
+      births         = divide(tissue, growth, due, next_id);
       after          = all_cells(tissue);
     }
 
@@ -68,7 +63,7 @@ namespace
     view(const std::pair<Point<dim>, std::vector<double>> &cell) const
     {
       return {ArrayView<const double>(cell.second.data(), cell.second.size()),
-              slots};
+              growth.columns()};
     }
 
     /** Σ V⁰ and Σ V. */
@@ -80,7 +75,7 @@ namespace
         {
           const double V0 = view(cell).initial_volume();
           sums.first += V0;
-          sums.second += V0 * determinant(view(cell).deformation());
+          sums.second += V0 * determinant(view(cell).F());
         }
       return sums;
     }
@@ -121,17 +116,17 @@ namespace
   void
   check_inheritance()
   {
-    const Division<dim> division("waiting", 0.9, MPI_COMM_WORLD);
-    const auto         &slots = division.slots;
-    const std::size_t   n     = division.before.size();
-    std::set<int>       mothers;
-    std::set<std::pair<double, double>> keys;
-    double                              last_time = 0.;
+    const Division<dim>     division("waiting", 0.9, MPI_COMM_WORLD);
+    const CellGrowth<dim>  &growth = division.growth;
+    const std::size_t       n      = division.before.size();
+    std::set<int>           mothers;
+    std::set<std::uint64_t> keys;
+    double                  last_time = 0.;
     for (const auto &[id, cell] : division.after)
       {
-        const auto view = division.view(cell);
-        keys.emplace(view.scalar(slots.lineage_key),
-                     view.scalar(slots.lineage_key + 1));
+        const auto view  = division.view(cell);
+        const auto clock = growth.clock(view);
+        keys.insert(clock.key);
         if (id < n)
           {
             EXPECT_TRUE(cell == division.before.at(id)); // did not divide
@@ -145,24 +140,21 @@ namespace
         EXPECT_EQ(view.generation(), mother.generation() + 1);
         EXPECT_EQ(view.initial_volume(), 0.5 * mother.initial_volume());
         EXPECT_EQ(view.founder_position(), mother.founder_position());
-        EXPECT_EQ(view.deformation(), mother.deformation());
+        EXPECT_EQ(view.F(), mother.F());
         EXPECT_EQ(view.growth(), mother.growth());
-        for (const unsigned int slot : {slots.event_time})
-          EXPECT_EQ(view.scalar(slot), mother.scalar(slot));
-        EXPECT_EQ(view.vector(slots.division_axis),
-                  mother.vector(slots.division_axis));
-        EXPECT_EQ(view.tensor(slots.growth_pre),
-                  mother.tensor(slots.growth_pre));
-        EXPECT_EQ(view.scalar(slots.phase),
-                  static_cast<int>(CyclePhase::divided));
+        const auto before = growth.clock(mother);
+        EXPECT_EQ(clock.event_time, before.event_time);
+        EXPECT_EQ(clock.axis, before.axis);
+        EXPECT_EQ(clock.growth_pre, before.growth_pre);
+        EXPECT_EQ(clock.phase, CyclePhase::divided);
         // Along the axis: the first daughter on the side of -n_s.
         const Tensor<1, dim> from_mother = cell.first - mother_cell.first;
-        const double along = from_mother * view.vector(slots.division_axis) *
-                             ((id - n) % 2 == 0 ? -1. : 1.);
+        const double         along =
+          from_mother * clock.axis * ((id - n) % 2 == 0 ? -1. : 1.);
         EXPECT_GT(along, 0.);
         EXPECT_NEAR(along, from_mother.norm(), 1e-10);
         // Numbered by the time of their birth.
-        const double time = view.scalar(slots.event_time) + 0.5;
+        const double time = clock.event_time + 0.5;
         EXPECT_GE(time, last_time);
         EXPECT_LE(time, 0.9 + 1e-9);
         last_time = time;
@@ -179,7 +171,7 @@ namespace
         EXPECT_EQ(birth.parent, view.parent());
         EXPECT_EQ(birth.generation, 1u);
         EXPECT_EQ(birth.position, cell.first);
-        EXPECT_NEAR(birth.time, view.scalar(slots.event_time) + 0.5, 1e-15);
+        EXPECT_NEAR(birth.time, growth.clock(view).event_time + 0.5, 1e-15);
       }
   }
 
@@ -237,22 +229,15 @@ TEST(Divide,
 TEST(Divide, ASingleCell)
 {
   const CellGrowth<3> growth({}, cell_cycle<3>("together"));
-  const CellSlots<3>  slots(false, true);
-  Tissue<3>           tissue(GridParameters(), slots, MPI_COMM_WORLD);
-  PointList<3>        none;
-  none.n_slots          = BoundarySlots<3>::n_slots;
+  Tissue<3>  tissue(GridParameters(), growth.columns(), MPI_COMM_WORLD);
   const auto unstrained = [](const Point<3> &) { return unit_tensor<3>(); };
-  tissue.place(
-    only_first_rank(
-      founders<3>({Point<3>(1., 2., 3.)}, 8000., slots, growth, unstrained),
-      MPI_COMM_WORLD),
-    none);
+  tissue.place(only_first_rank(
+                 founders<3>({Point<3>(1., 2., 3.)}, 8000., growth, unstrained),
+                 MPI_COMM_WORLD),
+               PointList<3>());
   grow(tissue, growth, 0., 0.5);
   types::particle_index next_id = 1;
-  divide(tissue,
-         *growth.cycle(),
-         cells_due(tissue, *growth.cycle(), 0.5),
-         next_id);
+  divide(tissue, growth, cells_due(tissue, growth, 0.5), next_id);
   const auto cells = all_cells(tissue);
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_NEAR(cells.at(1).first.distance(cells.at(2).first), 10., 1e-10);

@@ -104,28 +104,23 @@ namespace
   void
   round_trip(const double event_time)
   {
-    const CellSlots<dim> slots(false, true);
-    std::vector<double>  data(slots.n_slots, -7.);
+    CellColumns<dim>        columns;
+    const CycleColumns<dim> clock(columns);
+    std::vector<double>     data(columns.n_numbers(), -7.);
 
     CycleState<dim> state = in_phase<dim>(CyclePhase::divided, event_time);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         state.growth_pre[i][j] = 10. * i + j;
     state.axis[0] = -0.5;
-    state.store(CellView<dim, double>(make_array_view(data), slots));
-
-    const std::vector<double> &const_data = data;
-    expect_equal(state,
-                 CycleState<dim>::load(CellView<dim, const double>(
-                   make_array_view(const_data), slots)));
-    expect_equal(state,
-                 CycleState<dim>::load(
-                   CellView<dim, double>(make_array_view(data), slots)));
-    EXPECT_EQ(data[slots.parent], -7.);
+    const CellView<dim, double> cell(make_array_view(data), columns);
+    clock.store(state, cell);
+    expect_equal(state, clock.load(cell));
+    EXPECT_EQ(cell.parent(), -7);
   }
 } // namespace
 
-TEST(CellCycle, StateSurvivesTheSlots)
+TEST(CellCycle, StateSurvivesTheColumns)
 {
   round_trip<2>(0.1);
   round_trip<3>(std::numeric_limits<double>::infinity());

@@ -18,21 +18,16 @@ namespace
   struct Ball : public Tissue<dim>
   {
     Ball(const CellGrowth<dim> &growth, const bool strained)
-      : Tissue<dim>(GridParameters(),
-                    CellSlots<dim>(growth.present(), growth.cycle() != nullptr),
-                    MPI_COMM_SELF)
+      : Tissue<dim>(GridParameters(), growth.columns(), MPI_COMM_SELF)
     {
-      PointList<dim> none;
-      none.n_slots = BoundarySlots<dim>::n_slots;
       this->place(founders(ball_points(Point<dim>(), 60., 20.),
                            std::pow(20., dim),
-                           this->slots(),
                            growth,
                            [=](const Point<dim> &x) {
                              return strained ? some_deformation<dim>(x) :
                                                unit_tensor<dim>();
                            }),
-                  none);
+                  PointList<dim>());
     }
   };
 
@@ -48,10 +43,10 @@ namespace
     const auto before = all_cells(tissue);
     const auto step   = growth.of_step(tissue, 0., 0.2);
     EXPECT_TRUE(step.present);
-    ASSERT_EQ(step.current.size(), tissue.cells().order().size());
+    ASSERT_EQ(step.current.size(), tissue.cells().size());
     for (std::size_t i = 0; i < step.current.size(); ++i)
       {
-        const auto   cell = tissue.cell(tissue.cells().order()[i]);
+        const auto   cell = tissue.cells()[i];
         const double theta =
           1. + 0.2 * (1. + cell.founder_position()[0] / 100.);
         EXPECT_EQ(step.previous[i], unit_tensor<dim>());
@@ -65,10 +60,10 @@ namespace
     EXPECT_EQ(next.previous, step.current);
     for (std::size_t i = 0; i < next.current.size(); ++i)
       {
-        const auto cell = tissue.cell(tissue.cells().order()[i]);
+        const auto cell = tissue.cells()[i];
         EXPECT_EQ(cell.growth(), step.current[i]);
-        EXPECT_NEAR(elastic_volume_ratio(cell),
-                    determinant(cell.deformation()) /
+        EXPECT_NEAR(cell.elastic_volume_ratio(),
+                    determinant(cell.F()) /
                       std::pow(step.current[i][0][0], dim),
                     1e-14);
       }
@@ -80,18 +75,19 @@ namespace
   {
     const CellGrowth<dim> growth({}, cell_cycle<dim>("together"));
     Ball<dim>             tissue(growth, false);
-    for (const auto &particle : tissue.cells().order())
+    const Cells<dim>     &cells = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto cell = tissue.cell(particle);
+        const auto cell = cells[p];
         EXPECT_EQ(cell.growth(), unit_tensor<dim>());
         EXPECT_EQ(cell.parent(), -1);
         EXPECT_EQ(cell.generation(), 0u);
       }
     grow(tissue, growth, 0., 0.3);
-    for (const auto &particle : tissue.cells().order())
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto cell = tissue.cell(particle);
-        const auto axis = cell.vector(tissue.slots().division_axis);
+        const auto cell = cells[p];
+        const auto axis = growth.clock(cell).axis;
         EXPECT_NEAR(axis.norm(), 1., 1e-12);
         EXPECT_LE((cell.growth() - unit_tensor<dim>() -
                    0.3 * outer_product(axis, axis))
@@ -115,11 +111,10 @@ namespace
       {
         grow(tissue, both, t, t + 0.2);
         grow(other, cycle, t, t + 0.2);
-        for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
+        for (std::size_t i = 0; i < tissue.cells().size(); ++i)
           {
-            const auto F_g = tissue.cell(tissue.cells().order()[i]).growth();
-            const auto cycle_F_g =
-              other.cell(other.cells().order()[i]).growth();
+            const auto F_g       = tissue.cells().growth(i);
+            const auto cycle_F_g = other.cells().growth(i);
             EXPECT_LE((F_g - (1.2 + t) * cycle_F_g).norm(), 1e-13);
             n_growing += determinant(cycle_F_g) > 1.01;
           }
@@ -164,9 +159,9 @@ namespace
         grow(tissue, both, t, t + 0.2);
         grow(other, cycle, t, t + 0.2);
         factor *= 1.1;
-        for (std::size_t i = 0; i < tissue.cells().order().size(); ++i)
-          EXPECT_LE((tissue.cell(tissue.cells().order()[i]).growth() -
-                     factor * other.cell(other.cells().order()[i]).growth())
+        for (std::size_t i = 0; i < tissue.cells().size(); ++i)
+          EXPECT_LE((tissue.cells().growth(i) -
+                     factor * other.cells().growth(i))
                       .norm(),
                     1e-13);
       }
@@ -201,15 +196,15 @@ namespace
         for (const double t : {0., 0.2, 0.4})
           {
             grow(tissue, growth, t, t + 0.2);
-            for (const auto &particle : tissue.cells().order())
+            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
               {
-                const auto cell = tissue.cell(particle);
+                const auto cell = tissue.cells()[p];
                 if (determinant(cell.growth()) < 1. + 1e-12)
                   continue;
                 ++n_growing;
                 Tensor<1, dim> axis;
                 axis[cell.founder_position()[0] > 0.] = 1.;
-                EXPECT_EQ(cell.vector(tissue.slots().division_axis), axis);
+                EXPECT_EQ(growth.clock(cell).axis, axis);
               }
           }
         EXPECT_GT(n_growing, 0u);
@@ -224,8 +219,8 @@ namespace
     const CellGrowth<dim> growth({}, cell_cycle<dim>("together", "1.05"));
     Ball<dim>             tissue(growth, true);
     std::vector<double>   J;
-    for (const auto &particle : tissue.cells().order())
-      J.push_back(determinant(tissue.cell(particle).deformation()));
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      J.push_back(determinant(tissue.cells().F(p)));
     const auto n_large = std::count_if(J.begin(), J.end(), [](const double j) {
       return j > 1.05;
     });
@@ -233,7 +228,7 @@ namespace
     ASSERT_LT(n_large, static_cast<int>(J.size()));
     grow(tissue, growth, 0.1, 0.3);
     for (std::size_t i = 0; i < J.size(); ++i)
-      EXPECT_NEAR(determinant(tissue.cell(tissue.cells().order()[i]).growth()),
+      EXPECT_NEAR(determinant(tissue.cells().growth(i)),
                   J[i] > 1.05 ? 1.2 : 1.,
                   1e-12);
   }
@@ -250,8 +245,7 @@ namespace
     EXPECT_FALSE(step.present);
     EXPECT_TRUE(step.previous.empty());
     EXPECT_TRUE(step.current.empty());
-    EXPECT_EQ(tissue.cell(tissue.cells().order()[0]).growth(),
-              unit_tensor<dim>());
+    EXPECT_EQ(tissue.cells().growth(0), unit_tensor<dim>());
   }
 } // namespace
 

@@ -4,7 +4,7 @@
 
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/mechanics/neo_hookean.h>
-#include <morula/particles/strays.h>
+#include <morula/particles/detached_points.h>
 
 #include <gtest/gtest.h>
 
@@ -54,30 +54,26 @@ namespace
             const Tensor<2, dim>              &F     = unit_tensor<dim>())
       : conditions(parameters)
       , growth(std::move(growth_of_cells))
-      , tissue(GridParameters(),
-               CellSlots<dim>(growth.present(), false),
-               MPI_COMM_WORLD)
+      , tissue(GridParameters(), growth.columns(), MPI_COMM_WORLD)
     {
-      PointList<dim> boundary;
-      boundary.n_slots = BoundarySlots<dim>::n_slots;
+      const BoundaryColumns<dim> &columns = tissue.boundary_points().columns();
+      PointList<dim>              boundary(columns.n_numbers());
       for (unsigned int d = 0; d < dim; ++d)
         for (const int sign : {-1, 1})
           {
             Tensor<1, dim> N;
             N[d] = sign;
             const Point<dim> X(90. * N);
-            auto             slots =
-              initial_boundary_slots(X, N, area, conditions.condition(X, N));
-            deform_boundary_point<dim>(make_array_view(slots), F);
-            boundary.ids.push_back(boundary.ids.size());
-            boundary.positions.push_back(X + moved);
-            boundary.properties.insert(boundary.properties.end(),
-                                       slots.begin(),
-                                       slots.end());
+            boundary.add(
+              boundary.size(),
+              X + moved,
+              columns.initial_point(X, N, area, conditions.condition(X, N)));
+            BoundaryView<dim, double>(boundary.row(boundary.size() - 1),
+                                      columns)
+              .deform(F);
           }
       tissue.place(only_first_rank(founders(ball_points(Point<dim>(), 88., 20.),
                                             std::pow(20., dim),
-                                            tissue.slots(),
                                             growth,
                                             [](const auto &) {
                                               return unit_tensor<dim>();
@@ -355,13 +351,13 @@ namespace
                                    moved,
                                    F);
         Point<dim>         x;
-        x[0]               = 90. + distance;
-        const double trust = trust_in_surface<dim>({x}, problem.tissue)[0];
-        EXPECT_EQ(trust == 1., distance == 0.);
-        EXPECT_EQ(trust == 0., distance == 200.);
+        x[0]                  = 90. + distance;
+        const double attached = attachment<dim>({x}, problem.tissue)[0];
+        EXPECT_EQ(attached == 1., distance == 0.);
+        EXPECT_EQ(attached == 0., distance == 200.);
         const auto sums =
           problem.sums(*problem.nitsche(material("3", 0.3), 1.));
-        EXPECT_LE((sums.force - trust * all).norm(), 1e-11 * all.norm());
+        EXPECT_LE((sums.force - attached * all).norm(), 1e-11 * all.norm());
       }
   }
 

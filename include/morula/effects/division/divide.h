@@ -4,7 +4,7 @@
 #ifndef morula_effects_division_divide_h
 #define morula_effects_division_divide_h
 
-#include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/growth/cell_growth.h>
 #include <morula/particles/birth.h>
 #include <morula/particles/tissue.h>
 
@@ -13,25 +13,25 @@
 namespace Morula
 {
   /** Positions, in the order of Tissue::cells(), of this rank's cells that
-   *  divide at or before @p t. */
+   *  divide at or before @p t (day). Only with a cell cycle. */
   template <int dim>
   std::vector<unsigned int>
-  cells_due(const Tissue<dim>    &tissue,
-            const CellCycle<dim> &cycle,
-            const double          t);
+  cells_due(const Tissue<dim>     &tissue,
+            const CellGrowth<dim> &growth,
+            const double           t);
 
   /**
    * Divides each of these cells into two. The daughters stand where
-   * daughter_distances() says. They inherit F, equation (17) of the paper, F_g
-   * and the clock of the cycle, and half of V⁰, equation (18). All divisions
-   * see the same configuration. Collective.
+   * daughter_distances() says. They inherit every column by its rule, so F,
+   * equation (17) of the paper, F_g and half of V⁰, equation (18), and the clock
+   * of the cycle. All divisions see the same configuration. Collective.
    * @param next_id first free id, the same on all ranks; advanced
    * @return the daughters born on this rank
    */
   template <int dim>
   std::vector<Birth<dim>>
   divide(Tissue<dim>                     &tissue,
-         const CellCycle<dim>            &cycle,
+         const CellGrowth<dim>           &growth,
          const std::vector<unsigned int> &due,
          types::particle_index           &next_id);
 } // namespace Morula

@@ -55,15 +55,31 @@ namespace Morula
     std::uint64_t  key        = 0;  // of the random numbers, from the lineage
     Tensor<1, dim> axis;            // n_s of the running cycle
     Tensor<2, dim> growth_pre;      // F_g,cycle before the onset of S
+  };
 
-    /** Reads the state from a cell's slots. */
-    template <typename Number>
-    static CycleState
-    load(const CellView<dim, Number> &cell);
+  /** Where a cell's clock stands: the columns that the cell cycle needs. */
+  template <int dim>
+  class CycleColumns
+  {
+  public:
+    /** Declares them, with all that a growing and dividing cell needs. */
+    explicit CycleColumns(CellColumns<dim> &columns);
 
-    /** Writes the state to a cell's slots. */
+    /** A cell's clock. */
+    CycleState<dim>
+    load(const CellView<dim, const double> &cell) const;
+
+    /** Sets it. */
     void
-    store(const CellView<dim, double> &cell) const;
+    store(const CycleState<dim>       &state,
+          const CellView<dim, double> &cell) const;
+
+  private:
+    Column<CyclePhase>     phase;
+    Column<double>         event_time;
+    Column<std::uint64_t>  lineage_key;
+    Column<Tensor<1, dim>> division_axis;
+    Column<Tensor<2, dim>> growth_pre;
   };
 
   /**

@@ -49,7 +49,20 @@ namespace Morula
     const CellCycle<dim> *
     cycle() const;
 
-    /** Sets a founder's growth slots, at t = 0. */
+    /** The columns of cells that grow so. */
+    const CellColumns<dim> &
+    columns() const;
+
+    /** A cell's clock. Only with a cycle. */
+    CycleState<dim>
+    clock(const CellView<dim, const double> &cell) const;
+
+    /** Sets a cell's clock. Only with a cycle. */
+    void
+    set_clock(const CellView<dim, double> &cell,
+              const CycleState<dim>       &state) const;
+
+    /** Sets a founder's columns, at t = 0. */
     void
     initialize(const types::particle_index  id,
                const CellView<dim, double> &cell) const;
@@ -71,11 +84,10 @@ namespace Morula
   private:
     /** The clock at t1 of a cell in its state at t0, as in
      *  CellCycle::advance(). */
-    template <typename Number>
     CycleState<dim>
-    advance(const CellView<dim, Number> &cell,
-            const double                 t0,
-            const double                 t1) const;
+    advance(const CellView<dim, const double> &cell,
+            const double                       t0,
+            const double                       t1) const;
 
     /** Gives a cycle that begins between these states the rule's axis. */
     void
@@ -85,15 +97,16 @@ namespace Morula
                 CycleState<dim>       &after) const;
 
     /** F_g at t1 of a cell in its state at t0. */
-    template <typename Number>
     Tensor<2, dim>
-    growth(const CellView<dim, Number> &cell,
-           const double                 t0,
-           const double                 t1) const;
+    growth(const CellView<dim, const double> &cell,
+           const double                       t0,
+           const double                       t1) const;
 
     std::unique_ptr<const GrowthLaw<dim>>    law;
     std::optional<CellCycle<dim>>            cycle_;
     std::unique_ptr<const DivisionRule<dim>> rule;
+    CellColumns<dim>                         columns_;
+    std::optional<CycleColumns<dim>>         cycle_columns;
   };
 } // namespace Morula
 

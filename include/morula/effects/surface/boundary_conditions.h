@@ -6,7 +6,7 @@
 
 #include <morula/base/expression.h>
 #include <morula/effects/surface/nitsche.h>
-#include <morula/particles/cell_state.h>
+#include <morula/particles/boundary_state.h>
 
 #include <deal.II/base/parameter_handler.h>
 

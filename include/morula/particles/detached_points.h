@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_detached_points_h
+#define morula_particles_detached_points_h
+
+#include <morula/particles/tissue.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * How far a cell's part of the tissue reaches, µm: 1.5 times its present
+   * width |F_e| (V⁰ det F_g)^(1/dim), at least h/4. No surface of a lattice of
+   * cells lies farther from it: doc/theory.md (4.13). Boundary points farther
+   * from their nearest cell than that are detached from the tissue.
+   */
+  template <int dim>
+  double
+  surface_reach(const CellView<dim, const double> &cell, const double h);
+
+  /**
+   * How much a boundary point belongs to the tissue, by its distance to the
+   * nearest cell and that cell's reach (µm): 1 up to the reach, 0 from 4/3 of
+   * it on, linear between.
+   */
+  double
+  attachment(const double distance, const double reach);
+
+  /** The same for positions of boundary points on this rank. Collective. */
+  template <int dim>
+  std::vector<double>
+  attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue);
+
+  /**
+   * Pulls detached boundary points back to the tissue. Where no cell is near,
+   * the displacement is extrapolated, and a point ahead of the tissue moves
+   * away from it ever faster. Such a point goes towards its nearest cell until
+   * it is within 4/3 of that cell's reach, and takes over its deformation
+   * gradient. Fixed points stay where they are held, slip points in their
+   * plane.
+   * @return how many points were moved, over all ranks. Collective.
+   */
+  template <int dim>
+  std::uint64_t
+  pull_back_detached_points(Tissue<dim> &tissue);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/boundary_state.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** An orthonormal basis of the plane normal to @p N (2-D: line). */
+    template <int dim>
+    std::array<Tensor<1, dim>, dim - 1>
+    tangents(const Tensor<1, dim> &N)
+    {
+      if constexpr (dim == 2)
+        return {{cross_product_2d(N)}};
+      else
+        {
+          // the axis that is the most tangential
+          unsigned int axis = 0;
+          for (unsigned int d = 1; d < dim; ++d)
+            if (std::abs(N[d]) < std::abs(N[axis]))
+              axis = d;
+          Tensor<1, dim> first = -N[axis] * N;
+          first[axis] += 1.;
+          first /= first.norm();
+          return {{first, cross_product_3d(N, first)}};
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  BoundaryColumns<dim>::BoundaryColumns(const bool with_patch)
+  {
+    initial_position =
+      add<Point<dim>>({"initial_position", "um", "position at t = 0"});
+    initial_normal =
+      add<Tensor<1, dim>>({"initial_normal", "", "outward normal at t = 0"});
+    initial_area = add<double>({"initial_area", "um^(dim-1)", "area at t = 0"});
+    condition    = add<SurfaceCondition>({"condition",
+                                          "",
+                                          "what holds or loads the point",
+                                          SurfaceCondition::free});
+    deformation =
+      add<Tensor<2, dim>>({"deformation",
+                           "",
+                           "deformation gradient F since t = 0",
+                           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    if (!with_patch)
+      return;
+    seed_position =
+      add<Point<dim>>({"seed_position",
+                       "um",
+                       "initial position of the point of t = 0 that this one "
+                       "is a part of"});
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      edges[k] = add<Tensor<1, dim>>(
+        {"edge_" + std::to_string(k + 1), "um", "edge of the patch at t = 0"});
+  }
+
+  template <int dim>
+  std::vector<double>
+  BoundaryColumns<dim>::initial_point(const Point<dim>      &X,
+                                      const Tensor<1, dim>  &N,
+                                      const double           area,
+                                      const SurfaceCondition condition) const
+  {
+    std::vector<double>             row = this->initial_row();
+    const BoundaryView<dim, double> point(make_array_view(row), *this);
+    point.set(initial_position, X);
+    point.set(initial_normal, N);
+    point.set(initial_area, area);
+    point.set(this->condition, condition);
+    if (point.has_patch())
+      {
+        const double side = std::pow(area, 1. / (dim - 1));
+        point.set(seed_position, X);
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          point.set(edges[k], side * tangents(N)[k]);
+      }
+    return row;
+  }
+
+  template class BoundaryColumns<2>;
+  template class BoundaryColumns<3>;
+} // namespace Morula

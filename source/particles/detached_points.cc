@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/detached_points.h>
+#include <morula/particles/nearest.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** How many reaches a boundary point may be away from its nearest cell. */
+    constexpr double most_reaches = 4. / 3.;
+
+    /** No reach is shorter than this, in units of h. */
+    constexpr double least_reach = 0.25;
+
+    /** Whether a cell of this rank, in the grid cell of @p x or a neighbouring
+     *  one, is at most @p near away. */
+    template <int dim>
+    bool
+    has_cell_near(const Point<dim>  &x,
+                  const Tissue<dim> &tissue,
+                  const double       near)
+    {
+      const GridBox<dim> &box   = tissue.grid().box();
+      const auto         &store = tissue.cells();
+      const auto          is_in = [&](const unsigned int number) {
+        const auto cell =
+          std::lower_bound(store.grid_cells().begin(),
+                           store.grid_cells().end(),
+                           number,
+                           [](const auto &c, const unsigned int n) {
+                             return c.number < n;
+                           });
+        if (cell != store.grid_cells().end() && cell->number == number)
+          for (unsigned int p = cell->begin; p < cell->end; ++p)
+            if (x.distance_square(store.position(p)) <= near * near)
+              return true;
+        return false;
+      };
+      const GridIndex<dim> index = box.locate(x);
+      if (is_in(box.number(index)))
+        return true;
+      bool found = false;
+      box.for_neighbors(index, 1, [&](const unsigned int number, const auto &) {
+        found = found || is_in(number);
+      });
+      return found;
+    }
+
+    /**
+     * Numbers of the points that may be farther than @p reaches least reaches
+     * from all cells. Nearly all points have a cell near in their own grid
+     * cell, so that this is far cheaper than to find the nearest ones.
+     */
+    template <int dim>
+    std::vector<unsigned int>
+    far_away(const std::vector<Point<dim>> &points,
+             const Tissue<dim>             &tissue,
+             const double                   reaches)
+    {
+      const double near = reaches * least_reach * tissue.grid().box().spacing();
+      std::vector<unsigned int> found;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (!has_cell_near(points[p], tissue, near))
+          found.push_back(p);
+      return found;
+    }
+
+    /** A cell near a boundary point. */
+    template <int dim>
+    using NearCell = std::tuple<Point<dim>,     // where it is, µm
+                                Tensor<2, dim>, // F
+                                double>;        // its surface_reach(), µm
+
+    /** Points that may be farther away than @p reaches (far_away()), and the
+     *  cells nearest to them. Collective. */
+    template <int dim>
+    std::pair<std::vector<unsigned int>, std::vector<NearCell<dim>>>
+    far_points(const std::vector<Point<dim>> &points,
+               const Tissue<dim>             &tissue,
+               const double                   reaches)
+    {
+      const std::vector<unsigned int> far = far_away(points, tissue, reaches);
+      if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
+        return {};
+      std::vector<Point<dim>> queries;
+      for (const unsigned int p : far)
+        queries.push_back(points[p]);
+      const Cells<dim> &cells   = tissue.cells();
+      const double      h       = tissue.grid().box().spacing();
+      const auto        nearest = nearest_values(
+        queries,
+        cells,
+        [&](const unsigned int p) {
+          return NearCell<dim>(cells.position(p),
+                               cells.F(p),
+                               surface_reach<dim>(cells[p], h));
+        },
+        Ties::lowest_id,
+        tissue.grid());
+      return {far, nearest};
+    }
+
+    /** The part of a motion that the point's condition leaves free. */
+    template <int dim>
+    Tensor<1, dim>
+    free_part(const BoundaryView<dim> &point, const Tensor<1, dim> &motion)
+    {
+      if (point.condition() == SurfaceCondition::slip)
+        return motion -
+               (motion * point.initial_normal()) * point.initial_normal();
+      return motion;
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  surface_reach(const CellView<dim, const double> &cell, const double h)
+  {
+    const Tensor<2, dim> F_g = cell.growth();
+    const Tensor<2, dim> F_e = cell.elastic_deformation();
+    // An upper bound, which is exact without shear; the eigenvalues of nearly
+    // isotropic tensors may come out as no numbers.
+    const double stretch = std::sqrt(l1_norm(F_e * transpose(F_e)));
+    const double width =
+      std::pow(cell.initial_volume() * determinant(F_g), 1. / dim);
+    return std::max(1.5 * stretch * width, least_reach * h);
+  }
+
+  double
+  attachment(const double distance, const double reach)
+  {
+    const double part = (most_reaches - distance / reach) / (most_reaches - 1.);
+    return std::min(1., std::max(0., part));
+  }
+
+  template <int dim>
+  std::vector<double>
+  attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue)
+  {
+    const auto [far, nearest] = far_points(points, tissue, 1.);
+    std::vector<double> list(points.size(), 1.);
+    for (std::size_t k = 0; k < far.size(); ++k)
+      {
+        const auto &[x, F, reach] = nearest[k];
+        list[far[k]] = attachment(points[far[k]].distance(x), reach);
+      }
+    return list;
+  }
+
+  template <int dim>
+  std::uint64_t
+  pull_back_detached_points(Tissue<dim> &tissue)
+  {
+    const BoundaryPoints<dim> &points    = tissue.boundary_points();
+    std::vector<Point<dim>>    positions = points.positions();
+    const auto [far, nearest] = far_points(positions, tissue, most_reaches);
+
+    std::uint64_t n = 0;
+    for (std::size_t k = 0; k < far.size(); ++k)
+      {
+        const unsigned int p       = far[k];
+        const auto &[x, F, reach]  = nearest[k];
+        const double         limit = most_reaches * reach;
+        const Tensor<1, dim> way   = x - positions[p]; // to the cell
+        if (way.norm() <= limit * (1. + 1e-9) ||
+            points.condition(p) == SurfaceCondition::fixed)
+          continue;
+        ++n;
+        positions[p] += free_part(points[p], (1. - limit / way.norm()) * way);
+        tissue.boundary_point(p).set(points.columns().deformation, F);
+      }
+    n = Utilities::MPI::sum(n, tissue.communicator());
+    if (n > 0)
+      tissue.move(tissue.cells().positions(), positions);
+    return n;
+  }
+
+#define INSTANTIATE(dim)                                                   \
+  template double surface_reach(const CellView<dim, const double> &,       \
+                                const double);                             \
+  template std::vector<double> attachment(const std::vector<Point<dim>> &, \
+                                          const Tissue<dim> &);            \
+  template std::uint64_t       pull_back_detached_points(Tissue<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import h5py
 from program import ProgramTest, main, overrides, read_csv, without_wall_time
+from sealing import seal
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
@@ -100,6 +101,19 @@ class Resume(ProgramTest):
         points = [len(read_csv(whole / f"surface-000{i}.csv"))
                   for i in range(3)]
         self.assertEqual(points, sorted(set(points)))
+
+    def test_snapshot_without_names_of_columns(self):
+        """As an older program wrote it."""
+        whole, resumed = self.work / "whole", self.work / "resumed"
+        self.execute(SCENE, *SHEET, output=whole)
+        self.execute(SCENE, *SHEET, *overrides({"Time/End time": "0.5"}),
+                     output=resumed)
+        with h5py.File(resumed / "snapshot.h5", "r+") as file:
+            for points in ("cells", "boundary points"):
+                del file[f"{points}/columns"]
+        seal(resumed / "snapshot.h5")
+        self.execute(SCENE, *SHEET, "--resume", output=resumed)
+        self.assert_same_run(whole, resumed)
 
     def test_stop_at_cells(self):
         whole, resumed = self.work / "whole", self.work / "resumed"

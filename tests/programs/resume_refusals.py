@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 import h5py
+import numpy as np
 from program import ProgramTest, main, overrides
 
 from tests.common.sealing import seal
@@ -38,7 +39,17 @@ def without(name):
     return damage
 
 
-def fewer_slots(output):
+def other_columns(output):
+    """As a program whose cell cycle has columns of other names writes it."""
+    with h5py.File(output / "snapshot.h5", "r+") as file:
+        names = file["cells/columns"][()].decode()
+        del file["cells/columns"]
+        file["cells/columns"] = np.bytes_(
+            names.replace("event_time 1", "other_time 1"))
+    seal(output / "snapshot.h5")
+
+
+def fewer_numbers(output):
     with h5py.File(output / "snapshot.h5", "r+") as file:
         properties = file["cells/properties"][:, :-1]
         del file["cells/properties"]
@@ -130,8 +141,12 @@ DAMAGES = {
                 ("the number 'step_level'", ANEW)),
     "no cells": (without("cells/positions"), ("an undamaged snapshot", ANEW)),
     "no parameters": (without("parameters"), ("an undamaged snapshot", ANEW)),
-    "cells of another kind": (fewer_slots, ("a snapshot whose cells have",
-                                            "numbers each", ANEW)),
+    "cells of another kind": (fewer_numbers, ("a snapshot whose cells have",
+                                              "numbers each", ANEW)),
+    "cells with other columns": (
+        other_columns, ("a snapshot whose cells have the columns that the "
+                        "scene's effects declare (this one lacks 'event_time' "
+                        "and has 'other_time')", ANEW)),
     "statistics cut": (lambda output: cut_rows(output / "statistics.csv", 2),
                        ("statistics.csv", "at least the 3 rows",
                         "there are 1", "Restore the file")),

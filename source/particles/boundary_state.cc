@@ -38,11 +38,12 @@ namespace Morula
       add<Point<dim>>({"initial_position", "um", "position at t = 0"});
     initial_normal =
       add<Tensor<1, dim>>({"initial_normal", "", "outward normal at t = 0"});
-    initial_area = add<double>({"initial_area", "um^(dim-1)", "area at t = 0"});
-    condition    = add<SurfaceCondition>({"condition",
-                                          "",
-                                          "what holds or loads the point",
-                                          SurfaceCondition::free});
+    initial_area = add<double>(
+      {"initial_area", "um^" + std::to_string(dim - 1), "area at t = 0"});
+    condition = add<SurfaceCondition>({"condition",
+                                       "",
+                                       "what holds or loads the point",
+                                       SurfaceCondition::free});
     deformation =
       add<Tensor<2, dim>>({"deformation",
                            "",

@@ -11,7 +11,7 @@ namespace Morula
     founder_position = add<Point<dim>>(
       {"founder_position", "um", "initial position of the founder"});
     initial_volume = add<double>({"initial_volume",
-                                  "um^dim",
+                                  "um^" + std::to_string(dim),
                                   "volume at t = 0, halved at every division",
                                   0.,
                                   AtDivision::halved});

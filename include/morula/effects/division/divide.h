@@ -23,8 +23,8 @@ namespace Morula
   /**
    * Divides each of these cells into two. The daughters stand where
    * daughter_distances() says. They inherit every column by its rule, so F,
-   * equation (17) of the paper, F_g and half of V⁰, equation (18), and the clock
-   * of the cycle. All divisions see the same configuration. Collective.
+   * equation (17) of the paper, F_g and half of V⁰, equation (18), and the
+   * clock of the cycle. All divisions see the same configuration. Collective.
    * @param next_id first free id, the same on all ranks; advanced
    * @return the daughters born on this rank
    */

@@ -12,13 +12,13 @@ namespace Morula
 {
   namespace
   {
-    /** Fills differ by less than this, relatively, where tissue is symmetric:
-     *  by what the solver leaves. */
+    /** Fills with a smaller relative difference are equal. In symmetric tissue
+     *  the solver's error makes them differ by less. */
     constexpr double equal_fills = 1e-6;
 
-    /** How far beyond a block its splines are continued in each direction: 0
-     *  where the spline's index is among theirs. Blocks that agree in this give
-     *  the same weights to the same splines. */
+    /** How far a spline lies beyond a block in each direction; 0 if it is among
+     *  the block's splines in that direction. Blocks with the same distances
+     *  give the same weights to the same splines. */
     template <int dim>
     GridIndex<dim>
     extrapolation(const GridIndex<dim> &spline, const GridIndex<dim> &block)
@@ -113,7 +113,7 @@ namespace Morula
     return list;
   }
 
-  /** Of blocks with the same Σ|e|: doc/theory.md, section 3.4. */
+  /** Chooses among blocks with the same Σ|e|: doc/theory.md, section 3.4. */
   template <int dim>
   std::vector<unsigned int>
   ExtensionSearch<dim>::fullest(const GridIndex<dim>            &spline,

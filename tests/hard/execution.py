@@ -6,8 +6,9 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from morula.execute import call, command, overrides
+from morula.execute import command, overrides
 
+from tests.common.forks import call
 from tests.common.kept import ROOT, digest, files_of_scene, kept, program_stamp
 from tests.common.results import Results
 from tests.hard.case import TrialRun
@@ -17,7 +18,8 @@ from tests.hard.engine import (different_cells, figures, numbers_missing,
 HERE = Path(__file__).resolve().parent
 SCENES = ROOT / "prm/hard"
 JUDGES = [HERE / "engine.py", HERE / "execution.py",
-          ROOT / "contrib/python/morula/execute.py"]
+          ROOT / "contrib/python/morula/execute.py",
+          ROOT / "tests/common/forks.py"]
 
 
 class Execution:

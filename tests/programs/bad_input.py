@@ -9,6 +9,7 @@ import re
 import resource
 from pathlib import Path
 
+from morula import execute
 from morula.keys import keys_of
 from program import ProgramTest, main, overrides
 
@@ -71,7 +72,7 @@ class BadInput(ProgramTest):
                     f"Output directory={self.work / 'output'}",
                     *overrides(keys))
                 before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                result = self.run_words(words, 1)
+                result = self.run_words(words, 1, call=execute.call)
                 after = resource.getrusage(resource.RUSAGE_CHILDREN)
                 self.assert_refused(result, texts)
                 self.assertLess(len(result.stderr), 1500)

@@ -11,8 +11,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from morula.execute import call, command, overrides
+from morula.execute import command, overrides
 
+from tests.common import forks
 from tests.common.results import read_csv
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -51,7 +52,7 @@ class ProgramTest(unittest.TestCase):
                              *arguments, ranks=ranks)
         return self.run_words(words, code)
 
-    def run_words(self, words, code=0, cwd=SCENES):
+    def run_words(self, words, code=0, cwd=SCENES, call=forks.call):
         result = call(words, cwd=cwd)
         if result.code != code:
             self.fail(f"exit code {result.code}, expected {code}\n"

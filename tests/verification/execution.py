@@ -7,8 +7,9 @@ import shutil
 from pathlib import Path
 
 import numpy
-from morula.execute import call, command, overrides
+from morula.execute import command, overrides
 
+from tests.common.forks import call
 from tests.common.kept import ROOT, digest, files_of_scene, kept, program_stamp
 from tests.common.results import Results
 from tests.verification.ladder import SCENES, Measured

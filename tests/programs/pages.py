@@ -5,6 +5,7 @@
 of "Your first tissue" in README.md, and those of the step programs' pages, in
 a directory with the names of the tree."""
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -15,6 +16,17 @@ from program import TESTS, ProgramTest, main
 ROOT = TESTS.parent
 
 STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
+# Further lines of the scenes that the pages' commands are tried with: whether they
+# can be followed does not depend on the number of cells. The figures that the
+# pages print are those of tests/steps and contrib/step-pages.
+COARSER = {
+    "step-2": "subsection Tissue\n  set Cell spacing = 20\nend\n",
+    "step-4": "subsection Tissue\n  set Cell spacing = 25\nend\n"
+              "subsection Time\n  set End time = 1\nend\n",
+    "step-5": "subsection Tissue\n  set Cell spacing = 20\nend\n",
+    "step-6": "subsection Tissue\n  set Cell spacing = 40\nend\n"
+              "subsection Grid\n  set Spacing = 100\nend\n"
+              "subsection Time\n  set End time = 2.5\nend\n"}
 COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)
 
 
@@ -22,8 +34,11 @@ class Pages(ProgramTest):
     def setUp(self):
         super().setUp()
         (self.work / "build").symlink_to(Path(self.options.morula).parent)
-        for name in ("prm", "contrib"):
-            (self.work / name).symlink_to(ROOT / name)
+        (self.work / "contrib").symlink_to(ROOT / "contrib")
+        shutil.copytree(ROOT / "prm", self.work / "prm")
+        for step, lines in COARSER.items():
+            with (self.work / f"prm/{step}.prm").open("a") as scene:
+                scene.write(lines)
 
     def follow(self, command):
         print(command, flush=True)

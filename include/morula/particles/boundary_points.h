@@ -10,21 +10,21 @@
 namespace Morula
 {
   /**
-   * This rank's boundary points by their position p in the canonical order,
-   * straight from the ParticleHandler: `points.F(p)`,
-   * `points.area_vector(p)`; all of one point is `points[p]`.
+   * This rank's boundary points by their position p in the canonical order:
+   * `points.F(p)`, `points.area_vector(p)`. A whole point is `points[p]`. The
+   * ParticleHandler stores them.
    */
   template <int dim>
   class BoundaryPoints : public PointStore<dim>
   {
   public:
-    /** Points with these columns. */
+    /** No points yet, with these columns. */
     explicit BoundaryPoints(const BoundaryColumns<dim> &columns)
       : PointStore<dim>(columns.n_numbers())
       , columns_(columns)
     {}
 
-    /** What a boundary point has. */
+    /** The columns of a boundary point. */
     const BoundaryColumns<dim> &
     columns() const
     {
@@ -38,7 +38,7 @@ namespace Morula
       return {this->row(p), columns_};
     }
 
-    /** One boundary point, which may be written. */
+    /** One boundary point, for writing. */
     BoundaryView<dim, double>
     operator[](const unsigned int p)
     {

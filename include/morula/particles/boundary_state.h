@@ -29,8 +29,8 @@ namespace Morula
   };
 
   /**
-   * The columns of the boundary points: the same for every scene, and those of
-   * a point's patch where the scene refines the surface.
+   * The columns of the boundary points. They are equal in all scenes, but for
+   * those of a point's patch, which exist if the scene refines the surface.
    */
   template <int dim>
   class BoundaryColumns : public Columns
@@ -70,8 +70,9 @@ namespace Morula
   };
 
   /**
-   * One boundary point: its row of numbers by the names of the columns. Does
-   * not own them. Number is `double` (may write) or `const double`.
+   * One boundary point: gives access to its row of numbers by the columns'
+   * names, and does not own it. Number is `double` (for writing) or `const
+   * double`.
    */
   template <int dim, typename Number = const double>
   class BoundaryView
@@ -84,7 +85,7 @@ namespace Morula
       , columns(columns)
     {}
 
-    /** Who may write may read. */
+    /** A view for reading from one for writing. */
     BoundaryView(const BoundaryView<dim, double> &other)
       : row_(other.row_)
       , columns(other.columns)
@@ -98,7 +99,7 @@ namespace Morula
       return column.get(row_);
     }
 
-    /** Writes it. */
+    /** Writes the value in a column that exists. */
     template <typename T>
     void
     set(const Column<T> &column, const typename Column<T>::Type &value) const
@@ -106,7 +107,7 @@ namespace Morula
       column.set(row_, value);
     }
 
-    /** All numbers, to be copied. */
+    /** The whole row. */
     const ArrayView<Number> &
     row() const
     {
@@ -172,8 +173,8 @@ namespace Morula
       return columns.seed_position.exists();
     }
 
-    /** Initial position of the point of t = 0 that this one is a part of, µm:
-     *  its own unless the surface was refined. */
+    /** Initial position of the point at t = 0 of which this one is a part, µm.
+     *  It is the point's own unless the surface was refined. */
     Point<dim>
     seed_position() const
     {
@@ -188,8 +189,8 @@ namespace Morula
       return get(columns.edges[k]);
     }
 
-    /** Takes half of the patch, of the edge @p k: the half at its end (sign +1)
-     *  or at its beginning (-1). Only with has_patch(). */
+    /** Cuts the patch in half along the edge @p k, and keeps the half at its
+     * end (sign +1) or at its beginning (-1). Only with has_patch(). */
     void
     halve(const unsigned int k, const double sign) const
     {
@@ -200,9 +201,9 @@ namespace Morula
     }
 
     /**
-     * The point's distance to its neighbours, µm: the side of a square as large
-     * as the patch; where the patch is known, that of the square around the
-     * circle which encloses it.
+     * The point's distance to its neighbours, µm. It is the side of a square of
+     * the patch's area. If the patch's edges are known, it is the side of the
+     * square inscribed in the circle around the patch.
      */
     double
     spacing() const

@@ -16,22 +16,23 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The columns of the cells. Every cell has the first three; effects declare
-   * what else they need, and what no effect needs takes no storage.
+   * The columns of the cells. Every cell has the first three. Effects declare
+   * the others that they need; what no effect needs takes no storage.
    */
   template <int dim>
   class CellColumns : public Columns
   {
   public:
-    /** What every cell has. */
+    /** Declares the columns of every cell. */
     CellColumns();
 
-    /** Declares growth unless it is declared: for all that makes cells grow. */
+    /** Declares growth, if it is not declared. All effects that grow call it.
+     */
     void
     need_growth();
 
-    /** Declares parent and generation unless they are declared: for all that
-     *  makes cells divide. */
+    /** Declares parent and generation, if they are not declared. All effects
+     *  that divide cells call it. */
     void
     need_lineage();
 
@@ -54,8 +55,8 @@ namespace Morula
   };
 
   /**
-   * One cell: its row of numbers by the names of the columns. Does not own
-   * them. Number is `double` (may write) or `const double`.
+   * One cell: reads its row of numbers by the columns' names. Does not own
+   * the row. Number is `double` (also writes) or `const double`.
    */
   template <int dim, typename Number>
   class CellView
@@ -67,7 +68,7 @@ namespace Morula
       , columns_(columns)
     {}
 
-    /** Who may write may read. */
+    /** A view for reading from one for writing. */
     CellView(const CellView<dim, double> &other)
       : row_(other.row_)
       , columns_(other.columns_)
@@ -81,7 +82,7 @@ namespace Morula
       return column.get(row_);
     }
 
-    /** Writes it. */
+    /** Writes the value in a column that exists. */
     template <typename T>
     void
     set(const Column<T> &column, const typename Column<T>::Type &value) const
@@ -154,7 +155,7 @@ namespace Morula
       return determinant(F()) / determinant(growth());
     }
 
-    /** All numbers, to be copied. */
+    /** The whole row. */
     const ArrayView<Number> &
     row() const
     {

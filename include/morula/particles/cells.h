@@ -10,21 +10,21 @@
 namespace Morula
 {
   /**
-   * This rank's cells by their position p in the canonical order, straight from
-   * the ParticleHandler: `cells.F(p)`, `cells.growth(p)`,
-   * `cells.get(column, p)`; all of one cell is `cells[p]`.
+   * This rank's cells by their position p in the canonical order: `cells.F(p)`,
+   * `cells.growth(p)`, `cells.get(column, p)`. A whole cell is `cells[p]`. The
+   * ParticleHandler stores them.
    */
   template <int dim>
   class Cells : public PointStore<dim>
   {
   public:
-    /** Cells with these columns. */
+    /** No cells yet, with these columns. */
     explicit Cells(const CellColumns<dim> &columns)
       : PointStore<dim>(columns.n_numbers())
       , columns_(columns)
     {}
 
-    /** What a cell has. */
+    /** The columns of a cell. */
     const CellColumns<dim> &
     columns() const
     {
@@ -38,7 +38,7 @@ namespace Morula
       return {this->row(p), columns_};
     }
 
-    /** One cell, which may be written. */
+    /** One cell, for writing. */
     CellView<dim, double>
     operator[](const unsigned int p)
     {

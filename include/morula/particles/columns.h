@@ -17,56 +17,56 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** What a daughter gets of a column of its mother's. An effect may write
-   *  something else over it: the cell cycle does with its clock. */
+  /** The value of a daughter in a column. An effect may overwrite it, as the
+   *  cell cycle does with its clock. */
   enum class AtDivision
   {
     copied, // the mother's value
-    halved, // half of it: for amounts
-    reset   // what a founder has
+    halved, // half of the mother's value: for amounts
+    reset   // the value of a founder
   };
 
-  /** One column: what it is called, what it means, and what becomes of it. */
+  /** The declaration of a column: name, meaning, and rule at division. */
   template <typename T>
   struct ColumnDeclaration
   {
-    /** Small letters, digits and '_': in snapshots and in column heads. */
+    /** Small letters, digits and '_'. Snapshots and tables use this name. */
     std::string name;
     /** E.g. "um"; empty for pure numbers. */
     std::string unit;
     /** A noun phrase. */
     std::string meaning;
-    /** What a founder has. */
+    /** The value of a founder. */
     T          initial     = T();
     AtDivision at_division = AtDivision::copied;
-    /** Whether cells-NNNN.csv and cells-NNNN.vtu have it as well. It is in
-     *  snapshots in any case. */
+    /** Whether cells-NNNN.csv and cells-NNNN.vtu have the column. Snapshots
+     *  always have it. */
     bool in_output = false;
   };
 
   /**
-   * Handle of a column, given by Columns::add(): where its values stand in a
-   * point's row of numbers. Without one it stands for a column that does not
-   * exist and takes no storage.
+   * Handle of a column: the place of its value in a point's row of numbers.
+   * Columns::add() makes it. A default-constructed handle is that of a column
+   * that does not exist and takes no storage.
    */
   template <typename T>
   class Column
   {
   public:
-    /** Of a value. */
+    /** Type of a value. */
     using Type = T;
 
     /** A column that does not exist. */
     Column() = default;
 
-    /** Whether it exists. */
+    /** Whether the column exists. */
     bool
     exists() const
     {
       return first != numbers::invalid_unsigned_int;
     }
 
-    /** The value in a row. */
+    /** Reads the value from a row. */
     template <typename Number>
     T
     get(const ArrayView<Number> &row) const
@@ -94,8 +94,8 @@ namespace Morula
   };
 
   /**
-   * The columns of a kind of points (cells, or boundary points) in the order of
-   * their declaration. Complete before there are points.
+   * The columns of cells, or of boundary points, in the order in which they are
+   * declared. All must be declared before points are made.
    */
   class Columns
   {
@@ -118,7 +118,7 @@ namespace Morula
     /**
      * Adds a column behind the others.
      * @throws std::invalid_argument for a name that is in use, or that has
-     *         other characters than declared names may have
+     *         other characters than ColumnDeclaration::name allows
      */
     template <typename T>
     Column<T>
@@ -139,8 +139,8 @@ namespace Morula
       return Column<T>(first);
     }
 
-    /** The column of this name and type; one that does not exist where there is
-     *  none. For programs that read what others declare. */
+    /** The column of this name and type. If there is none, a handle without a
+     *  column. For programs that read columns which others declare. */
     template <typename T>
     Column<T>
     find(const std::string &name) const
@@ -159,30 +159,30 @@ namespace Morula
       return list;
     }
 
-    /** How many numbers a row has. */
+    /** Number of numbers in a row. */
     unsigned int
     n_numbers() const
     {
       return initial.size();
     }
 
-    /** A founder's row, for what is declared the same for all of them. */
+    /** The row of a founder, with the declared initial values. */
     const std::vector<double> &
     initial_row() const
     {
       return initial;
     }
 
-    /** A daughter's row, from her mother's by the columns' rules. */
+    /** The row of a daughter, from the mother's by the columns' rules. */
     std::vector<double>
     daughter(const ArrayView<const double> &mother) const;
 
-    /** The columns as snapshots name them: a line "name n" each. */
+    /** The columns as snapshots name them: one line "name n" for each. */
     std::string
     layout() const;
 
-    /** How a layout() differs from this one, e.g. "lacks 'a' and has 'b'";
-     * empty if it does not. */
+    /** How @p layout differs from layout(), e.g. "lacks 'a' and has 'b'"; empty
+     *  if they are equal. */
     std::string
     differences(const std::string &layout) const;
 

@@ -17,12 +17,12 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * How a value of type T stands in a row of numbers: @p n of them, which
-   * read() and write() find from the first one on. This is the only place where
-   * tensors are taken apart: for columns, snapshots and messages between ranks.
+   * Converts a value of type T to @p n numbers in a row, and back. This is the
+   * only place that takes tensors apart, for columns, snapshots and messages
+   * between ranks.
    *
-   * For numbers and enumerations of at most 32 bits, which a double holds
-   * exactly.
+   * The general case: numbers and enumerations of at most 32 bits, which a
+   * double holds exactly.
    */
   template <typename T>
   struct Flat
@@ -31,14 +31,14 @@ namespace Morula
                   ((std::is_integral_v<T> || std::is_enum_v<T>) &&
                    sizeof(T) <= 4));
 
-    /** How many numbers a value takes. */
+    /** Number of numbers for a value. */
     static constexpr unsigned int n = 1;
     /** 0 for scalars, 1 for vectors, 2 for tensors. */
     static constexpr unsigned int rank = 0;
     /** Whether the numbers have no fraction. */
     static constexpr bool whole = !std::is_same_v<T, double>;
 
-    /** The value that begins at a number. */
+    /** The value of the numbers from @p numbers on. */
     static T
     read(const double *const numbers)
     {
@@ -48,7 +48,7 @@ namespace Morula
         return static_cast<T>(*numbers);
     }
 
-    /** Writes the value from a number on. */
+    /** Writes the value to the numbers from @p numbers on. */
     static void
     write(const T value, double *const numbers)
     {
@@ -59,7 +59,7 @@ namespace Morula
     }
   };
 
-  /** Of 64 bits: the lower half, then the upper one. */
+  /** Integers of 64 bits: the lower half, then the upper half. */
   template <>
   struct Flat<std::uint64_t>
   {

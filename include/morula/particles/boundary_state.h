@@ -70,9 +70,8 @@ namespace Morula
   };
 
   /**
-   * One boundary point: gives access to its row of numbers by the columns'
-   * names, and does not own it. Number is `double` (for writing) or `const
-   * double`.
+   * One boundary point: reads its row of numbers by the columns' names. Does
+   * not own the row. Number is `double` (also writes) or `const double`.
    */
   template <int dim, typename Number = const double>
   class BoundaryView
@@ -189,8 +188,8 @@ namespace Morula
       return get(columns.edges[k]);
     }
 
-    /** Cuts the patch in half along the edge @p k, and keeps the half at its
-     * end (sign +1) or at its beginning (-1). Only with has_patch(). */
+    /** Halves the patch across its edge @p k. Keeps the half at the edge's end
+     *  (sign +1) or at its beginning (-1). Only with has_patch(). */
     void
     halve(const unsigned int k, const double sign) const
     {

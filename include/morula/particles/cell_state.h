@@ -26,8 +26,7 @@ namespace Morula
     /** Declares the columns of every cell. */
     CellColumns();
 
-    /** Declares growth, if it is not declared. All effects that grow call it.
-     */
+    /** Declares growth, if not yet declared. Effects that grow call it. */
     void
     need_growth();
 

@@ -66,14 +66,14 @@ namespace Morula
     static constexpr unsigned int n     = 2;
     static constexpr unsigned int rank  = 0;
     static constexpr bool         whole = true;
-
+    /** See Flat. */
     static std::uint64_t
     read(const double *const numbers)
     {
       return static_cast<std::uint64_t>(numbers[0]) |
              (static_cast<std::uint64_t>(numbers[1]) << 32);
     }
-
+    /** See Flat. */
     static void
     write(const std::uint64_t value, double *const numbers)
     {
@@ -89,7 +89,7 @@ namespace Morula
     static constexpr unsigned int n     = dim;
     static constexpr unsigned int rank  = 1;
     static constexpr bool         whole = false;
-
+    /** See Flat. */
     static Tensor<1, dim>
     read(const double *const numbers)
     {
@@ -98,7 +98,7 @@ namespace Morula
         v[d] = numbers[d];
       return v;
     }
-
+    /** See Flat. */
     static void
     write(const Tensor<1, dim> &v, double *const numbers)
     {
@@ -111,6 +111,7 @@ namespace Morula
   template <int dim>
   struct Flat<Point<dim>> : public Flat<Tensor<1, dim>>
   {
+    /** See Flat. */
     static Point<dim>
     read(const double *const numbers)
     {
@@ -125,7 +126,7 @@ namespace Morula
     static constexpr unsigned int n     = dim * dim;
     static constexpr unsigned int rank  = 2;
     static constexpr bool         whole = false;
-
+    /** See Flat. */
     static Tensor<2, dim>
     read(const double *numbers)
     {
@@ -135,7 +136,7 @@ namespace Morula
           t[i][j] = *numbers++;
       return t;
     }
-
+    /** See Flat. */
     static void
     write(const Tensor<2, dim> &t, double *numbers)
     {
@@ -150,7 +151,7 @@ namespace Morula
   struct Flat<std::tuple<Ts...>>
   {
     static constexpr unsigned int n = (Flat<Ts>::n + ...);
-
+    /** See Flat. */
     static std::tuple<Ts...>
     read(const double *numbers)
     {
@@ -162,7 +163,7 @@ namespace Morula
       // In braces the values are read from left to right.
       return std::tuple<Ts...>{next(Flat<Ts>())...};
     }
-
+    /** See Flat. */
     static void
     write(const std::tuple<Ts...> &values, double *numbers)
     {

@@ -13,7 +13,7 @@ from tests.hard.cases import small_and_thin
 
 ROOT = Path(__file__).resolve().parents[2]
 
-MOST_CELLS = 3000
+MOST_CELLS = 1000
 
 # What cannot be told from the keys: shapes from files.
 COARSER = {"hard/cook.prm": {"Tissue/Cell spacing": "2", "Grid/Spacing": "8",

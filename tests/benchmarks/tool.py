@@ -16,6 +16,8 @@ import os
 import subprocess
 from pathlib import Path
 
+from upkeep.renew import processor
+
 from tests.benchmarks import measure
 from tests.benchmarks.runs import Bench
 from tests.common.tables import aligned, markdown, renew
@@ -37,13 +39,6 @@ def fast_blas(directory):
                            stdout=subprocess.DEVNULL)
         found = sorted(directory.rglob("libopenblas*.so*"))
     return found[0]
-
-
-def processor():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":")[1].strip()
-    return "unknown processor"
 
 
 def main():

@@ -5,29 +5,13 @@ import sys
 from pathlib import Path
 
 import numpy
-
-
-def read_csv(file):
-    """The columns of a CSV file by name; one row still makes arrays."""
-    return numpy.atleast_1d(
-        numpy.genfromtxt(file, delimiter=",", names=True, encoding="utf-8"))
+from morula.prm import parse
+from morula.run import read_csv
 
 
 def read_keys(file):
     """The keys of a .prm file by full path, as text."""
-    keys, sections = {}, []
-    for line in Path(file).read_text().splitlines():
-        words = line.split("#")[0].split()
-        if not words:
-            continue
-        if words[0] == "subsection":
-            sections.append(" ".join(words[1:]))
-        elif words[0] == "end":
-            sections.pop()
-        else:
-            name, value = line.split("#")[0].strip()[len("set"):].split("=", 1)
-            keys["/".join([*sections, name.strip()])] = value.strip()
-    return keys
+    return parse(Path(file).read_text(encoding="utf-8"))
 
 
 class Results:

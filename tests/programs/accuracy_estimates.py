@@ -9,7 +9,8 @@ import unittest
 from pathlib import Path
 
 import numpy
-from morula.accuracy import arithmetic, offsets
+from morula import expressions
+from morula.accuracy import offsets
 from morula.accuracy.estimate import center_of, estimate
 from morula.accuracy.front import Wanted, cheapest, pareto, read_wanted
 from morula.accuracy.limits import (DEFAULT_KINDS, limit_of, observed_order,
@@ -296,7 +297,7 @@ class Words(unittest.TestCase):
             self.assertEqual(output_interval(times), interval)
 
     def test_expressions(self):
-        self.assertAlmostEqual(arithmetic.evaluate(
+        self.assertAlmostEqual(expressions.evaluate(
             "10*(theta - 1)", {"theta": 1.2}, "-"), 2.0)
 
     def test_parameter_files(self):

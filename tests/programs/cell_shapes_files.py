@@ -10,9 +10,9 @@ from pathlib import Path
 
 import matplotlib.image
 import numpy as np
+from morula.expressions import rows_where
 from morula.refusal import Refused
 from morula.run import Run
-from morula.shapes.condition import cells_where
 from program import SCENES, ProgramTest, main, overrides
 
 from tests.common.shapes_file import ShapesFile
@@ -36,11 +36,11 @@ class Conditions(ProgramTest):
                 "x/id > -1": np.divide(x, number, where=number > 0,
                                        out=np.full(4, -9.0)) > -1}.items():
             np.testing.assert_array_equal(
-                cells_where(text, columns, "--where"), expected, text)
+                rows_where(text, columns, "--where"), expected, text)
         for text in ("y > 0", "x >", "x.real", "__import__('os')", "x if x",
                      "[x]", "'x'", "exp(x)", "sqrt(x, x)", "x < 0 ! id", ""):
             with self.assertRaisesRegex(Refused, "allowed is numbers, col"):
-                cells_where(text, columns, "--where")
+                rows_where(text, columns, "--where")
 
 
 class Files(ProgramTest):
@@ -78,8 +78,9 @@ class Files(ProgramTest):
         run = Run(self.output)
         shapes = ShapesFile(self.output / "cell-shapes-0002.vtu")
         cells = run.cells(2)
-        self.assertEqual({*shapes.columns}, {*cells, "region_volume",
-                                             "neighbours", "touches_surface"})
+        self.assertEqual({*shapes.columns},
+                         {*cells, "sigma", "displacement", "region_volume",
+                          "neighbours", "touches_surface"})
         for name, values in cells.items():
             np.testing.assert_array_equal(shapes.columns[name], values)
         self.tool("--where", "generation >= 1 && z > 30", "--output",

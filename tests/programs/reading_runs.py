@@ -4,19 +4,15 @@
 """morula.run: a run read from CSV, from VTU and on two ranks is the same,
 and its lineage is what the file says, row by row."""
 import csv
-import importlib.util
-import math
 import os
 import re
 import subprocess
-import unittest
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 from morula.refusal import Refused
-from morula.run import Run, as_frame
-from morula.states import NoStates
+from morula.run import NoStates, Run
 from program import SCENES, ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -40,7 +36,7 @@ class ReadingRuns(ProgramTest):
     def test_tables(self):
         run = self.run_with("csv")
         written = rows_of(run.directory / "statistics.csv")
-        self.assertEqual(list(run.statistics.dtype.names), list(written[0]))
+        self.assertEqual(list(run.statistics), list(written[0]))
         self.assertEqual(len(run.statistics), len(written))
         for i, row in enumerate(written):
             for name, text in row.items():
@@ -62,11 +58,10 @@ class ReadingRuns(ProgramTest):
                                       run.cells(len(files) - 1)["id"])
         self.assertEqual(run.number("Tissue/Cell spacing"),
                          float(run.keys["Tissue/Cell spacing"]))
-        total = run.timings["total"]
-        shares = sum(share for section, (_, _, share) in run.timings.items()
-                     if section != "total")
-        self.assertLess(shares, 1)
-        self.assertAlmostEqual(total[2], 1, 9)
+        shares = run.timings["share"]
+        self.assertLess(shares.drop("total").sum(), 1)
+        self.assertAlmostEqual(shares["total"], 1, 9)
+        self.assertGreater(run.timings.loc["tangent", "calls"], 0)
 
     def test_formats_and_ranks(self):
         """CSV and VTU of one run, VTU of two ranks: the same cells in the
@@ -111,7 +106,7 @@ class ReadingRuns(ProgramTest):
         # the living are the cells of the last state
         np.testing.assert_array_equal(lineage.living, run.cells(-1)["id"])
         self.assertEqual(lineage.clone_sizes.sum(),
-                         run.statistics["cells"][-1])
+                         run.statistics["cells"].iloc[-1])
         for row in written:
             if int(row["parent"]) >= 0:
                 self.assertEqual(lineage.end_time[int(row["parent"])],
@@ -148,17 +143,26 @@ class ReadingRuns(ProgramTest):
         with self.assertRaisesRegex(NoStates, "no state 99"):
             run.cells(99)
 
-    @unittest.skipUnless(importlib.util.find_spec("pandas"), "needs pandas")
-    def test_frames(self):
-        run = self.run_with("csv, vtu")
-        frame = as_frame(run.statistics)
-        self.assertEqual(frame["cells"].iloc[-1], run.statistics["cells"][-1])
-        cells = as_frame(run.cells(-1))
-        self.assertEqual(len(cells), frame["cells"].iloc[-1])
-        by_generation = cells.groupby("generation")["volume"].sum()
-        self.assertTrue(math.isclose(by_generation.sum(),
-                                     frame["total_volume"].iloc[-1],
-                                     rel_tol=1e-5))
+    def test_vectors(self):
+        """Of VTU files, as components."""
+        cells = self.run_with("csv, vtu").cells(-1)
+        for axis in "xyz":
+            np.testing.assert_allclose(
+                cells[f"displacement_{axis}"],
+                cells[axis] - cells[axis.upper()], atol=1e-4)
+        self.assertTrue({"sigma_xx", "sigma_zx"} <= set(cells))
+        self.assertEqual(cells["id"].dtype.kind, "i")
+
+    def test_damaged(self):
+        """A row that is too short, and text, are no missing numbers."""
+        run = self.run_with("csv")
+        file = run.directory / "statistics.csv"
+        whole = file.read_text().splitlines()
+        for row in (whole[-1].rpartition(",")[0],
+                    whole[-1].replace(",", ",x", 1)):
+            file.write_text("\n".join([*whole[:-1], row, ""]))
+            with self.assertRaisesRegex(Refused, "lines of as many numbers"):
+                Run(run.directory).statistics["time"]
 
 
 if __name__ == "__main__":

@@ -51,13 +51,13 @@ class Page(ReportTest):
         largest = max(sizes.values())
         for name, value in {
                 "steps": len(rows) - 1, "first-cells": rows["cells"][0],
-                "last-cells": rows["cells"][-1], "last-day": rows["time"][-1],
-                "last-volume": rows["total_volume"][-1],
+                "last-cells": rows["cells"].iloc[-1], "last-day": rows["time"].iloc[-1],
+                "last-volume": rows["total_volume"].iloc[-1],
                 "founders": rows["cells"][0], "ever-lived": len(lineage),
                 "divisions": rows["dividing"].sum(),
-                "living": rows["cells"][-1],
+                "living": rows["cells"].iloc[-1],
                 "undivided": lineage.founders - len(grown),
-                "mean-clone": rows["cells"][-1] / rows["cells"][0],
+                "mean-clone": rows["cells"].iloc[-1] / rows["cells"][0],
                 "latest-generation": run.cells(-1)["generation"].max(),
                 "newton": rows["newton_iterations"].sum(),
                 "linear": rows["linear_iterations"].sum(),
@@ -116,7 +116,7 @@ class Page(ReportTest):
                 f"#curve-{column}").replace(",", "")
             numbers = [float(n) for n in re.findall(
                 r"-?\d+\.?\d*(?:e[-+]\d+)?", words)]
-            self.assertLess(np.abs(np.array(numbers) / rows[column][-1]
+            self.assertLess(np.abs(np.array(numbers) / rows[column].iloc[-1]
                                    - 1).min(), 1e-3, words)
         for picture in self.browser.driver.find_elements(
                 By.CSS_SELECTOR, "#curves svg"):
@@ -228,7 +228,7 @@ class WithoutCells(Page):
         self.assertIn("Formats = none", self.browser.text("view-message"))
         self.assertFalse(self.element("view").is_displayed())
         self.assert_number("last-cells",
-                           self.run_read.statistics["cells"][-1])
+                           self.run_read.statistics["cells"].iloc[-1])
 
     def test_tree(self):
         self.click("tab-lineage")

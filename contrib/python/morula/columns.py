@@ -37,7 +37,8 @@ POINTS = {
     "surface": {**_POINTS, "nx": NUMBER, "ny": NUMBER, "nz": NUMBER,
                 "area": "um^(dim-1)"}}
 
-# What a VTU file has as one tensor or vector, and a CSV file as columns.
+# What a VTU file has as one tensor or vector, and CSV files and data frames
+# as columns; other vectors become NAME_x, NAME_y, NAME_z.
 COMPONENTS = {
     "sigma": ("sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_yz",
               "sigma_zx"),

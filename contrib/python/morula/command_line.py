@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The command line of programs that do many runs of a scene."""
 import argparse
+import contextlib
 import signal
 import sys
 from pathlib import Path
@@ -65,16 +66,29 @@ def output_directory(options, default):
     return directory
 
 
-def run_tool(name, tool):
-    """What tool() returns as the exit code; 1 for what makes no sense, 130 if
-    it was stopped. Asked to end from outside is like Ctrl-C, so that no run is
-    left over."""
+@contextlib.contextmanager
+def like_ctrl_c():
+    """Asked to end from outside is like Ctrl-C, so that no run is left
+    over."""
     def stop(*_):
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGTERM, stop)
+    before = {number: signal.signal(number, stop)
+              for number in (signal.SIGTERM, signal.SIGHUP)
+              if signal.getsignal(number) != signal.SIG_IGN}  # as by nohup
     try:
-        return tool()
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def run_tool(name, tool):
+    """What tool() returns as the exit code; 1 for what makes no sense, 130 if
+    it was stopped."""
+    try:
+        with like_ctrl_c():
+            return tool()
     except Refused as refusal:
         print(f"{name}: {refusal}", file=sys.stderr)
         return 1
@@ -82,5 +96,3 @@ def run_tool(name, tool):
         print(f"{name}: stopped; the same command goes on with what is "
               "missing.", file=sys.stderr)
         return 130
-    finally:
-        signal.signal(signal.SIGTERM, before)

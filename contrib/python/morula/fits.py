@@ -36,6 +36,7 @@ class Line:
 
 def in_range(time, values, limits):
     low, high = limits
+    time, values = np.asarray(time), np.asarray(values)
     kept = (time >= low - 1e-6) & (time <= high + 1e-6)
     if kept.sum() < 2:
         raise NothingToFit(

@@ -12,17 +12,17 @@ class Lineage:
     """lineage.csv: a row for every cell that ever lived, in order of its id.
     Ids count from 0; those of daughters are larger than their mother's.
 
-    `table` is a structured array with id, parent (-1 for founders),
-    generation, birth_time (days) and x, y, z (um) where the cell was born."""
+    `table` is a data frame with id, parent (-1 for founders), generation,
+    birth_time (days) and x, y, z (um) where the cell was born."""
 
     def __init__(self, table):
-        self.table = table[np.argsort(table["id"], kind="stable")]
+        self.table = table.sort_values("id", kind="stable", ignore_index=True)
         if not np.array_equal(self.table["id"], np.arange(len(self.table))):
             raise Refused("lineage.csv", "its ids", "0, 1, 2, ... without a "
                           "gap", "Is the file whole?")
-        self.parent = self.table["parent"].astype(np.int64)
-        self.generation = self.table["generation"].astype(np.int64)
-        self.birth_time = self.table["birth_time"]
+        self.parent = self.table["parent"].to_numpy()
+        self.generation = self.table["generation"].to_numpy()
+        self.birth_time = self.table["birth_time"].to_numpy()
 
     def __len__(self):
         return len(self.parent)

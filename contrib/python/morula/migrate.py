@@ -9,11 +9,11 @@
 Comments and layout stay. Included files are scenes of their own: name them, too.
 """
 import argparse
-import os
 import re
 import sys
 from pathlib import Path
 
+from .files import write
 from .keys import RENAMES
 
 WORD = re.compile(r"(\s*)(set|subsection|end)\b\s*([^#]*)", re.IGNORECASE)
@@ -86,9 +86,7 @@ def main():
         try:
             text, done = migrate(scene.read_text(), RENAMES)
             if done and not options.check:
-                aside = scene.with_name(scene.name + ".tmp")
-                aside.write_text(text)
-                os.replace(aside, scene)
+                write(scene, text)
         except (OSError, UnicodeDecodeError) as error:
             sys.exit(f"migrate: {scene}: {error}")
         for former, path in done:

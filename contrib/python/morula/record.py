@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What is known of a run: whether it finished, and what it cost."""
+import csv
 import json
 import shutil
 from pathlib import Path
 
-from .results import read_csv, time_of
+from .files import write
+from .run import read_csv, time_of
 
 
 class Record:
@@ -67,9 +69,7 @@ class Record:
     def _store(self):
         stored = {"identity": self.identity, "overrides": self.overrides,
                   "repeats": self.repeats}
-        temporary = self.file.with_suffix(".tmp")
-        temporary.write_text(json.dumps(stored, indent=1), encoding="utf-8")
-        temporary.replace(self.file)
+        write(self.file, json.dumps(stored, indent=1))
 
     def _computing_seconds(self):
         """Wall time from the start to each row of statistics.csv, less the
@@ -78,8 +78,10 @@ class Record:
         statistics = self.statistics()
         written = [time_of(file) for file
                    in self.output.glob("cells-[0-9]*.csv")]
-        timings = read_csv(self.output / "timings.csv", dtype=None)
-        spent = timings["wall_seconds"][timings["section"] == "output"].sum()
+        with open(self.output / "timings.csv", encoding="utf-8") as stream:
+            spent = sum(float(row["wall_seconds"])
+                        for row in csv.DictReader(stream)
+                        if row["section"] == "output")
         return [float(seconds - spent * sum(t < time for t in written)
                       / max(1, len(written)))
                 for time, seconds in zip(statistics["time"],

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""A run that has been done, as NumPy arrays.
+"""A run that has been done, as data frames of pandas.
 
     from morula.run import Run
     run = Run("output/bud")
@@ -9,21 +9,129 @@
     cells["energy_density"].mean()      # kPa
     run.clone(17)                       # ids of all descendants of cell 17
 
-The columns are those of the files (README.md, "What comes out"). `as_frame`
-makes a pandas data frame of any of these tables, if pandas is there.
+The columns are those of the files (README.md, "What comes out").
+
+What stands outside of the class reads single files into NumPy arrays: for
+tools and tests that start often, as loading pandas takes half a second.
 """
+import xml.etree.ElementTree as ElementTree
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
+from .columns import COMPONENTS
 from .lineage import Lineage
 from .prm import parse
 from .refusal import Refused
-from .results import read_csv
-from .states import NoStates, read_points, states
 
 ESSENTIAL = ("parameters.prm", "statistics.csv")
+
+# Written as numbers, and whole ones.
+WHOLE = ("id", "parent", "generation", "phase", "condition",
+         "held_at_checkpoint")
+
+# Two times are equal if they agree to this, relative to the larger of them
+# and a day.
+TIME_SLACK = 1e-9
+
+
+class NoStates(Exception):
+    """A run has written none of the states asked for."""
+
+
+def read_csv(file):
+    """The columns of a CSV file of numbers by name, a structured array; one
+    row still makes arrays. Throws Refused if the file is damaged."""
+    with open(file, encoding="utf-8") as stream:
+        names = stream.readline().strip().split(",")
+        try:
+            return np.loadtxt(stream, delimiter=",", ndmin=1,
+                              dtype=[(name, float) for name in names])
+        except ValueError as error:
+            raise Refused("The table", file, "a line of names and lines of "
+                          "as many numbers", f"{error}.") from None
+
+
+def same_time(a, b):
+    return abs(a - b) <= TIME_SLACK * max(1.0, abs(a), abs(b))
+
+
+def row_at(statistics, time):
+    """Number of the row of statistics.csv at a time."""
+    for number, there in enumerate(statistics["time"]):
+        if same_time(there, time):
+            return number
+    raise LookupError(f"statistics.csv has no row for day {time:g}")
+
+
+def time_of(file):
+    """The time of a CSV file of cells or surface, or None if nothing is in
+    it."""
+    with file.open(encoding="utf-8") as stream:
+        stream.readline()
+        first = stream.readline()
+    return float(first.split(",")[0]) if first else None
+
+
+def states(directory, name):
+    """(time in days, file) of every state written, from NAME.pvd or the CSV
+    files; NAME is 'cells' or 'surface'. Throws NoStates."""
+    collection = directory / f"{name}.pvd"
+    if collection.is_file():
+        found = [(float(node.get("timestep")), directory / node.get("file"))
+                 for node in ElementTree.parse(collection).iter("DataSet")]
+    else:
+        found = [(time_of(file), file)
+                 for file in directory.glob(f"{name}-[0-9]*.csv")]
+        found = [state for state in found if state[0] is not None]
+    if not found:
+        raise NoStates(f"{directory} has no {name}.pvd and no {name}-*.csv; "
+                       "was the run's Output/Formats = none?")
+    return sorted(found)
+
+
+def read_points(file):
+    """The columns of a VTU, PVTU or CSV file by name, in the file's order.
+    Throws NoStates if the file is not there or damaged."""
+    if not file.is_file():
+        raise NoStates(f"{file} is not there, though a .pvd file lists it")
+    if file.suffix != ".csv":
+        return _read_vtu(file)
+    data = read_csv(file)
+    return {name: data[name] for name in data.dtype.names}
+
+
+def places(columns):
+    """Positions (n, 3), um."""
+    return np.stack([columns[c] for c in "xyz"], axis=1).astype(float)
+
+
+def _read_vtu(file):
+    """VTK takes a second to load, and CSV files do without. (meshio would be
+    quicker, but reads no PVTU files, those of several ranks.)"""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader,
+                                     vtkXMLUnstructuredGridReader)
+    reader = (vtkXMLPUnstructuredGridReader if file.suffix == ".pvtu" else
+              vtkXMLUnstructuredGridReader)()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    if reader.GetErrorCode() or grid.GetPoints() is None:
+        raise NoStates(f"{file} is damaged: VTK cannot read it")
+    positions = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    found = {name: positions[:, k] for k, name in enumerate("xyz")}
+    time = grid.GetFieldData().GetArray("TIME")
+    if time:
+        found["time"] = np.full(len(positions), time.GetValue(0))
+    data = grid.GetPointData()
+    for i in range(data.GetNumberOfArrays()):
+        name, values = data.GetArrayName(i), vtk_to_numpy(data.GetArray(i))
+        parts = COMPONENTS.get(name, [f"{name}_{axis}" for axis in "xyz"])
+        found |= ({name: values} if values.ndim == 1 else
+                  dict(zip(parts, values.T)))
+    return found
 
 
 class Run:
@@ -55,25 +163,23 @@ class Run:
 
     @cached_property
     def statistics(self):
-        """statistics.csv, a structured array: columns by name, a row a step
-        and row 0 for the initial state."""
+        """statistics.csv: row 0 for the initial state, then a row a step."""
         file = self.directory / "statistics.csv"
         table = read_csv(file) if file.stat().st_size else ()
         if not len(table):
             raise Refused("The table", file, "a table with the initial state "
                           "and a row a step", "Has the run begun?")
-        return table
+        return _frame(table)
 
     @cached_property
     def timings(self):
-        """timings.csv: section -> (calls, wall seconds, share of the total);
+        """timings.csv: calls, wall_seconds, share (of the total) by section;
         empty before the run has ended."""
+        import pandas
         file = self.directory / "timings.csv"
         if not file.is_file():
-            return {}
-        return {row["section"]: (int(row["calls"]), float(row["wall_seconds"]),
-                                 float(row["share"]))
-                for row in read_csv(file, dtype=None)}
+            return pandas.DataFrame(columns=["calls", "wall_seconds", "share"])
+        return pandas.read_csv(file, index_col="section")
 
     @cached_property
     def lineage(self):
@@ -82,7 +188,7 @@ class Run:
         if not file.is_file():
             raise NoStates(f"{self.directory} has no lineage.csv: it is "
                            "written when the first step ends.")
-        return Lineage(read_csv(file))
+        return Lineage(_frame(read_csv(file)))
 
     def clone(self, cell):
         """Ids of a cell and all its descendants, dead or alive, in order."""
@@ -93,53 +199,36 @@ class Run:
         """When cells and surface were written, days; none with Formats =
         none."""
         try:
-            return np.array([time for time, _ in self._states("cells")])
+            return np.array([time for time, _ in states(self.directory,
+                                                        "cells")])
         except NoStates:
             return np.array([])
 
     def cells(self, i):
-        """The columns of state i of `times` (-1: the last) by name, in order
-        of the ids; lengths in um, stresses in kPa. From VTU files they are
-        single precision (ids and other whole numbers are exact) and more:
-        pressure, principal stresses, displacement, and sigma in one piece
-        besides. Throws NoStates."""
-        return self._read("cells", i)[1]
+        """State i of `times` (-1: the last), in order of the ids; lengths in
+        um, stresses in kPa. From VTU files columns are single precision (ids
+        and other whole numbers are exact) and more: pressure, principal
+        stresses, displacement. Throws NoStates."""
+        return self._read("cells", i)
 
     def surface(self, i):
         """The boundary points of state i, likewise."""
-        return self._read("surface", i)[1]
-
-    def _states(self, kind):
-        return states(self.directory, kind)
+        return self._read("surface", i)
 
     def _read(self, kind, i):
-        """Positions (n, 3) and columns of state i, in order of the ids."""
-        found = self._states(kind)
+        found = states(self.directory, kind)
         if not -len(found) <= i < len(found):
             raise NoStates(f"{self.directory} has no state {i} of the {kind}: "
                            f"there are {len(found)}, from 0 on")
         file = found[i][1]
         if self._latest.get(kind, (None,))[0] != file:
-            self._latest[kind] = file, in_order_of_ids(*read_points(file))
+            self._latest[kind] = file, _frame(read_points(file)).sort_values(
+                "id", kind="stable", ignore_index=True)
         return self._latest[kind][1]
 
 
-def in_order_of_ids(positions, columns):
-    """Whatever was written as a whole number becomes one."""
-    order = np.argsort(columns["id"], kind="stable")
-    whole = ("id", "parent", "generation", "phase", "condition",
-             "held_at_checkpoint")
-    return positions[order], {
-        name: values[order].astype(np.int64) if name in whole
-        else values[order] for name, values in columns.items()}
-
-
-def as_frame(table):
-    """A pandas data frame of statistics, cells, surface or lineage.table;
-    columns that are vectors are left out. Throws ImportError without
-    pandas."""
+def _frame(columns):
     import pandas
-    if isinstance(table, dict):
-        table = {name: values for name, values in table.items()
-                 if np.ndim(values) == 1}
-    return pandas.DataFrame(table)
+    frame = pandas.DataFrame(columns)
+    return frame.astype({name: np.int64 for name in WHOLE if name in frame
+                         and frame[name].dtype.kind != "i"})

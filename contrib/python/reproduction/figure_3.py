@@ -68,7 +68,7 @@ def draw_curve(which, runs, path):
                   label=f"paper: {curve.text(curve.paper)}")
         axes.axvspan(*fits.RANGE, color="0.93", zorder=0, linewidth=0)
         axes.set(xlabel="Time [day]", ylabel=curve.label,
-                 xlim=(0, time[-1]), ylim=(min(0, values.min()), None))
+                 xlim=(0, time.max()), ylim=(min(0, values.min()), None))
         axes.legend(loc="upper left", borderaxespad=0.1, handlelength=1.6)
 
     layout.curves(path, which, draw)

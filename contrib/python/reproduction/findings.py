@@ -170,7 +170,7 @@ def slower(runs):
     return Finding(
         "§3.2, Fig. 4 e", "the larger J_th, the slower N_p increases", ordered,
         f"at every step end from day {FROM_DAY:g}; last N_p: " + ", ".join(
-            f"{rows['cells'][-1]:,.0f} ({threshold(runs, scene)})"
+            f"{rows['cells'].iloc[-1]:,.0f} ({threshold(runs, scene)})"
             for scene, rows in zip(CHECKPOINTS, series)))
 
 
@@ -184,15 +184,15 @@ def at_equal_number(runs, column, larger):
     with J_th for each pair of neighbours, and the values at the largest
     number that all reach."""
     series = [figure_4.five_days(runs[scene]) for scene in CHECKPOINTS]
-    founders = series[0]["cells"][0]
+    founders = series[0]["cells"].iloc[0]
     ordered = True
     for a, b in zip(series, series[1:]):
-        end = min(a["cells"][-1], b["cells"][-1])
+        end = min(a["cells"].iloc[-1], b["cells"].iloc[-1])
         places = np.linspace(min(FROM_RATIO * founders, end), end, 50)
         difference = (np.interp(places, b["cells"], b[column]) -
                       np.interp(places, a["cells"], a[column]))
         ordered &= bool(np.all(difference > 0 if larger else difference < 0))
-    common = min(rows["cells"][-1] for rows in series)
+    common = min(rows["cells"].iloc[-1] for rows in series)
     return ordered, common, [float(np.interp(common, rows["cells"],
                                              rows[column])) for rows in series]
 

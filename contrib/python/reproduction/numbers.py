@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from morula import fits
+from morula.columns import COMPONENTS
 
 from . import figure_4, stated
 
@@ -31,14 +32,14 @@ def boundary_points(run):
 
 def growth_of_number(run):
     cells = run.statistics["cells"]
-    return cells[-1] / cells[0]
+    return cells.iloc[-1] / cells.iloc[0]
 
 
 def mean_volume_ratio(run):
     """Mean cell volume at the end over that of the start."""
     rows = run.statistics
     volume = rows["total_volume"] / rows["cells"]
-    return volume[-1] / volume[0]
+    return volume.iloc[-1] / volume.iloc[0]
 
 
 def volume_over_cube_of_stretch(run):
@@ -56,8 +57,9 @@ def volume_spread(run):
 
 def residual_stress(run):
     """Largest component of any cell's Cauchy stress over E."""
-    sigma = run.read("cells", run.last_output)[1]["sigma"]
-    return float(np.abs(sigma).max() / run.number("Material/Young's modulus"))
+    columns = run.read("cells", run.last_output)[1]
+    largest = max(np.abs(columns[name]).max() for name in COMPONENTS["sigma"])
+    return float(largest / run.number("Material/Young's modulus"))
 
 
 def fit(column, function):

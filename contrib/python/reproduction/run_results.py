@@ -4,7 +4,7 @@
 from pathlib import Path
 
 import numpy as np
-from morula.run import Run
+from morula.run import Run, places, states
 
 
 class PaperRun(Run):
@@ -17,12 +17,12 @@ class PaperRun(Run):
 
     @property
     def founders(self):
-        return int(self.statistics["cells"][0])
+        return int(self.statistics["cells"].iloc[0])
 
     def cells_at(self, time):
         """The number of cells at the step end nearest to a time (days)."""
-        nearest = np.argmin(np.abs(self.statistics["time"] - time))
-        return int(self.statistics["cells"][nearest])
+        nearest = (self.statistics["time"] - time).abs().argmin()
+        return int(self.statistics["cells"].iloc[nearest])
 
     @property
     def last_output(self):
@@ -44,11 +44,12 @@ class PaperRun(Run):
         return float(np.mean(columns["growth_volume_ratio"])) ** (1 / 3)
 
     def read(self, kind, time):
-        """Positions (n, 3) and columns of the 'cells' or the 'surface' in the
-        output nearest to a time (days), in order of their ids."""
-        found = self._states(kind)
-        return self._read(kind, min(range(len(found)), key=lambda i:
-                                    abs(found[i][0] - time)))
+        """Positions (n, 3) and columns, as arrays, of the 'cells' or the
+        'surface' in the output nearest to a time (days)."""
+        found = states(self.directory, kind)
+        table = self._read(kind, min(range(len(found)), key=lambda i:
+                                     abs(found[i][0] - time)))
+        return places(table), {name: table[name].to_numpy() for name in table}
 
 
 class Runs(dict):
@@ -70,7 +71,7 @@ class Runs(dict):
                    ("snapshot.h5", "statistics.csv", "parameters.prm")):
             return False
         run = self[scene]
-        last = run.statistics[-1]
+        last = run.statistics.iloc[-1]
         enough = run.number("Time/Stop at cells")
         return bool(last["time"] >= run.number("Time/End time") - 1e-6 or
                     0 < enough <= last["cells"])

@@ -47,7 +47,7 @@ def run_scenes(scenes, options, program, folder, say):
                             f"{directory} or use --fresh.")
             say(f"reproduce: {scene} failed: {failure}")
             return failure
-        cells = PaperRun(directory).statistics["cells"][-1]
+        cells = PaperRun(directory).statistics["cells"].iloc[-1]
         say(f"reproduce: {scene}: {cells:,.0f} cells, "
             f"{time.monotonic() - start:.0f} s")
         return None

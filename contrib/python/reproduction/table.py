@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Writes table.md: the paper's numbers beside ours, and its findings."""
 from morula import fits
+from morula.tables import markdown
 
 from . import outline, renewal, stated
 from .catalogue import GRIDS
@@ -11,16 +12,11 @@ from .outline_reference import finite_element_outline, finite_element_values
 from .run_results import Runs
 
 
-def markdown(header, rows):
-    """A table of Markdown; fields are text."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
-
-
 def numbers(runs):
     return "## Numbers\n\n" + markdown(
         ["where", "what", "paper", "ours", "ours / paper", "remark"],
         [cells_of_row(number, runs) for number in NUMBERS]) + f"""
+
 Fits are over {fits.RANGE[0]:g} ≤ t ≤ {fits.RANGE[1]:g} days, all step ends \
 alike: exponentials by least
 squares of the logarithm, the line by least squares of the values.
@@ -72,6 +68,7 @@ def grids(runs):
             values["mean_energy_density"])])
     return f"## The grids of Fig. 2, θ = {theta:.3g}\n\n" + markdown(
         header, rows) + f"""
+
 Lengths in µm. Distances are those of the free boundary points from the outline
 of (e) and from that of body-fitted finite elements (FE, an independent
 solution). "Near" are the points that began less than {outline.NEAR_CLAMP:g} \
@@ -81,7 +78,7 @@ edge, "away" the others.
 
 
 def grid_row(run, from_fine, from_elements):
-    last = run.statistics[-1]
+    last = run.statistics.iloc[-1]
     row = [run.name[-1], f"{run.number('Grid/Spacing'):g}",
            f"{run.number('Tissue/Cell spacing'):g}"]
     row += ([f"{from_fine.near_rms:.1f}, {from_fine.near_max:.1f}",
@@ -115,7 +112,7 @@ def findings(runs):
                      "holds" if found.holds else "**does not hold**",
                      found.evidence])
     return "## Findings\n\n" + markdown(
-        ["where", "the paper finds", "ours", "by what"], rows)
+        ["where", "the paper finds", "ours", "by what"], rows) + "\n"
 
 
 def write_table(output):

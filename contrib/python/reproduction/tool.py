@@ -12,11 +12,11 @@ numbers that the paper states beside ours.
 """
 import argparse
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
 
+from morula.command_line import like_ctrl_c
 from morula.draw.screen import require_virtual_screen, run_on_virtual_screen
 from reproduction import catalogue
 
@@ -80,10 +80,6 @@ def say(text):
     print(text, flush=True)
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
-
-
 def run_needed(options, morula):
     """Runs what the panels need; the scenes that failed. What drawing lacks
     shows before the runs, not after them."""
@@ -111,20 +107,23 @@ def main():
     if options.list:
         print(catalogue.listing())
         return 0
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, interrupt)
     try:
-        morula = executable(options)
-        options.output.mkdir(parents=True, exist_ok=True)
-        failed = run_needed(options, morula)
-        panels = [panel for panel in options.panels
-                  if not set(catalogue.PANELS[panel][0]) & set(failed)]
-        from reproduction.table import write_table
-        write_table(options.output)
-        say(f"reproduce: {options.output / 'table.md'}")
-        code = draw(options, panels)
+        with like_ctrl_c():
+            return reproduce(options)
     except KeyboardInterrupt:
         sys.exit("reproduce: stopped; the same command goes on.")
+
+
+def reproduce(options):
+    morula = executable(options)
+    options.output.mkdir(parents=True, exist_ok=True)
+    failed = run_needed(options, morula)
+    panels = [panel for panel in options.panels
+              if not set(catalogue.PANELS[panel][0]) & set(failed)]
+    from reproduction.table import write_table
+    write_table(options.output)
+    say(f"reproduce: {options.output / 'table.md'}")
+    code = draw(options, panels)
     left = [panel for panel in options.panels if panel not in panels]
     if failed:
         say(f"reproduce: FAILED: the runs {', '.join(failed)}; therefore not "

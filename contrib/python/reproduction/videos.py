@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOOggTheora import vtkOggTheoraWriter
+from morula.files import replaced
+from morula.render.films import write_ogg
 
 from . import figure_3, figure_4, layout
 from .pictures import Camera, common_view
@@ -34,21 +33,8 @@ def write(video, runs, path):
     times = [time for time in run.times if time <= end + 1e-9]
     camera = Camera(common_view([(run, end)]), video.width)
     frames = (frame(video, run, time, camera) for time in times)
-    unfinished = path.with_name(path.name + ".part")
-    writer = vtkOggTheoraWriter()
-    writer.SetFileName(str(unfinished))
-    writer.SetRate(FRAMES_PER_SECOND)
-    writer.SetQuality(2)
-    writer.SubsamplingOn()  # 4:2:0, which every player knows
-    for i, picture in enumerate(frames):
-        writer.SetInputData(image_data(picture))
-        if i == 0:
-            writer.Start()
-        writer.Write()
-    for _ in range(FRAMES_PER_SECOND):  # rest on the last one for a second
-        writer.Write()
-    writer.End()
-    unfinished.replace(path)
+    with replaced(path) as unfinished:
+        write_ogg(frames, unfinished, FRAMES_PER_SECOND)
 
 
 def frame(video, run, time, camera):
@@ -77,16 +63,6 @@ def frame(video, run, time, camera):
         picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
         plt.close(figure)
     return picture
-
-
-def image_data(picture):
-    """VTK's image counts rows from below."""
-    height, width = picture.shape[:2]
-    data = vtkImageData()
-    data.SetDimensions(width, height, 1)
-    rows = np.ascontiguousarray(picture[::-1]).reshape(-1, 3)
-    data.GetPointData().SetScalars(numpy_to_vtk(rows, deep=True))
-    return data
 
 
 INSIDE = (("generation", figure_4.GENERATIONS, True),

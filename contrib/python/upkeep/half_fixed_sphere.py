@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy
 from morula.execute import call, overrides
+from morula.tables import markdown
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -100,12 +101,6 @@ def write_csv(path, columns):
         file.write(",".join(columns) + "\n")
         for row in zip(*columns.values()):
             file.write(",".join(f"{value:.10g}" for value in row) + "\n")
-
-
-def markdown(header, rows):
-    lines = ["| " + " | ".join(row) + " |" for row in
-             [header, ["---"] * len(header), *rows]]
-    return "\n".join(lines) + "\n"
 
 
 def numbers(run, i):
@@ -255,5 +250,5 @@ def main():
               convergence_table(ladders, 0), convergence_table(ladders, -1),
               difference_table("size", plain, values, stretches),
               difference_table("edge at", moved, moved[EDGES.index(0)][1],
-                               stretches), sep="\n", file=file)
+                               stretches), sep="\n\n", file=file)
     print((runs.work / "tables.md").read_text(encoding="utf-8"))

@@ -20,12 +20,12 @@ import argparse
 import datetime
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+from morula.command_line import like_ctrl_c
 from morula.execute import call, cores
 from morula.program import Program
 
@@ -141,14 +141,6 @@ def processor():
     return "unknown processor"
 
 
-def stop_like_ctrl_c():
-    """SIGTERM ends the command that is at work, too."""
-    def stop(*_):
-        raise KeyboardInterrupt
-    signal.signal(signal.SIGTERM, stop)
-    signal.signal(signal.SIGHUP, stop)
-
-
 def arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -178,14 +170,14 @@ def listing(options):
 
 def renew_pages(options):
     """Exit code 0; 1 if a page could not be renewed; 130 if it was stopped."""
-    stop_like_ctrl_c()
+    names = options.pages or [name for name in PAGES if
+                              PAGES[name].short or not options.short]
     try:
-        if not options.short:
-            subprocess.run([ROOT / "contrib/build", "all"], check=True)
-        names = options.pages or [name for name in PAGES if
-                                  PAGES[name].short or not options.short]
-        return Renewal(ROOT, PAGES, options.short,
-                       lambda text: print(text, flush=True)).run(names)
+        with like_ctrl_c():
+            if not options.short:
+                subprocess.run([ROOT / "contrib/build", "all"], check=True)
+            return Renewal(ROOT, PAGES, options.short,
+                           lambda text: print(text, flush=True)).run(names)
     except subprocess.CalledProcessError as error:
         print(f"renew: {error}", file=sys.stderr)
         return 1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy
 from morula.execute import cores
-from morula.results import row_at
+from morula.run import row_at
 
 from .front import cheapest, pareto
 from .scatter import scatters

@@ -2,13 +2,14 @@
 # Copyright (C) 2026 by the Morula authors
 """What is looked at in a run: a number at a time."""
 import difflib
+import functools
 import re
 from dataclasses import dataclass
 
 import numpy
 from morula import columns
 from morula.refusal import Refused
-from morula.results import points_at, row_at
+from morula.run import read_csv, row_at, same_time, time_of
 
 REDUCTIONS = {"mean": numpy.mean, "min": numpy.min, "max": numpy.max,
               "sum": numpy.sum, "std": numpy.std, "median": numpy.median}
@@ -41,6 +42,19 @@ class Measure:
         points = points_at(record.output, self.kind, time)
         return float(reduce(self.reduction, values_of(points, self.column,
                                                       center)))
+
+
+def points_at(directory, kind, time):
+    """The file of 'cells' or 'surface' written at a time, read."""
+    for file in sorted(directory.glob(f"{kind}-[0-9]*.csv")):
+        there = time_of(file)
+        if there is not None and same_time(there, time):
+            return read_once(file)
+    raise LookupError(f"{directory} has no {kind}-NNNN.csv for day {time:g}")
+
+
+# For several measures of one file.
+read_once = functools.lru_cache(maxsize=1)(read_csv)
 
 
 def values_of(points, column, center):

@@ -5,10 +5,9 @@ import csv
 import math
 from pathlib import Path
 
+from morula.expressions import evaluate
 from morula.refusal import Refused
-from morula.results import same_time
-
-from .arithmetic import evaluate
+from morula.run import same_time
 
 OPTION = "--reference"
 COLUMN_OPTION = "--reference-column"

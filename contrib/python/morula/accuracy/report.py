@@ -1,25 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The tables: Markdown to read, CSV to go on with."""
-import csv
 import math
 import shlex
 
+from morula.files import write, write_csv
+from morula.tables import markdown as table_of
+
 from .limits import NOTES, ROUNDING
-from .scatter import write_csv
+from .scatter import write_offsets
 
 
 def write_tables(findings, directory):
-    (directory / "table.md").write_text(markdown(findings), encoding="utf-8")
+    write(directory / "table.md", markdown(findings))
     if findings.request.n_offsets:
-        write_csv(findings, directory)
+        write_offsets(findings, directory)
     if not findings.plan.ladders:
         (directory / "table.csv").unlink(missing_ok=True)  # of before
         return
-    with (directory / "table.csv").open("w", encoding="utf-8",
-                                        newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerows(rows_of_csv(findings))
+    write_csv(directory / "table.csv", rows_of_csv(findings))
 
 
 def markdown(findings):
@@ -63,8 +62,7 @@ def bullets(lines):
 
 
 def table(head, rows):
-    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return table_of(head, rows, right=len(head) - 1)
 
 
 def run_table(findings, estimates):

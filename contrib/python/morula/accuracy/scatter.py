@@ -2,10 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """What a single run does not show: how far its results depend on where the
 grid lies."""
-import csv
 from dataclasses import dataclass
 
 import numpy
+from morula.files import write_csv
 
 
 @dataclass
@@ -62,41 +62,33 @@ def scatters(findings):
     return result
 
 
-def write_csv(findings, directory):
+def write_offsets(findings, directory):
     """scatter.csv, the table with all digits, and offsets.csv, all runs."""
-    write_scatter(findings, directory / "scatter.csv")
-    write_runs(findings, directory / "offsets.csv")
+    write_csv(directory / "scatter.csv", scatter_rows(findings))
+    write_csv(directory / "offsets.csv", run_rows(findings))
 
 
-def write_scatter(findings, file):
-    with file.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([*findings.plan.keys, "time", "measure", "unit",
-                         "runs", "failed", "mean", "smallest", "largest",
-                         "standard_deviation", "right_value"])
-        for s in findings.scatters:
-            numbers = (s.values.mean(), s.values.min(), s.values.max(),
-                       s.deviation)
-            writer.writerow([
-                *s.point, f"{s.time:.10g}", s.measure.text, s.measure.unit,
-                len(s.values), s.n_failed,
-                *(f"{number:.10g}" for number in numbers),
-                "" if s.right is None else f"{s.right:.10g}"])
+def scatter_rows(findings):
+    yield [*findings.plan.keys, "time", "measure", "unit", "runs", "failed",
+           "mean", "smallest", "largest", "standard_deviation", "right_value"]
+    for s in findings.scatters:
+        numbers = (s.values.mean(), s.values.min(), s.values.max(),
+                   s.deviation)
+        yield [*s.point, f"{s.time:.10g}", s.measure.text, s.measure.unit,
+               len(s.values), s.n_failed,
+               *(f"{number:.10g}" for number in numbers),
+               "" if s.right is None else f"{s.right:.10g}"]
 
 
-def write_runs(findings, file):
-    """offsets.csv: a row for every run, time and measure."""
-    plan = findings.plan
+def run_rows(findings):
+    """A row for every run, time and measure."""
     axes = "xyz"[:findings.request.scene.dimension]
-    with file.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([*plan.keys, "seed", *(f"moved_{a}" for a in axes),
-                         "time", "measure", "unit", "value", "right_value"])
-        for s in findings.scatters:
-            for sample, value in zip(s.samples, s.values):
-                writer.writerow([
-                    *s.point, "" if sample.seed is None else sample.seed,
-                    *(f"{part:.10g}" for part in sample.moved),
-                    f"{s.time:.10g}", s.measure.text, s.measure.unit,
-                    f"{value:.10g}",
-                    "" if s.right is None else f"{s.right:.10g}"])
+    yield [*findings.plan.keys, "seed", *(f"moved_{a}" for a in axes),
+           "time", "measure", "unit", "value", "right_value"]
+    for s in findings.scatters:
+        for sample, value in zip(s.samples, s.values):
+            yield [*s.point, "" if sample.seed is None else sample.seed,
+                   *(f"{part:.10g}" for part in sample.moved),
+                   f"{s.time:.10g}", s.measure.text, s.measure.unit,
+                   f"{value:.10g}",
+                   "" if s.right is None else f"{s.right:.10g}"]

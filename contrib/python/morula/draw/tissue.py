@@ -8,9 +8,8 @@ Both have `positions` (n, 3) of the cells, their `columns`, whether they are
 Their pictures are of the cells of a mask, with a colour (bytes) each.
 """
 import numpy as np
-from morula.run import Run
-from morula.shapes.regions import places, regions_of_state
-from morula.states import read_points
+from morula.run import Run, places, read_points
+from morula.shapes.regions import regions_of_state
 
 from . import spheres
 from .points import radii_of
@@ -23,7 +22,8 @@ class Spheres:
     """Of the cells' volumes (2-D: discs), from their file."""
 
     def __init__(self, file):
-        self.positions, self.columns = read_points(file)
+        self.columns = read_points(file)
+        self.positions = places(self.columns)
         self.flat = bool(np.ptp(self.positions[:, 2]) == 0
                          and len(self.positions) > 1)
         self.radii = radii_of(self.columns["volume"], self.flat)
@@ -42,11 +42,12 @@ class Shapes:
         run = Run(directory)
         cells, regions = run.cells(i), regions_of_state(run, i)
         self.positions, self.bodies = places(cells), regions.bodies
-        self.columns = {**cells, **regions.fields}
+        self.columns = {**{name: cells[name].to_numpy() for name in cells},
+                        **regions.fields}
         self.flat = run.dimension == 2
         self.outermost = self.bodies.points[np.unique(self.bodies.corners)]
         self.margin = 0.0
-        self.gaps = np.median(cells["volume"]**(1 / run.dimension))
+        self.gaps = np.median(cells["volume"].to_numpy()**(1 / run.dimension))
 
     def picture(self, colours, kept, view, pixels):
         return self._drawn(self.bodies.select(kept[self.bodies.owner]),

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 from morula.refusal import Refused
-from morula.states import states
+from morula.run import states
 
 from .films import film_writer
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/render."""
-import os
 import sys
 
 from morula.draw.screen import on_virtual_screen, run_on_virtual_screen
+from morula.files import replaced
 from morula.refusal import Refused
-from morula.states import NoStates
+from morula.run import NoStates
 from PIL import Image
 
 from .frames import Frames
@@ -32,14 +32,8 @@ def draw(request):
     frames = Frames(request)
     options = request.options
     if request.film:
-        # half a film must not replace a good one
-        unfinished = request.path.with_name(
-            f".{request.path.stem}.part{request.path.suffix}")
-        try:
+        with replaced(request.path) as unfinished:
             request.film((picture for _, picture in frames), unfinished)
-            os.replace(unfinished, request.path)
-        finally:
-            unfinished.unlink(missing_ok=True)
         print(f"render: {request.path}, {len(request.states)} states")
         return
     for number, picture in frames:

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from .markup import Markup, definitions, number, text
+from . import markup
+from .markup import definitions, number, paragraph
 
 # Cells to a grid cell's edge, from the page's "Advice" and "Hard cases".
 BEST, FEWEST, UNSAFE = (4.0, 7.0), 3.0, 2.0
@@ -15,7 +16,7 @@ BEST, FEWEST, UNSAFE = (4.0, 7.0), 3.0, 2.0
 def numbers(run):
     rows = run.statistics[1:]
     if not len(rows):
-        return Markup("<p>No step has been done.</p>")
+        return paragraph("No step has been done.")
     newton, linear = rows["newton_iterations"], rows["linear_iterations"]
     pairs = [
         ("largest residual at a step's end, relative to its first",
@@ -47,18 +48,14 @@ def numbers(run):
 
 def cells_per_edge(run, row):
     """h over the mean cell's edge, which is L_p at first."""
-    state = run.statistics[row]
+    state = run.statistics.iloc[row]
     edge = (state["total_volume"] / state["cells"]) ** (1 / run.dimension)
     return run.number("Grid/Spacing") / edge
 
 
 def notes(run):
-    """(grave, sentence) pairs."""
-    found = [*on_resolution(run), *on_shape(run), *on_fixed(run),
-             *on_steps(run), *on_strain(run)]
-    items = "".join(f'<li class="{"grave" if grave else "calm"}">'
-                    f"{text(sentence)}</li>" for grave, sentence in found)
-    return Markup(f'<ul class="notes">{items}</ul>')
+    return markup.notes([*on_resolution(run), *on_shape(run), *on_fixed(run),
+                         *on_steps(run), *on_strain(run)])
 
 
 def on_resolution(run):

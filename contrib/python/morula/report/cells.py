@@ -11,7 +11,7 @@ from morula.columns import POINTS, STRESS, unit_in
 from morula.draw.colours import (FIELDS, NAMED, WHOLE_NUMBERS, limits_of,
                                  palette_of, style_of)
 from morula.draw.points import radii_of
-from morula.states import NoStates
+from morula.run import NoStates, places
 
 from . import selection, shell
 from .packing import block, packed, quantised
@@ -21,9 +21,10 @@ NO_FIELDS = ("time", "id", "parent", "X", "Y", "Z")
 STEPS = 255
 
 
-def scalar_fields(columns):
-    return [name for name, values in columns.items()
-            if np.ndim(values) == 1 and name not in NO_FIELDS]
+def fields_of(cells):
+    """The columns that can give the colour."""
+    return [name for name in cells if name not in NO_FIELDS
+            and not name.startswith("displacement_")]
 
 
 def label_of(name, dimension):
@@ -58,8 +59,7 @@ class Packed:
             "fields": [self._field(name) for name in fields]}
 
     def _count(self, i):
-        row = np.argmin(np.abs(self.run.statistics["time"]
-                               - self.run.times[i]))
+        row = (self.run.statistics["time"] - self.run.times[i]).abs().argmin()
         return int(self.run.statistics["cells"][row])
 
     def _bytes_per_cell(self, fields):
@@ -70,7 +70,7 @@ class Packed:
                 (cells[name], np.uint8) for name in ("volume", *fields)]:
             size += len(packed(quantised(values, values.min(), values.max(),
                                          dtype)))
-        return size / len(cells["x"])
+        return size / len(cells)
 
     def _measure(self, flat):
         """Ranges over all states that are shown."""
@@ -78,12 +78,12 @@ class Packed:
         samples = {name: [] for name in self.selection.fields}
         for i in self.selection.states:
             cells = self.run.cells(i)
-            positions = [np.array([cells[c] for c in "xyz"])]
+            positions = [places(cells)]
             surface = self._surface(i)
             if surface is not None:
-                positions.append(np.array([surface[c] for c in "xyz"]))
-            lows += [p.min(axis=1) for p in positions]
-            highs += [p.max(axis=1) for p in positions]
+                positions.append(places(surface))
+            lows += [p.min(axis=0) for p in positions]
+            highs += [p.max(axis=0) for p in positions]
             r = radii_of(cells["volume"], flat)
             radii += [r.min(), r.max()]
             for name, values in samples.items():
@@ -99,7 +99,7 @@ class Packed:
             surface = self.run.surface(i)
         except NoStates:
             return None
-        return surface if len(surface["id"]) else None
+        return surface if len(surface) else None
 
     def _positions(self, columns, stride=1):
         return [quantised(columns[c][::stride], self.low[k], self.high[k],
@@ -109,8 +109,8 @@ class Packed:
         cells, surface = self.run.cells(i), self._surface(i)
         every = self.selection.stride
         radii = radii_of(cells["volume"][::every], flat)
-        seen, depth = shell.of(np.array([cells[c] for c in "xyz"]).T,
-                               cells["volume"], flat or every > 1)
+        seen, depth = shell.of(places(cells), cells["volume"],
+                               flat or every > 1)
         self.blocks.append(block(f"cells-{shown}", packed(
             *self._positions(cells, every),
             quantised(radii, *self.radii, np.uint8),
@@ -124,9 +124,9 @@ class Packed:
                 *self._positions(surface),
                 surface["condition"].astype(np.uint8))))
         return {"number": int(i), "time": float(self.run.times[i]),
-                "cells": len(cells["id"]), "shown": len(radii),
+                "cells": len(cells), "shown": len(radii),
                 "shell": depth,
-                "surface": 0 if surface is None else len(surface["id"]),
+                "surface": 0 if surface is None else len(surface),
                 "divisions": self._divisions(cells["id"])}
 
     def _divisions(self, ids):

@@ -11,8 +11,9 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
 
+from . import markup  # noqa: E402
 from .growth_fit import fit_growth  # noqa: E402
-from .markup import Markup, number  # noqa: E402
+from .markup import Markup, joined, number, span  # noqa: E402
 from .scene import volume_unit  # noqa: E402
 
 # Colours that the page replaces by its own, light or dark.
@@ -56,10 +57,10 @@ def results(run):
         Curve("Elastic volume ratio", "", {
             "min_elastic_volume_ratio": "smallest",
             "max_elastic_volume_ratio": "largest"})]
-    if np.any(run.statistics["dividing"]):
+    if run.statistics["dividing"].any():
         curves.append(Curve("Divisions in a step", "",
                             {"dividing": "divisions"}, only_steps=True))
-    if np.any(run.statistics["held_at_checkpoint"]):
+    if run.statistics["held_at_checkpoint"].any():
         curves.append(Curve("Cells held at the size checkpoint", "",
                             {"held_at_checkpoint": "held"}))
     curves.append(Curve("Extent of the surface", "µm", {
@@ -88,39 +89,40 @@ def figure(run, curve):
     rows = run.statistics[1:] if curve.only_steps else run.statistics
     if not len(rows):
         return Markup("")
-    fit = fit_growth(rows["time"], rows[curve.grown]) if curve.grown else None
+    last = rows.iloc[-1]
+    fit = fit_growth(rows["time"].to_numpy(), rows[curve.grown].to_numpy()) \
+        if curve.grown else None
     picture = draw(rows, curve, fit)
-    words = [f"{label}: {number(rows[name][-1])} {curve.unit}".strip()
+    words = [f"{label}: {number(last[name])} {curve.unit}".strip()
              for name, label in curve.columns.items()]
-    caption = f"Day {rows['time'][-1]:g}: " + "; ".join(words) + "."
-    return Markup(
-        f'<figure id="curve-{next(iter(curve.columns))}">'
-        f"<figcaption><b>{curve.title}{', ' * bool(curve.unit)}{curve.unit}"
-        f"</b></figcaption>{picture}<p>{caption}{words_on(fit, curve)}</p>"
-        "</figure>")
+    caption = f"Day {last['time']:g}: " + "; ".join(words) + "."
+    return markup.figure(
+        ", ".join(filter(None, (curve.title, curve.unit))), picture,
+        Markup(" ").join(filter(None, (caption, words_on(fit, curve)))),
+        f"curve-{next(iter(curve.columns))}")
 
 
 def words_on(fit, curve):
     if not curve.grown:
         return ""
     if fit is None:
-        return (" No exponential was fitted: too few steps, or it hardly "
+        return ("No exponential was fitted: too few steps, or it hardly "
                 "grows.")
     where = (f"days {fit.low:g} to {fit.high:g} ({fit.rows} steps, least "
              "squares of the logarithm)")
     if not fit.exponential:
-        return (f" Not exponential over {where}: r² = {fit.r2:.5f}, of a "
+        return (f"Not exponential over {where}: r² = {fit.r2:.5f}, of a "
                 f"straight line {fit.r2_line:.5f}.")
-    return (f' <span class="fit">Fit over {where}: {fit.factor:.4g} · '
-            f"exp({fit.rate:.4f} t/day), r² = {fit.r2:.5f}; of a straight "
-            f"line r² = {fit.r2_line:.5f}.</span>")
+    return span("fit", f"Fit over {where}: {fit.factor:.4g} · "
+                f"exp({fit.rate:.4f} t/day), r² = {fit.r2:.5f}; of a straight "
+                f"line r² = {fit.r2_line:.5f}.")
 
 
 def draw(rows, curve, fit):
     with plt.rc_context({**RC, "svg.hashsalt": curve.title}):
         canvas, axes = plt.subplots(figsize=(4.6, 2.7), layout="constrained")
         for (name, label), colour in zip(curve.columns.items(), SERIES):
-            values = np.where(rows[name] > 0, rows[name], np.nan) \
+            values = rows[name].where(rows[name] > 0) \
                 if curve.log else rows[name]
             marker = "o" if len(rows) < 25 else ""
             axes.plot(rows["time"], values, color=colour, label=label,
@@ -130,7 +132,7 @@ def draw(rows, curve, fit):
             axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)
                                                     == 1 else 2],
                       label="exponential fit", linewidth=2.2, linestyle="--")
-        if curve.log and np.any(rows[list(curve.columns)[0]] > 0):
+        if curve.log and (rows[next(iter(curve.columns))] > 0).any():
             axes.set_yscale("log")
         if curve.zero:
             axes.set_ylim(bottom=0)
@@ -160,4 +162,4 @@ def svg(canvas, title):
 
 
 def figures(run, curves):
-    return Markup("".join(figure(run, curve) for curve in curves))
+    return joined(figure(run, curve) for curve in curves)

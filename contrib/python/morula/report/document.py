@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The whole page from its parts. All text of a run goes through text(): the
-run may come from somebody else."""
+"""The whole page from its parts. The templates escape all text of a run, which
+may come from somebody else."""
 import base64
 import hashlib
-import string
-from html import escape
-from pathlib import Path
 
-from morula.states import NoStates
+from morula.run import NoStates
 
 from . import accuracy, curves, effort, lineage, pictures, scene
-from .cells import Packed, palettes, scalar_fields
+from .cells import Packed, fields_of, palettes
 from .libraries import three
-from .markup import Markup, text
+from .markup import PAGE, TEMPLATES, Markup, joined, paragraph
 from .packing import json_block
 from .selection import DEFAULT_FIELDS
 
-PAGE = Path(__file__).with_name("page")
 SCRIPTS = ("data.js", "tabs.js", "spheres.js", "axes.js", "camera.js",
            "cut.js", "view.js", "legend.js", "saving.js", "panel.js",
            "tree.js", "start.js")
@@ -34,11 +30,11 @@ def page(run, program, options, say):
     if cells:
         blocks += cells.blocks
         left_out = [*cells.selection.words, *left_out]
-    last, code = run.statistics[-1], scripts(cells is not None)
+    last, code = run.statistics.iloc[-1], scripts(cells is not None)
     parts = {
-        "title": escape(run.name),
+        "title": run.name,
         "subtitle": f"{last['cells']:,.0f} cells at day {last['time']:g}",
-        "style": (PAGE / "style.css").read_text(encoding="utf-8"),
+        "style": Markup((PAGE / "style.css").read_text(encoding="utf-8")),
         "glance": scene.at_a_glance(run),
         "keys": scene.changed_keys(run, program),
         "effects": scene.effects(run, program),
@@ -49,23 +45,21 @@ def page(run, program, options, say):
         "timings": effort.timings(run), "counters": effort.counters(run),
         "accuracy": accuracy.numbers(run), "notes": accuracy.notes(run),
         "lineage": family_part(run, family),
-        "left_out": "".join(f"<li>{text(words)}</li>" for words in left_out),
+        "left_out": left_out,
         "view_state": "" if cells else "hidden",
         "no_view": why_no_view(run, options) if not cells else "",
-        "blocks": json_block("about", about) + "".join(blocks),
-        "script_digests": " ".join(map(digest, code)),
-        "scripts": "\n".join(f"<script>{script}</script>"
-                             for script in code)}
-    template = string.Template(
-        (PAGE / "template.html").read_text(encoding="utf-8"))
-    return template.substitute(parts)
+        "blocks": joined([json_block("about", about), *blocks]),
+        "script_digests": Markup(" ".join(map(digest, code))),
+        "scripts": Markup("\n".join(f"<script>{script}</script>"
+                                    for script in code))}
+    return TEMPLATES.get_template("template.html").render(parts)
 
 
 def pack_cells(run, options):
     """The packed states, or None, and what was left out, in sentences."""
     if not len(run.times) or options.states == 0:
         return None, []
-    there = scalar_fields(run.cells(-1))
+    there = fields_of(run.cells(-1))
     fields = options.fields or [f for f in DEFAULT_FIELDS if f in there]
     packed = Packed(run, fields, options.states, options.limit * 1e6)
     rest = [name for name in there if name not in fields]
@@ -88,9 +82,9 @@ def pack_lineage(run):
 
 def family_part(run, family):
     if family is None:
-        return Markup("<p>There is no lineage.csv.</p>")
-    return Markup(lineage.summary(run) + '<div class="figures">'
-                  + lineage.histograms(run) + "</div>")
+        return paragraph("There is no lineage.csv.")
+    return (lineage.summary(run) + Markup('<div class="figures">')
+            + lineage.histograms(run) + Markup("</div>"))
 
 
 def why_no_view(run, options):
@@ -103,7 +97,7 @@ def why_no_view(run, options):
 
 def log(run):
     lines = scene.log_lines(run)
-    return escape("\n".join(lines)) or "It has only a line a step."
+    return "\n".join(lines) or "It has only a line a step."
 
 
 def scripts(with_view):
@@ -118,6 +112,6 @@ def scripts(with_view):
 
 def digest(script):
     """What the page's policy knows a script by: a browser runs these scripts
-    and no other, not even one that gets into the page past text()."""
+    and no other, not even one that gets into the page past the templates."""
     sha = hashlib.sha256(script.encode()).digest()
     return f"'sha256-{base64.b64encode(sha).decode()}'"

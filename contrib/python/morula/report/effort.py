@@ -3,43 +3,44 @@
 """Where the time went, and how much work was done."""
 import numpy as np
 
-from .markup import Markup, definitions, number, table
+from .markup import definitions, number, paragraph, span, table
 
 
 def timings(run):
     """timings.csv with bars, longest first; what no section counts is the
     rest."""
-    found = dict(run.timings)
-    if "total" not in found:
-        return Markup("<p>There is no timings.csv: it is written when a run "
-                      "ends.</p>")
-    calls, seconds, _ = found.pop("total")
-    rest = seconds - sum(s for _, s, _ in found.values())
-    rows = sorted(found.items(), key=lambda item: -item[1][1])
-    rows.append(("all else", (calls, rest, rest / seconds)))
-    rows.append(("total", (calls, seconds, 1.0)))
+    found = run.timings
+    if "total" not in found.index:
+        return paragraph("There is no timings.csv: it is written when a run "
+                         "ends.")
+    calls, seconds, _ = found.loc["total"]
+    found = found.drop("total").sort_values("wall_seconds", ascending=False)
+    rest = seconds - found["wall_seconds"].sum()
+    rows = [*found.itertuples(name=None),
+            ("all else", calls, rest, rest / seconds),
+            ("total", calls, seconds, 1.0)]
     return table(["section", ">calls", ">seconds", ">share", ""], [
         (name, number(n), f"{s:.2f}", f"{100 * share:.1f} %", bar(share))
-        for name, (n, s, share) in rows], "timings")
+        for name, n, s, share in rows], "timings")
 
 
 def bar(share):
     width = min(100.0, max(0.0, 100 * share))
-    return Markup(f'<span class="bar" style="width:{width:.2f}%"></span>')
+    return span("bar", style=f"width:{width:.2f}%")
 
 
 def counters(run):
     rows = run.statistics[1:]
     if not len(rows):
-        return Markup("<p>No step has been done.</p>")
+        return paragraph("No step has been done.")
     newton, linear = rows["newton_iterations"], rows["linear_iterations"]
-    wall = rows["wall_seconds"][-1]
+    wall = rows["wall_seconds"].iloc[-1]
     return definitions([
         ("steps", number(len(rows))),
         ("unknowns, most", number(rows["unknowns"].max()), "most-unknowns"),
         ("active grid cells, most", number(rows["active_grid_cells"].max())),
-        ("inner splines, last", number(rows["inner_splines"][-1])),
-        ("outer splines, last", number(rows["outer_splines"][-1])),
+        ("inner splines, last", number(rows["inner_splines"].iloc[-1])),
+        ("outer splines, last", number(rows["outer_splines"].iloc[-1])),
         ("Newton iterations", number(newton.sum()), "newton"),
         ("linear iterations", number(linear.sum()), "linear"),
         ("cell-steps a second of wall time",

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .curves import RC, SERIES, plt, svg
-from .markup import Markup, definitions, number
+from .markup import definitions, figure, joined, number
 from .packing import block, packed
 
 
@@ -30,11 +30,11 @@ def histograms(run):
     lineage = run.lineage
     generations = np.bincount(lineage.generation[lineage.living])
     sizes = np.bincount(lineage.clone_sizes)
-    return Markup(
+    return joined([
         bars(np.arange(len(sizes)), sizes, "Clones by their living cells",
-             "living cells of a clone", "clones", first=1)
-        + bars(np.arange(len(generations)), generations,
-               "Living cells by generation", "generation", "cells"))
+             "living cells of a clone", "clones", first=1),
+        bars(np.arange(len(generations)), generations,
+             "Living cells by generation", "generation", "cells")])
 
 
 def bars(numbers, counts, title, across, up, first=0):
@@ -57,8 +57,7 @@ def bars(numbers, counts, title, across, up, first=0):
     shown = ", ".join(f"{n}: {c:,}" for n, c in zip(numbers, counts) if c)
     if len(shown) > 400:
         shown = shown[:400].rsplit(",", 1)[0] + ", …"
-    return (f"<figure><figcaption><b>{title}</b></figcaption>{picture}"
-            f"<p>{shown}.</p></figure>")
+    return figure(title, picture, f"{shown}.")
 
 
 def blocks(run):
@@ -79,4 +78,4 @@ def about(run):
     return {"founders": lineage.founders,
             "divisions": (len(lineage) - lineage.founders) // 2,
             "largest": int(lineage.clone_sizes.argmax()),
-            "end": float(run.statistics["time"][-1])}
+            "end": float(run.statistics["time"].iloc[-1])}

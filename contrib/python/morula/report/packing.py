@@ -4,9 +4,9 @@
 import base64
 import json
 import zlib
-from html import escape
 
 import numpy as np
+from markupsafe import Markup
 
 
 def packed(*arrays):
@@ -25,9 +25,9 @@ def packed(*arrays):
 
 
 def block(name, content):
-    """An element that a browser neither shows nor runs."""
-    return (f'<script type="text/plain" id="{escape(name)}">{content}'
-            "</script>\n")
+    """An element that a browser neither shows nor runs; content: base64."""
+    return Markup('<script type="text/plain" id="{}">{}</script>\n').format(
+        name, content)
 
 
 def json_block(name, value):
@@ -35,8 +35,8 @@ def json_block(name, value):
     would end the element, and after "<!--" and "<script" a browser looks for
     an end that never comes and takes the rest of the page for data."""
     content = json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
-    return (f'<script type="application/json" id="{escape(name)}">{content}'
-            "</script>\n")
+    return Markup('<script type="application/json" id="{}">{}</script>\n'
+                  ).format(name, Markup(content))
 
 
 def quantised(values, low, high, dtype):

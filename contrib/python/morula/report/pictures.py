@@ -11,7 +11,7 @@ from pathlib import Path
 from morula.execute import call
 from PIL import Image
 
-from .markup import Markup, text
+from .markup import joined, paragraph, photograph
 
 WIDTH, MOST = 1600, 4
 
@@ -21,10 +21,10 @@ def pictures(run, say):
     from outside and cut open."""
     found = sorted(run.directory.glob("*.png"))[:MOST]
     if found:
-        return Markup("".join(element(file, file.name) for file in found))
+        return joined(element(file, file.name) for file in found)
     if not len(run.times):
-        return Markup("<p>No cells were written (Output/Formats = none), so "
-                      "that there is nothing to draw.</p>")
+        return paragraph("No cells were written (Output/Formats = none), so "
+                         "that there is nothing to draw.")
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(scratch) / "energy_density.png"
         result = call(
@@ -33,10 +33,10 @@ def pictures(run, say):
             stderr=subprocess.STDOUT)
         if result.code != 0 or not file.is_file():
             say(f"report: no picture: {result.stdout.strip()}")
-            return Markup("<p>contrib/render could not draw the run: "
-                          f"{text(result.stdout.strip()[-300:])}</p>")
-        return Markup(element(file, "the last state, from outside and cut "
-                              "open, drawn by contrib/render"))
+            return paragraph("contrib/render could not draw the run: "
+                             + result.stdout.strip()[-300:])
+        return element(file, "the last state, from outside and cut open, "
+                       "drawn by contrib/render")
 
 
 def element(file, words):
@@ -48,7 +48,4 @@ def element(file, words):
                                                / image.width)), Image.LANCZOS)
         stream = io.BytesIO()
         image.save(stream, "JPEG", quality=85, optimize=True)
-    content = base64.b64encode(stream.getvalue()).decode()
-    return (f'<figure class="picture"><img alt="{text(words)}" '
-            f'src="data:image/jpeg;base64,{content}">'
-            f"<figcaption>{text(words)}</figcaption></figure>")
+    return photograph(base64.b64encode(stream.getvalue()).decode(), words)

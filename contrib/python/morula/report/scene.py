@@ -6,7 +6,7 @@ import subprocess
 from morula.refusal import Refused
 from morula.scene import normal
 
-from .markup import Markup, definitions, number, table
+from .markup import Markup, definitions, number, span, table
 
 # What turns an effect on: its key, and the value without it.
 SWITCHES = (
@@ -21,7 +21,7 @@ SWITCHES = (
 
 
 def at_a_glance(run):
-    first, last = run.statistics[0], run.statistics[-1]
+    first, last = run.statistics.iloc[0], run.statistics.iloc[-1]
     return definitions([
         ("from day", number(first["time"])),
         ("to day", number(last["time"]), "last-day"),
@@ -44,9 +44,9 @@ def changed_keys(run, program):
         words = ("The program was not found, so that these are all keys "
                  "(<code>--morula</code> names it).")
         rows = sorted(run.keys.items())
-        return Markup(f"<p>{words}</p>" + table(
+        return Markup(f"<p>{words}</p>") + table(
             ["key", "value"], [(key, value or "(empty)") for key, value
-                               in rows], "keys"))
+                               in rows], "keys")
     defaults = program.defaults
     rows = [(key, value or "(empty)", defaults.get(key, "(unknown key)")
              or "(empty)")
@@ -54,9 +54,8 @@ def changed_keys(run, program):
             if key not in defaults or normal(value) != normal(defaults[key])]
     everything = table(["key", "value"], [
         (key, value or "(empty)") for key, value in run.keys.items()])
-    return Markup(
-        table(["key", "value", "default"], rows, "keys")
-        + f"<details><summary>All {len(run.keys)} keys</summary>{everything}"
+    return table(["key", "value", "default"], rows, "keys") + Markup(
+        f"<details><summary>All {len(run.keys)} keys</summary>{everything}"
         "</details>")
 
 
@@ -64,8 +63,7 @@ def effects(run, program):
     """On and off: in the program's own words, or from the keys."""
     rows = said_by_program(run, program) or switched_by_keys(run)
     return table(["effect", "", "how"], [
-        (name, Markup(f'<span class="{state}">{state}</span>'), how)
-        for name, state, how in rows], "effects")
+        (name, span(state, state), how) for name, state, how in rows], "effects")
 
 
 def said_by_program(run, program):

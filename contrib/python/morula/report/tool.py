@@ -5,16 +5,15 @@ import argparse
 import os
 import shutil
 import sys
-import tempfile
 from pathlib import Path
 
+from morula.files import write
 from morula.places import MORULA
 from morula.program import Program
 from morula.refusal import Refused
-from morula.run import Run
-from morula.states import NoStates
+from morula.run import NoStates, Run
 
-from .cells import scalar_fields
+from .cells import fields_of
 from .document import page
 
 DESCRIPTION = """Makes one HTML page about a run.
@@ -65,7 +64,7 @@ def check(run, options):
         if not len(run.times):
             raise Refused("--fields", ",".join(options.fields), "nothing for "
                           "a run without cells", "Leave it out.")
-        there = scalar_fields(run.cells(-1))
+        there = fields_of(run.cells(-1))
         for field in options.fields:
             if field not in there:
                 raise Refused("--fields", field, "a column of the cells: "
@@ -88,22 +87,6 @@ def find_program(wanted):
     return None
 
 
-def write(text, file):
-    """Written aside and renamed, so that no half page replaces a good one. A
-    file's name need not be UTF-8: the page is."""
-    with tempfile.NamedTemporaryFile(
-            "w", encoding="utf-8", errors="replace", dir=file.parent,
-            prefix=f".{file.name}.", delete=False) as stream:
-        try:
-            stream.write(text)
-            stream.flush()
-            os.chmod(stream.name, 0o644)
-            os.replace(stream.name, file)
-        except BaseException:
-            os.unlink(stream.name)
-            raise
-
-
 def main(words=None):
     sys.stdout.reconfigure(errors="backslashreplace")
     options = arguments(words)
@@ -113,7 +96,7 @@ def main(words=None):
         program = find_program(options.morula)
         content = page(run, program, options,
                        lambda line: print(line, file=sys.stderr))
-        write(content, options.output)
+        write(options.output, content)
     except (Refused, NoStates) as refusal:
         print(f"report: {refusal}", file=sys.stderr)
         return 1

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from morula.refusal import Refused
+from morula.run import places
 
 from .boundary import OUTSIDE, Boundary, cut_at_surface
 from .polyhedra import SURFACE, Polyhedra, joined
@@ -113,13 +114,6 @@ def neighbour_pairs(bodies, area, least):
 def regions_of_state(run, i):
     """The regions of the cells of state i of a Run."""
     cells, surface = run.cells(i), run.surface(i)
-    normals = (surface["normal"] if "normal" in surface else
-               np.stack([surface[c] for c in ("nx", "ny", "nz")], axis=1))
-    return regions_of(places(cells), cells["volume"],
-                      Boundary(places(surface), np.asarray(normals, float)),
-                      run.dimension == 2)
-
-
-def places(columns):
-    """Positions (n, 3), um."""
-    return np.stack([columns[c] for c in "xyz"], axis=1).astype(float)
+    normals = surface[["nx", "ny", "nz"]].to_numpy(dtype=float)
+    return regions_of(places(cells), cells["volume"].to_numpy(),
+                      Boundary(places(surface), normals), run.dimension == 2)

@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from morula.columns import COMPONENTS
 from morula.command_line import Parser
+from morula.expressions import rows_where
 from morula.refusal import Refused
-from morula.run import Run
-from morula.states import NoStates, states
+from morula.run import NoStates, Run, states
 
-from .condition import cells_where
 from .grid import grid_of
 from .regions import regions_of_state
 from .writing import file_of, write_collection, write_grid
@@ -81,21 +81,31 @@ def check_output(options):
                       "directory that exists")
 
 
+def with_vectors(cells):
+    """The columns of a state as arrays, and as one vector or tensor besides
+    what the run's VTU file has so."""
+    columns = {name: cells[name].to_numpy() for name in cells}
+    if "displacement_x" in cells:
+        columns["displacement"] = np.stack(
+            [columns[f"displacement_{axis}"] for axis in "xyz"], axis=1)
+        columns["sigma"] = np.stack([columns[name] for name
+                                     in COMPONENTS["sigma"]], axis=1)
+    return columns
+
+
 def write_state(run, i, options):
     """The regions of a state, as a file; returns what to say of it."""
     time, cells_file = states(run.directory, "cells")[i]
     cells = run.cells(i)
-    kept = np.ones(len(cells["id"]), dtype=bool)
+    kept = np.ones(len(cells), dtype=bool)
     if options.where is not None:
-        kept = cells_where(options.where, {
-            name: values for name, values in cells.items()
-            if np.ndim(values) == 1}, "--where")
+        kept = rows_where(options.where, dict(cells), "--where")
         if not kept.any() and not options.all:
             raise Refused("--where", options.where, "what is true for some "
                           "cell", f"On day {time:g} it is for none of "
                           f"{len(kept)}.")
     regions = regions_of_state(run, i)
-    grid = grid_of(regions.bodies, {**cells, **regions.fields}, kept,
+    grid = grid_of(regions.bodies, {**with_vectors(cells), **regions.fields}, kept,
                    run.dimension == 2)
     file = options.output or file_of(cells_file)
     write_grid(grid, file)

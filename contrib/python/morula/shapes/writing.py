@@ -1,38 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Files of regions: one a state, and one that lists them over time. Each is
-written aside and renamed, so that there is never half of one."""
+"""Files of regions: one a state, and one that lists them over time."""
 import os
-import tempfile
-from contextlib import contextmanager
 
-from morula.states import states
+from morula.files import replaced, write
+from morula.run import states
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 NAME = "cell-shapes"
-
-
-@contextmanager
-def replaced(file):
-    """The name of a file that takes the place of `file` if all goes well."""
-    # VTK drops an underscore at the end of a name, which would be another file.
-    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.",
-                                    suffix=".part")
-    os.close(handle)
-    try:
-        yield name
-        os.chmod(name, 0o644)
-        os.replace(name, file)
-    except BaseException:
-        os.unlink(name)
-        raise
 
 
 def write_grid(grid, file):
     """Throws OSError if it cannot be written."""
     with replaced(file) as name:
         writer = vtkXMLUnstructuredGridWriter()
-        writer.SetFileName(name)
+        writer.SetFileName(str(name))
         writer.SetInputData(grid)
         writer.SetDataModeToAppended()
         writer.EncodeAppendedDataOff()
@@ -57,9 +39,7 @@ def write_collection(directory):
             lines.append(f'    <DataSet timestep="{time:.10g}" group="" '
                          f'part="0" file="{file.name}"/>\n')
     collection = directory / f"{NAME}.pvd"
-    with replaced(collection) as name:
-        with open(name, "w", encoding="utf-8") as stream:
-            stream.write('<?xml version="1.0"?>\n<VTKFile type="Collection" '
-                         'version="0.1">\n  <Collection>\n'
-                         + "".join(lines) + "  </Collection>\n</VTKFile>\n")
+    write(collection, '<?xml version="1.0"?>\n<VTKFile type="Collection" '
+          'version="0.1">\n  <Collection>\n' + "".join(lines)
+          + "  </Collection>\n</VTKFile>\n")
     return collection

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Columns of statistics.csv against time: a line for each combination, with a
 band of one standard deviation over the seeds."""
+from morula.files import replaced
 from morula.style import COLOURS, RC, colour, plt
 
 from .report import unit
@@ -26,10 +27,9 @@ def draw(request, ensembles, file):
         _legend(panels[0, -1], shown)
         figure.suptitle(f"{request.scene.name}: mean, and standard deviation "
                         "over the seeds", fontsize=10)
-        aside = file.with_name(file.name + ".tmp")
-        figure.savefig(aside, format="png")
+        with replaced(file) as aside:
+            figure.savefig(aside, format="png")
         plt.close(figure)
-    aside.replace(file)
 
 
 def _panel(request, axes, shown, column):

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The tables: Markdown to read, CSV to go on with."""
-import csv
 import math
 import shlex
 
 from morula.columns import STATISTICS, unit_in
+from morula.files import write, write_csv
+from morula.tables import markdown as table_of
 
 from .request import COLUMNS
 
@@ -14,14 +15,14 @@ def write_tables(request, ensembles, directory):
     """table.csv, runs.csv and table.md; each replaces the old one as a
     whole."""
     keys = request.plan.keys
-    _write_csv(directory / "table.csv", [
+    write_csv(directory / "table.csv", [
         [*keys, "column", "unit", "runs", "failed", "mean",
          "standard_deviation", "standard_error", "smallest", "largest"],
         *_rows_of_ends(request, ensembles)])
-    _write_csv(directory / "runs.csv", [
+    write_csv(directory / "runs.csv", [
         [*keys, "seed", "directory", "exit", *COLUMNS],
         *_rows_of_runs(request, ensembles)])
-    _replace(directory / "table.md", markdown(request, ensembles))
+    write(directory / "table.md", markdown(request, ensembles))
 
 
 def _rows_of_ends(request, ensembles):
@@ -85,17 +86,14 @@ def _title(request, column):
 def _table(request, ensembles, column):
     head = [*(request.plan.keys or ["scene"]), "runs", "mean",
             "standard deviation", "standard error"]
-    lines = [head, ["---"] * len(request.plan.keys or [1]) + ["---:"] * 4]
+    lines = []
     for ensemble in ensembles:
         end = ensemble.end(column)
         runs = (f"{end.n}" if end.n == len(ensemble.records)
                 else f"{end.n} of {len(ensemble.records)}")
         lines.append([*(ensemble.point or [request.scene.name]), runs,
                       *map(_number, (end.mean, end.deviation, end.error))])
-    # '|' would end a column of the table
-    return "\n".join("| " + " | ".join(word.replace("|", "\\|")
-                                       for word in line) + " |"
-                     for line in lines)
+    return table_of(head, lines, right=4)
 
 
 def _number(value):
@@ -109,16 +107,3 @@ def failed_runs(request, ensembles):
             if not record.finished:
                 yield (f"{ensemble.label}, seed {seed}: {record.summary()} "
                        f"({record.directory.relative_to(request.output)})")
-
-
-def _write_csv(path, rows):
-    aside = path.with_name(path.name + ".tmp")
-    with aside.open("w", encoding="utf-8", newline="") as stream:
-        csv.writer(stream, lineterminator="\n").writerows(rows)
-    aside.replace(path)
-
-
-def _replace(path, text):
-    aside = path.with_name(path.name + ".tmp")
-    aside.write_text(text, encoding="utf-8")
-    aside.replace(path)

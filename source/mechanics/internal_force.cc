@@ -106,24 +106,10 @@ namespace Morula
 
   template <int dim>
   InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points,
-                                    const VolumetricStrain     form,
-                                    const bool                 foresee)
+                                    const VolumetricStrain     form)
     : points(points)
     , form(form)
-    , foresee(foresee)
   {}
-
-  template <int dim>
-  double
-  InternalForce<dim>::Linearisation::at(const LocalField<dim> &other) const
-  {
-    double theta = value;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        theta += derivative.coefficient[i][a] *
-                 (other.coefficient[i][a] - field.coefficient[i][a]);
-    return theta;
-  }
 
   template <int dim>
   template <typename Visit>
@@ -206,35 +192,24 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  InternalForce<dim>::foreseen(const unsigned int          grid_cell,
-                               const LocalField<dim>      &field,
-                               const GrowthAt              growth,
-                               const ProjectedPoints<dim> &projected) const
+  VolumeLinearisation<dim>
+  InternalForce<dim>::linearisation(const unsigned int          grid_cell,
+                                    const LocalField<dim>      &field,
+                                    const GrowthAt              growth,
+                                    const ProjectedPoints<dim> &projected) const
   {
-    if (!foresee)
-      return projected.mean_log_J;
-    if (linearised.empty())
-      {
-        linearised.resize(points.offsets.size() - 1, false);
-        linearisations.resize(points.offsets.size() - 1);
-      }
-    Linearisation &last = linearisations[grid_cell];
-    const double   theta =
-      linearised[grid_cell] ? last.at(field) : projected.mean_log_J;
-
+    VolumeLinearisation<dim> result;
+    result.field = field;
     // What the next residual is of: the growth at t + dt.
-    last.field            = field;
-    last.value            = growth == GrowthAt::current ?
-                              projected.mean_log_J :
-                              mean_log_volume_ratio(grid_cell, field);
-    linearised[grid_cell] = true;
+    result.value = growth == GrowthAt::current ?
+                     projected.mean_log_J :
+                     mean_log_volume_ratio(grid_cell, field);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        last.derivative.coefficient[i][a] =
+        result.derivative.coefficient[i][a] =
           projected.stiffness == 0. ? 0. :
                                       projected.sum[i][a] / projected.stiffness;
-    return theta;
+    return result;
   }
 
   template <int dim>
@@ -249,7 +224,9 @@ namespace Morula
     if (!project(grid_cell, field, growth, system, projected))
       return false;
     const double theta =
-      tangent == nullptr ? 0. : foreseen(grid_cell, field, growth, projected);
+      system.last ? system.last->at(field) : projected.mean_log_J;
+    if (tangent != nullptr)
+      system.linearisation = linearisation(grid_cell, field, growth, projected);
     for (unsigned int k = 0; k < projected.materials.size(); ++k)
       {
         const SpatialGradients<dim> &gradients = projected.gradients[k];

@@ -243,12 +243,22 @@ namespace Morula
     const DisplacementField<dim>     displacement(space, u, comm);
     LocalSystem<dim>                 system(LocalSystem<dim>::tangent);
     typename Condensation<dim>::Work work;
+    if (growth == GrowthAt::previous)
+      linearisations.clear();
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
         const LocalField<dim> field = displacement.on_grid_cell(c);
         system.clear();
+        system.last = !linearisations.empty() && linearisations[c] ?
+                        &*linearisations[c] :
+                        nullptr;
         for (const auto &term : terms)
           term->add(c, field, growth, system);
+        if (system.linearisation)
+          {
+            linearisations.resize(space.grid_cells().size());
+            linearisations[c] = system.linearisation;
+          }
         scatter->add(c,
                      Condensation<dim>(space.grid_cells()[c])
                        .condense(system.matrix, work));

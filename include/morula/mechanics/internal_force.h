@@ -24,24 +24,20 @@ namespace Morula
    * Projected, ln J_e in the terms with λ is its mean ϑ over the points of the
    * grid cell, weighted with W λ: one volumetric constraint a grid cell, so
    * that nearly incompressible tissue does not lock; doc/theory.md (2.7). Its
-   * tangents after the first then take ϑ in the coefficient of g_a^j g_b^i as
-   * the linearisation at the previous tangent foresaw it, as if the pressure
-   * were an unknown of its own: ϑ of the displacement itself is wrong by the
-   * square of the correction, which times λ would swamp μ. Both agree at the
-   * solution.
+   * tangents take ϑ in the coefficient of g_a^j g_b^i from the linearisation at
+   * the last tangent, if the local system has one, as if the pressure were an
+   * unknown of its own: ϑ of the displacement itself is wrong by the square of
+   * the correction, which times λ would swamp μ. Both agree at the solution.
+   * Without that linearisation a tangent is the exact derivative.
    */
   template <int dim>
   class InternalForce : public Term<dim>
   {
   public:
-    /**
-     * Keeps a reference to the points.
-     * @param foresee false: all projected tangents are the exact derivatives
-     */
+    /** Keeps a reference to the points. */
     explicit InternalForce(
       const MaterialPoints<dim> &points,
-      const VolumetricStrain     form    = VolumetricStrain::pointwise,
-      const bool                 foresee = true);
+      const VolumetricStrain     form = VolumetricStrain::pointwise);
 
     void
     add(const unsigned int     grid_cell,
@@ -89,32 +85,16 @@ namespace Morula
             LocalSystem<dim>      &system,
             ProjectedPoints<dim>  &projected) const;
 
-    /** ϑ for the tangent at @p field; remembers this one for the next. */
-    double
-    foreseen(const unsigned int          grid_cell,
-             const LocalField<dim>      &field,
-             const GrowthAt              growth,
-             const ProjectedPoints<dim> &projected) const;
-
-    /** ϑ of a grid cell and its derivative where the last tangent was taken. */
-    struct Linearisation
-    {
-      LocalField<dim> field;
-      LocalField<dim> derivative;
-      double          value;
-
-      /** The linearised value at the coefficients @p other. */
-      double
-      at(const LocalField<dim> &other) const;
-    };
+    /** ϑ with the growth at t + dt and its derivative at @p field, for the next
+     *  tangent. */
+    VolumeLinearisation<dim>
+    linearisation(const unsigned int          grid_cell,
+                  const LocalField<dim>      &field,
+                  const GrowthAt              growth,
+                  const ProjectedPoints<dim> &projected) const;
 
     const MaterialPoints<dim> &points;
     const VolumetricStrain     form;
-    const bool                 foresee;
-
-    // By active grid cell; empty before the first projected tangent.
-    mutable std::vector<Linearisation> linearisations;
-    mutable std::vector<bool>          linearised;
   };
 } // namespace Morula
 

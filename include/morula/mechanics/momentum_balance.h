@@ -73,6 +73,8 @@ namespace Morula
     std::string
     describe(const Vector &R) const override;
 
+    /** The first tangent of a step, at the growth at t, is the exact one; later
+     *  ones take volume changes from the linearisation at the one before. */
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
 
@@ -121,6 +123,9 @@ namespace Morula
     Matrix                            matrix;
     mutable Extremes<dim>             extremes_of_rank; // last evaluation's
     std::optional<MatrixScatter<dim>> scatter; // made with the first tangent
+
+    // The last tangent's, by active grid cell; empty if no term has any.
+    std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;
   };
 } // namespace Morula
 

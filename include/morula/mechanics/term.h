@@ -10,6 +10,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -60,6 +61,28 @@ namespace Morula
     }
   };
 
+  /** The mean ϑ of ln J_e over a grid cell's points and its derivative, where
+   *  a tangent was taken: doc/theory.md (2.7). */
+  template <int dim>
+  struct VolumeLinearisation
+  {
+    LocalField<dim> field;
+    LocalField<dim> derivative; // 1/µm
+    double          value;
+
+    /** The linearised ϑ at the coefficients @p other. */
+    double
+    at(const LocalField<dim> &other) const
+    {
+      double theta = value;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          theta += derivative.coefficient[i][a] *
+                   (other.coefficient[i][a] - field.coefficient[i][a]);
+      return theta;
+    }
+  };
+
   /**
    * Energy, residual and tangent of one grid cell. Component i of spline a is
    * row i n + a. Energies in kPa µm^dim, forces in kPa µm^(dim-1).
@@ -94,6 +117,7 @@ namespace Morula
       energy = energy_magnitude = 0.;
       smallest_J                = {std::numeric_limits<double>::infinity(), {}};
       largest_gap               = {-1., {}};
+      linearisation.reset();
     }
 
     /** @param magnitude of what @p e is a sum of, for its rounding error */
@@ -147,6 +171,11 @@ namespace Morula
     std::array<double, n_dofs> residual;
     std::array<double, n_dofs> magnitude; // Σ|contributions|
     std::vector<double>        matrix;    // row by row
+
+    /** In: that of the last tangent of the step on this grid cell, if any. */
+    const VolumeLinearisation<dim> *last = nullptr;
+    /** Out: that of this tangent, if a term has one. */
+    std::optional<VolumeLinearisation<dim>> linearisation;
 
     /** Set where det f <= 0 or J_e <= 0: there is no energy. */
     bool inverted = false;

@@ -1,13 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/internal_force.h>
-#include <morula/mechanics/projected_points.h>
 
 namespace Morula
 {
   namespace
   {
+    /** Spatial gradients g_a = f⁻ᵀ ∇N_a, by direction. */
+    template <int dim>
+    struct SpatialGradients
+    {
+      static constexpr unsigned int n = BSpline<dim>::n;
+
+      double g[dim][n];
+
+      SpatialGradients(const SplineValues<dim> &splines,
+                       const Tensor<2, dim>    &f_inverse)
+      {
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int a = 0; a < n; ++a)
+            {
+              double sum = 0.;
+              for (unsigned int k = 0; k < dim; ++k)
+                sum += f_inverse[k][j] * splines.gradient[k][a];
+              g[j][a] = sum;
+            }
+      }
+    };
+
+    /** Adds a point with the weight W k. */
+    template <int dim>
+    void
+    add_to_mean(const SpatialGradients<dim> &gradients,
+                const double                 log_J,
+                const double                 weight,
+                VolumeMean<dim>             &mean)
+    {
+      mean.modulus += weight;
+      mean.sum += weight * log_J;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          mean.gradients[i][a] += weight * gradients.g[i][a];
+    }
+
     /** @param tau W τ */
     template <int dim>
     void
@@ -32,53 +69,65 @@ namespace Morula
                 std::abs(tau[i][j] * gradients.g[j][a]);
     }
 
+    /** The coefficients of (2.5), times W. */
+    struct TangentCoefficients
+    {
+      double A, c, alpha, B, C; // c = α - γ
+    };
+
     /**
-     * Adds the blocks (i, j), i <= j, of the tangent c1 g_a^i g_b^j + c2 g_a^j
-     * g_b^i + c3 (g_a · b g_b) δ^ij. The inner loops run over contiguous
-     * columns, so that the compiler vectorises them.
+     * Adds the blocks (i, j), i <= j, of the tangent (2.5). The inner loops run
+     * over contiguous columns, so that the compiler vectorises them.
      */
     template <int dim>
     void
-    add_tangent(const SpatialGradients<dim>   &gradients,
-                const SymmetricTensor<2, dim> &b,
-                const double                   c1,
-                const double                   c2,
-                const double                   c3,
-                double                        *matrix)
+    add_blocks(const SpatialGradients<dim>   &gradients,
+               const SymmetricTensor<2, dim> &b,
+               const TangentCoefficients     &of,
+               const bool                     coupled,
+               double                        *matrix)
     {
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const auto            &g      = gradients.g;
 
+      double b_g[dim][n];
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            b_g[i][a] = b[i][0] * g[0][a];
+            for (unsigned int j = 1; j < dim; ++j)
+              b_g[i][a] += b[i][j] * g[j][a];
+          }
       for (unsigned int a = 0; a < n; ++a)
         {
-          double c3_b_g[dim];
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              c3_b_g[i] = 0.;
-              for (unsigned int j = 0; j < dim; ++j)
-                c3_b_g[i] += c3 * b[i][j] * g[j][a];
-            }
-          double geometric[n];
+          double alpha_b_g[dim], geometric[n];
+          for (unsigned int j = 0; j < dim; ++j)
+            alpha_b_g[j] = of.alpha * b_g[j][a];
           for (unsigned int c = 0; c < n; ++c)
             {
               geometric[c] = 0.;
               for (unsigned int j = 0; j < dim; ++j)
-                geometric[c] += c3_b_g[j] * g[j][c];
+                geometric[c] += alpha_b_g[j] * g[j][c];
             }
           for (unsigned int i = 0; i < dim; ++i)
             {
-              double *const diagonal = matrix + (i * n + a) * n_dofs + i * n;
-              const double  both     = (c1 + c2) * g[i][a];
+              double *const rows  = matrix + (i * n + a) * n_dofs;
+              const double  first = of.A * g[i][a] + of.B * b_g[i][a];
+              const double  both  = first + of.c * g[i][a];
               for (unsigned int c = 0; c < n; ++c)
-                diagonal[c] += both * g[i][c] + geometric[c];
+                rows[i * n + c] += both * g[i][c] + geometric[c];
               for (unsigned int j = i + 1; j < dim; ++j)
                 {
-                  double *const block = matrix + (i * n + a) * n_dofs + j * n;
-                  const double  first = c1 * g[i][a], second = c2 * g[j][a];
+                  const double second = of.c * g[j][a];
                   for (unsigned int c = 0; c < n; ++c)
-                    block[c] += first * g[j][c] + second * g[i][c];
+                    rows[j * n + c] += first * g[j][c] + second * g[i][c];
                 }
+              const double of_b_g = of.B * g[i][a] + of.C * b_g[i][a];
+              if (coupled)
+                for (unsigned int j = i; j < dim; ++j)
+                  for (unsigned int c = 0; c < n; ++c)
+                    rows[j * n + c] += of_b_g * b_g[j][c];
             }
         }
     }
@@ -117,6 +166,7 @@ namespace Morula
   InternalForce<dim>::for_each_point(const unsigned int     grid_cell,
                                      const LocalField<dim> &field,
                                      const GrowthAt         growth,
+                                     const double          *theta,
                                      LocalSystem<dim>      &system,
                                      const Visit           &visit) const
   {
@@ -130,127 +180,113 @@ namespace Morula
         const Tensor<2, dim>    F_e = f * states[p].A;
         if (!system.admits(determinant(f), determinant(F_e), points.xi[p]))
           return false;
-        visit(SpatialGradients<dim>(splines, invert(f)),
-              NeoHookean<dim>(F_e, points.lame_of(p)),
-              states[p].W);
+        visit(
+          SpatialGradients<dim>(splines, invert(f)),
+          ElasticPoint<dim>(F_e, points.lame_of(p), *points.material, theta),
+          states[p].W);
       }
     return true;
   }
 
   template <int dim>
   bool
-  InternalForce<dim>::add_pointwise(const unsigned int     grid_cell,
-                                    const LocalField<dim> &field,
-                                    const GrowthAt         growth,
-                                    double                *tangent,
-                                    LocalSystem<dim>      &system) const
+  InternalForce<dim>::add_forces(const unsigned int     grid_cell,
+                                 const LocalField<dim> &field,
+                                 const GrowthAt         growth,
+                                 VolumeMean<dim>       *mean,
+                                 LocalSystem<dim>      &system) const
   {
     return for_each_point(
       grid_cell,
       field,
       growth,
+      nullptr,
       system,
       [&](const SpatialGradients<dim> &gradients,
-          const NeoHookean<dim>       &material,
+          const ElasticPoint<dim>     &state,
           const double                 W) {
-        if (tangent != nullptr)
+        const auto &response = state.response();
+        if (mean == nullptr)
           {
-            add_tangent(gradients,
-                        material.left_cauchy_green(),
-                        W * material.lambda(),
-                        W * material.mu_minus_lambda_log_J(),
-                        W * material.mu(),
-                        tangent);
+            add_stress(gradients, W * state.kirchhoff_stress(), system);
+            system.add_energy(W * state.energy(), W * state.energy_magnitude());
             return;
           }
-        add_stress(gradients, W * material.kirchhoff_stress(), system);
-        system.add_energy(W * material.energy(),
-                          W * material.energy_magnitude());
+        add_stress(gradients, W * state.distortional_stress(), system);
+        system.add_energy(W * response.energy, W * response.magnitude);
+        add_to_mean(gradients,
+                    state.strain().log_J,
+                    W * response.volumetric.modulus,
+                    *mean);
       });
   }
 
   template <int dim>
   bool
-  InternalForce<dim>::project(const unsigned int     grid_cell,
-                              const LocalField<dim> &field,
-                              const GrowthAt         growth,
-                              LocalSystem<dim>      &system,
-                              ProjectedPoints<dim>  &projected) const
+  InternalForce<dim>::add_tangent(const unsigned int     grid_cell,
+                                  const LocalField<dim> &field,
+                                  const GrowthAt         growth,
+                                  const double          *theta,
+                                  LocalSystem<dim>      &system) const
   {
-    const bool valid =
+    std::vector<double> upper(system.matrix.size(), 0.);
+    const bool          coupled = points.material->coupled();
+    const bool          valid =
       for_each_point(grid_cell,
                      field,
                      growth,
+                     theta,
                      system,
                      [&](const SpatialGradients<dim> &gradients,
-                         const NeoHookean<dim>       &material,
+                         const ElasticPoint<dim>     &state,
                          const double                 W) {
-                       projected.add(gradients, material, W);
+                       const auto &r = state.response();
+                       add_blocks(gradients,
+                                  state.b(),
+                                  {W * (theta == nullptr ? r.total_A() : r.A),
+                                   W * (r.alpha - r.total_gamma()),
+                                   W * r.alpha,
+                                   W * r.B,
+                                   W * r.C},
+                                  coupled,
+                                  upper.data());
                      });
-    projected.finish();
+    if (valid)
+      add_lower_blocks<dim>(upper, system.matrix);
     return valid;
   }
 
   template <int dim>
-  VolumeLinearisation<dim>
-  InternalForce<dim>::linearisation(const unsigned int          grid_cell,
-                                    const LocalField<dim>      &field,
-                                    const GrowthAt              growth,
-                                    const ProjectedPoints<dim> &projected) const
+  VolumeMean<dim>
+  InternalForce<dim>::mean(const unsigned int     grid_cell,
+                           const LocalField<dim> &field,
+                           const GrowthAt         growth) const
   {
-    VolumeLinearisation<dim> result;
-    result.field = field;
-    // What the next residual is of: the growth at t + dt.
-    result.value = growth == GrowthAt::current ?
-                     projected.mean_log_J :
-                     mean_log_volume_ratio(grid_cell, field);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        result.derivative.coefficient[i][a] =
-          projected.stiffness == 0. ? 0. :
-                                      projected.sum[i][a] / projected.stiffness;
-    return result;
+    VolumeMean<dim>  mean;
+    LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
+    add_forces(grid_cell, field, growth, &mean, unused);
+    return mean;
   }
 
   template <int dim>
-  bool
-  InternalForce<dim>::add_projected(const unsigned int     grid_cell,
-                                    const LocalField<dim> &field,
-                                    const GrowthAt         growth,
-                                    double                *tangent,
-                                    LocalSystem<dim>      &system) const
+  void
+  InternalForce<dim>::add_projected_tangent(const unsigned int     grid_cell,
+                                            const LocalField<dim> &field,
+                                            const GrowthAt         growth,
+                                            LocalSystem<dim>      &system) const
   {
-    ProjectedPoints<dim> projected;
-    if (!project(grid_cell, field, growth, system, projected))
-      return false;
-    const double theta =
-      system.last ? system.last->at(field) : projected.mean_log_J;
-    if (tangent != nullptr)
-      system.linearisation = linearisation(grid_cell, field, growth, projected);
-    for (unsigned int k = 0; k < projected.materials.size(); ++k)
-      {
-        const SpatialGradients<dim> &gradients = projected.gradients[k];
-        const NeoHookean<dim>       &material  = projected.materials[k];
-        const double                 W         = projected.weights[k];
-        if (tangent != nullptr)
-          {
-            add_tangent(gradients,
-                        material.left_cauchy_green(),
-                        0.,
-                        W * (material.mu() - material.lambda() * theta),
-                        W * material.mu(),
-                        tangent);
-            continue;
-          }
-        add_stress(gradients, W * material.shear_stress(), system);
-        system.add_energy(W * material.shear_energy(),
-                          W * material.shear_energy_magnitude());
-      }
-    if (tangent != nullptr)
-      projected.add_mean_tangent(tangent);
-    else
-      projected.add_mean_force(system);
-    return true;
+    const VolumeMean<dim> mean = this->mean(grid_cell, field, growth);
+    const double          theta =
+      system.last != nullptr ? system.last->at(field) : mean.theta();
+    if (!add_tangent(grid_cell, field, growth, &theta, system))
+      return;
+    mean.add_tangent(points.material->volumetric(theta), system);
+    // What the next residual is of: the growth at t + dt.
+    system.linearisation = {field,
+                            mean.derivative(),
+                            growth == GrowthAt::current ?
+                              mean.theta() :
+                              mean_log_volume_ratio(grid_cell, field)};
   }
 
   template <int dim>
@@ -261,14 +297,21 @@ namespace Morula
                           LocalSystem<dim>      &system) const
   {
     const bool wants_tangent = system.wanted == LocalSystem<dim>::tangent;
-    std::vector<double> upper(wants_tangent ? system.matrix.size() : 0, 0.);
-    double *const       tangent = wants_tangent ? upper.data() : nullptr;
-    const bool          valid =
-      form == VolumetricStrain::pointwise ?
-                 add_pointwise(grid_cell, field, growth, tangent, system) :
-                 add_projected(grid_cell, field, growth, tangent, system);
-    if (valid && wants_tangent)
-      add_lower_blocks<dim>(upper, system.matrix);
+    if (form == VolumetricStrain::pointwise)
+      {
+        if (wants_tangent)
+          add_tangent(grid_cell, field, growth, nullptr, system);
+        else
+          add_forces(grid_cell, field, growth, nullptr, system);
+      }
+    else if (wants_tangent)
+      add_projected_tangent(grid_cell, field, growth, system);
+    else
+      {
+        VolumeMean<dim> mean;
+        if (add_forces(grid_cell, field, growth, &mean, system))
+          mean.add_forces(points.material->volumetric(mean.theta()), system);
+      }
   }
 
   template <int dim>
@@ -276,10 +319,7 @@ namespace Morula
   InternalForce<dim>::mean_log_volume_ratio(const unsigned int     grid_cell,
                                             const LocalField<dim> &field) const
   {
-    ProjectedPoints<dim> projected;
-    LocalSystem<dim>     unused(LocalSystem<dim>::energy_and_residual);
-    project(grid_cell, field, GrowthAt::current, unused, projected);
-    return projected.mean_log_J;
+    return mean(grid_cell, field, GrowthAt::current).theta();
   }
 
   template class InternalForce<2>;

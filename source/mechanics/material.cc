@@ -27,10 +27,21 @@ namespace Morula
     prm.add_parameter(
       "Volumetric strain",
       volumetric_strain,
-      "The elastic volume change in the terms with lambda: each cell's own, or "
+      "The elastic volume change in the volumetric part of the energy (that with "
+      "lambda, or kappa): each cell's own, or "
       "its mean over the cells of a grid cell. Projected, tissue does not lock "
       "as Poisson's ratio approaches 0.5; choose it above about 0.47.",
       Patterns::Selection("pointwise|projected"));
+    std::string names;
+    for (const std::string &name : materials.names())
+      names += (names.empty() ? "" : "|") + name;
+    prm.add_parameter(
+      "Law",
+      law,
+      "The elastic energy as a function of the elastic deformation: the "
+      "paper's, or the one whose shear part does not depend on the volume. The "
+      "same at small strains.",
+      Patterns::Selection(names));
   }
 
 
@@ -46,5 +57,14 @@ namespace Morula
   {
     return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
                                               VolumetricStrain::projected;
+  }
+
+
+  std::shared_ptr<const Material>
+  MaterialParameters::chosen_material() const
+  {
+    const auto material = materials.find(law);
+    AssertThrow(material != nullptr, ExcMessage("No material " + law));
+    return material;
   }
 } // namespace Morula

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 
 namespace Morula
 {
   template <int dim>
   VectorizedInternalForce<dim>::VectorizedInternalForce(
-    const MaterialPoints<dim> &points, const VectorKernels<dim> &kernels)
-    : points(points)
+    const MaterialPoints<dim> &points,
+    const VectorKernels<dim>  &kernels,
+    const VolumetricStrain     form)
+    : InternalForce<dim>(points, form)
     , kernels(kernels)
   {
     // What the kernels take arrays of these for.
@@ -21,57 +24,102 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  VectorizedInternalForce<dim>::add(const unsigned int     grid_cell,
-                                    const LocalField<dim> &field,
-                                    const GrowthAt         growth,
-                                    LocalSystem<dim>      &system) const
+  KernelInput
+  VectorizedInternalForce<dim>::input(const unsigned int     grid_cell,
+                                      const LocalField<dim> &field,
+                                      const GrowthAt         growth) const
   {
+    const auto        &points = this->points;
     const unsigned int first  = points.offsets[grid_cell],
-                       n      = points.offsets[grid_cell + 1] - first,
                        stride = points.lame.size() == 1 ? 0 : 2;
-    if (n == 0)
-      return;
-    const KernelInput  input = {n,
-                                &points.xi[first][0],
-                                &points.states(growth)[first].A[0][0],
-                                &points.lame[stride == 0 ? 0 : first].lambda,
-                                stride,
-                                points.h,
-                                &field.coefficient[0][0]};
-    const KernelResult found =
-      system.wanted == LocalSystem<dim>::tangent ?
-        kernels.tangent(input, system.matrix.data()) :
-        kernels.residual(input,
-                         system.residual.data(),
-                         system.wanted == LocalSystem<dim>::rounding ?
-                           system.magnitude.data() :
-                           nullptr);
-    system.admits(1., found.smallest_J, points.xi[first + found.at]);
-    system.add_energy(found.energy, found.energy_magnitude);
+    return {points.offsets[grid_cell + 1] - first,
+            &points.xi[first][0],
+            &points.states(growth)[first].A[0][0],
+            &points.lame[stride == 0 ? 0 : first].lambda,
+            stride,
+            points.h,
+            &field.coefficient[0][0],
+            points.material->law()};
   }
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
+  bool
+  VectorizedInternalForce<dim>::admit(const KernelResult &found,
+                                      const unsigned int  grid_cell,
+                                      LocalSystem<dim>   &system) const
+  {
+    const auto &points = this->points;
+    return system.admits(1.,
+                         found.smallest_J,
+                         points.xi[points.offsets[grid_cell] + found.at]);
+  }
+
+  template <int dim>
+  bool
+  VectorizedInternalForce<dim>::add_forces(const unsigned int     grid_cell,
+                                           const LocalField<dim> &field,
+                                           const GrowthAt         growth,
+                                           VolumeMean<dim>       *mean,
+                                           LocalSystem<dim>      &system) const
+  {
+    if (!this->points.any(grid_cell))
+      return true;
+    KernelVolume volume;
+    if (mean != nullptr)
+      volume.gradients = &mean->gradients[0][0];
+    const KernelResult found =
+      kernels.residual(input(grid_cell, field, growth),
+                       system.residual.data(),
+                       system.wanted == LocalSystem<dim>::rounding ?
+                         system.magnitude.data() :
+                         nullptr,
+                       mean == nullptr ? nullptr : &volume);
+    if (mean != nullptr)
+      {
+        mean->modulus += volume.modulus;
+        mean->sum += volume.log_J;
+      }
+    system.add_energy(found.energy, found.energy_magnitude);
+    return admit(found, grid_cell, system);
+  }
+
+  template <int dim>
+  bool
+  VectorizedInternalForce<dim>::add_tangent(const unsigned int     grid_cell,
+                                            const LocalField<dim> &field,
+                                            const GrowthAt         growth,
+                                            const double          *theta,
+                                            LocalSystem<dim>      &system) const
+  {
+    return !this->points.any(grid_cell) ||
+           admit(kernels.tangent(input(grid_cell, field, growth),
+                                 theta,
+                                 system.matrix.data()),
+                 grid_cell,
+                 system);
+  }
+
+  template <int dim>
+  std::unique_ptr<InternalForce<dim>>
   internal_force(const MaterialPoints<dim> &points,
                  const VolumetricStrain     form,
                  const std::string         &kernel)
   {
-    if (form == VolumetricStrain::pointwise)
-      for (const auto &kernels : available_vector_kernels<dim>())
-        if (kernel == "automatic" || kernel == kernels.name)
-          return std::make_unique<VectorizedInternalForce<dim>>(points,
-                                                                kernels);
+    for (const auto &kernels : points.material->template vector_kernels<dim>())
+      if (kernel == "automatic" || kernel == kernels.name)
+        return std::make_unique<VectorizedInternalForce<dim>>(points,
+                                                              kernels,
+                                                              form);
     return std::make_unique<InternalForce<dim>>(points, form);
   }
 
   template class VectorizedInternalForce<2>;
   template class VectorizedInternalForce<3>;
-  template std::unique_ptr<Term<2>>
+  template std::unique_ptr<InternalForce<2>>
   internal_force(const MaterialPoints<2> &,
                  const VolumetricStrain,
                  const std::string &);
-  template std::unique_ptr<Term<3>>
+  template std::unique_ptr<InternalForce<3>>
   internal_force(const MaterialPoints<3> &,
                  const VolumetricStrain,
                  const std::string &);

@@ -59,8 +59,8 @@ namespace Morula
         scene.material.volumetric_form() == VolumetricStrain::projected;
       const double n_points =
         n_cells * std::pow(scene.grid.points_per_cell, dim);
-      const double point    = dim == 2 ? (is_projected ? 1.5e-6 : 0.6e-6) :
-                                         (is_projected ? 2.5e-6 : 0.5e-6);
+      const double point    = dim == 2 ? (is_projected ? 0.8e-6 : 0.6e-6) :
+                                         (is_projected ? 0.6e-6 : 0.5e-6);
       const double equation = dim == 2 ? 4e-6 : 26e-6;
       const double factors  = scene.solver.linear_solver != "direct" ? 0. :
                               dim == 2 ? 2e-7 * std::pow(n, 1.5) :

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/mechanics/vector_kernels.h>
+#include <morula/mechanics/materials/material.h>
 #include <morula/scene/effects_check.h>
 #include <morula/scene/limits.h>
 #include <morula/scene/refusals.h>
@@ -124,7 +124,8 @@ namespace Morula
     }
 
     void
-    check_solver(const SolverParameters &solver)
+    check_solver(const SolverParameters   &solver,
+                 const MaterialParameters &material)
     {
       refuse_unless(solver.newton_tolerance > 0. &&
                       solver.newton_tolerance < 1.,
@@ -139,7 +140,8 @@ namespace Morula
                     "0 lets Newton's method choose.");
       std::string runnable = "automatic, plain";
       bool known = solver.kernel == "automatic" || solver.kernel == "plain";
-      for (const auto &kernels : available_vector_kernels<3>())
+      for (const auto &kernels :
+           material.chosen_material()->vector_kernels<3>())
         {
           runnable += std::string(", ") + kernels.name;
           known = known || solver.kernel == kernels.name;
@@ -162,7 +164,7 @@ namespace Morula
       refuse_far_away("Tissue/Center", scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
       check_effects<dim>(scene);
-      check_solver(scene.solver);
+      check_solver(scene.solver, scene.material);
       check_output(scene);
     }
   } // namespace

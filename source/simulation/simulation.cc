@@ -410,13 +410,14 @@ namespace Morula
     // From then on the cells have the volume that counted in the step.
     const MaterialPoints<dim> points =
       material_points(tissue, space, growth_of_step, material);
-    const InternalForce<dim> force(points, material.volumetric_form());
+    const auto force =
+      internal_force(points, material.volumetric_form(), scene.solver.kernel);
     // On all ranks: a cell on a grid line has part in several grid cells.
     const GridBox<dim> &box = space.box();
     std::vector<double> theta(box.size(), 0.);
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       theta[space.grid_cells()[c].number] =
-        force.mean_log_volume_ratio(c, displacement.on_grid_cell(c));
+        force->mean_log_volume_ratio(c, displacement.on_grid_cell(c));
     Utilities::MPI::sum(theta, comm, theta);
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {

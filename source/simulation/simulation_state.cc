@@ -255,6 +255,7 @@ namespace Morula
   Simulation<dim>::quantities(const CellView<dim, const double> &cell) const
   {
     return cell_quantities(cell,
+                           material.material(),
                            material.lame_at(cell.founder_position()),
                            material.per_grown_volume());
   }

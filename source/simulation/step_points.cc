@@ -131,6 +131,7 @@ namespace Morula
                        });
 
       MaterialPoints<dim> points;
+      points.material   = &material.material();
       points.h          = box.spacing();
       points.subdivided = true;
       points.offsets.push_back(0);
@@ -200,6 +201,7 @@ namespace Morula
       return subdivided_points(tissue, space, growth, material);
 
     MaterialPoints<dim> points;
+    points.material                           = &material.material();
     static_cast<GroupedPoints<dim> &>(points) = cell_positions(tissue, space);
     points.current.reserve(points.xi.size());
     if (growth.present)

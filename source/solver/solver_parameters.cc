@@ -30,15 +30,14 @@ namespace Morula
       "Solver of Newton's linear systems. Automatic: iterative, "
       "direct where that fails.",
       Patterns::Selection("automatic|iterative|direct"));
-    prm.add_parameter(
-      "Kernel",
-      kernel,
-      "What adds up the particles' forces and stiffness: code "
-      "for the best instruction set of the processor, for one, "
-      "or the plain code, several times slower, which "
-      "'Volumetric strain = projected' always takes. They agree "
-      "but for rounding.",
-      Patterns::Selection("automatic|plain|baseline|avx2|avx512"));
+    prm.add_parameter("Kernel",
+                      kernel,
+                      "What adds up the particles' forces and stiffness: code "
+                      "for the best instruction set of the processor, for one, "
+                      "or the plain code, several times slower. They agree but "
+                      "for rounding.",
+                      Patterns::Selection(
+                        "automatic|plain|baseline|avx2|avx512"));
     prm.add_parameter("Largest gap",
                       largest_gap,
                       "Distance of a fixed or slip point from where it is held "

@@ -2,10 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 // The internal force on grid cells of 125 particles (2-D: 25), plain and
-// vectorised, next to what the core can do: a matrix product and the triad of
+// vectorised, of each material, with the volumetric strain of each point and
+// projected, next to what the core can do: a matrix product and the triad of
 // STREAM. The environment variable MORULA_BLAS names a shared library with a
 // fast dgemm_. contrib/benchmark runs this and writes doc/performance.md.
 
+#include <morula/mechanics/materials/materials.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 
 #include <benchmark/benchmark.h>
@@ -29,13 +31,14 @@ namespace
 
   template <int dim>
   MaterialPoints<dim>
-  random_points()
+  random_points(const Material &material)
   {
     std::mt19937                           generator(1);
     std::uniform_real_distribution<double> uniform(0., 1.);
     MaterialPoints<dim>                    points;
-    points.h    = 50.;
-    points.lame = {lame(1., 0.4)};
+    points.h        = 50.;
+    points.material = &material;
+    points.lame     = {lame(1., 0.4)};
     points.offsets.push_back(0);
     for (unsigned int c = 0; c < n_grid_cells; ++c)
       {
@@ -61,13 +64,14 @@ namespace
   template <int dim>
   void
   assemble(benchmark::State                       &state,
+           const Material                         *material,
+           const VolumetricStrain                  form,
            const std::string                      &kernel,
            const typename LocalSystem<dim>::Wanted wanted)
   {
-    const MaterialPoints<dim> points = random_points<dim>();
-    const auto                term =
-      internal_force(points, VolumetricStrain::pointwise, kernel);
-    std::mt19937                           generator(2);
+    const MaterialPoints<dim> points = random_points<dim>(*material);
+    const auto                term   = internal_force(points, form, kernel);
+    std::mt19937              generator(2);
     std::uniform_real_distribution<double> uniform(-2., 2.);
     LocalField<dim>                        field;
     for (auto &component : field.coefficient)
@@ -158,24 +162,48 @@ namespace
                          benchmark::Counter::kIsRate);
   }
 
+  /** @param what in front of "tangent" and "residual" in the names */
   template <int dim>
   void
-  register_assembly()
+  register_assembly(const std::string     &what,
+                    const Material        &material,
+                    const VolumetricStrain form)
   {
     std::vector<std::string> kernels = {"plain"};
-    for (const auto &available : available_vector_kernels<dim>())
+    for (const auto &available : material.vector_kernels<dim>())
       kernels.push_back(available.name);
-    const std::string where = std::to_string(dim) + "-D/";
+    const std::string where = std::to_string(dim) + "-D/" + what;
     for (const std::string &kernel : kernels)
       {
         benchmark::RegisterBenchmark((where + "tangent/" + kernel).c_str(),
                                      assemble<dim>,
+                                     &material,
+                                     form,
                                      kernel,
                                      LocalSystem<dim>::tangent);
         benchmark::RegisterBenchmark((where + "residual/" + kernel).c_str(),
                                      assemble<dim>,
+                                     &material,
+                                     form,
                                      kernel,
                                      LocalSystem<dim>::energy_and_residual);
+      }
+  }
+
+  /** Of all materials; the first is the default and needs no name. */
+  template <int dim>
+  void
+  register_assemblies(const Materials &materials)
+  {
+    for (const std::string &name : materials.names())
+      {
+        const std::string what =
+          name == materials.names().front() ? "" : name + " ";
+        const Material &material = *materials.find(name);
+        register_assembly<dim>(what, material, VolumetricStrain::pointwise);
+        register_assembly<dim>(what + "projected ",
+                               material,
+                               VolumetricStrain::projected);
       }
   }
 } // namespace
@@ -184,8 +212,9 @@ int
 main(int argc, char **argv)
 {
   benchmark::RegisterBenchmark("dgemm", dgemm);
-  register_assembly<3>();
-  register_assembly<2>();
+  const Materials materials;
+  register_assemblies<3>(materials);
+  register_assemblies<2>(materials);
   benchmark::RegisterBenchmark("dgemm again", dgemm);
   benchmark::RegisterBenchmark("triad", triad);
   benchmark::Initialize(&argc, argv);

@@ -46,14 +46,15 @@ def kernels(program, blas):
              "plain / this", "residual, µs a particle", "plain / this")]
     for name in found:
         where, what, kernel = (name + "//").split("/")[:3]
-        if what != "tangent":
+        if not what.endswith("tangent"):
             continue
+        material = what[:-len("tangent")]
         tangent = found[name]
-        times = [(found[f"{where}/{what}/{kernel}"]["seconds_per_point"],
-                  found[f"{where}/{what}/plain"]["seconds_per_point"])
+        times = [[found[f"{where}/{material}{what}/{code}"]["seconds_per_point"]
+                  for code in (kernel, "plain")]
                  for what in ("tangent", "residual")]
         rate = tangent.get("flop_rate")
-        rows.append((f"{kernel}, {where}", f"{1e6 * times[0][0]:.2f}",
+        rows.append((f"{material}{kernel}, {where}", f"{1e6 * times[0][0]:.2f}",
                      f"{100 * rate / peak:.0f} %" if rate else "",
                      f"{times[0][1] / times[0][0]:.1f}",
                      f"{1e6 * times[1][0]:.3f}",

@@ -67,6 +67,21 @@ class Results:
         nu = self.number("Material/Poisson's ratio")
         return E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
 
+    def stress_of(self, b_e):
+        """The Kirchhoff stress in kPa of the material where b_e is diagonal,
+        with these three entries."""
+        lame_lambda, mu = self.lame()
+        b_e = numpy.asarray(b_e)
+        J_e = numpy.sqrt(b_e.prod())
+        if self.keys["Material/Law"] == "neo-Hookean":
+            return mu * (b_e - 1) + lame_lambda * numpy.log(J_e)
+        kappa = lame_lambda + 2 / 3 * mu
+        return (mu * J_e ** (-2 / 3) * (b_e - b_e.mean())
+                + kappa / 2 * (J_e**2 - 1))
+
+    def is_projected(self):
+        return self.keys["Material/Volumetric strain"] == "projected"
+
     def per_grown_volume(self):
         return self.keys["Material/Energy per"] == "grown volume"
 

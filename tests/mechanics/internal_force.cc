@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/internal_force.h>
-#include <morula/mechanics/neo_hookean.h>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,8 @@
 #include <random>
 
 #include "common/finite_differences.h"
+#include "common/materials.h"
+#include "common/own_law.h"
 
 using namespace Morula;
 
@@ -23,9 +24,11 @@ namespace
   random_material_points(std::mt19937      &generator,
                          const unsigned int n,
                          const bool         growing,
-                         const bool         uniform)
+                         const bool         uniform,
+                         const Material    &material = neo_hookean())
   {
     MaterialPoints<dim> points;
+    points.material = &material;
     static_cast<GroupedPoints<dim> &>(points) =
       random_points_in_cell<dim>(generator, n);
     for (unsigned int p = 0; p < (uniform ? 1 : n); ++p)
@@ -41,18 +44,20 @@ namespace
   check_derivatives()
   {
     std::mt19937 generator(1);
-    for (const bool growing : {true, false})
-      for (const bool uniform : {true, false})
-        {
-          const auto points =
-            random_material_points<dim>(generator, 4, growing, uniform);
-          for (const VolumetricStrain form : both_forms)
-            {
-              const InternalForce<dim> term(points, form);
-              EXPECT_TRUE(term.is_conservative());
-              expect_derivatives(term, random_field<dim>(generator, 0.15));
-            }
-        }
+    for (const std::string &name : all_materials().names())
+      for (const bool growing : {true, false})
+        for (const bool uniform : {true, false})
+          {
+            SCOPED_TRACE(name);
+            const auto points = random_material_points<dim>(
+              generator, 4, growing, uniform, material_of_test(name));
+            for (const VolumetricStrain form : both_forms)
+              {
+                const InternalForce<dim> term(points, form);
+                EXPECT_TRUE(term.is_conservative());
+                expect_derivatives(term, random_field<dim>(generator, 0.15));
+              }
+          }
   }
 
   /** Where all points have the same ln J_e, it is its own mean. */
@@ -60,24 +65,31 @@ namespace
   void
   check_uniform_volume_ratio()
   {
-    std::mt19937 generator(5);
-    auto points = random_material_points<dim>(generator, 4, false, false);
-    for (auto &state : points.current)
-      state.A *= std::pow(0.9 / determinant(state.A), 1. / dim);
-    const auto field = affine_field(random_tensor<1, dim>(generator),
-                                    0.2 * random_tensor<2, dim>(generator),
-                                    points.h);
-    const InternalForce<dim> plain(points);
-    const InternalForce<dim> projected(points, VolumetricStrain::projected);
-    const TermOnOneCell<dim> expected(plain, GrowthAt::current);
-    const TermOnOneCell<dim> found(projected, GrowthAt::current);
-    expect_near(found.residual(field), expected.residual(field), 1e-12);
-    EXPECT_NEAR(found.energy(field),
-                expected.energy(field),
-                1e-12 * expected.energy(field));
-    const double J = 0.9 * determinant(field.step_deformation(
-                             SplineValues<dim>(points.xi[0], points.h)));
-    EXPECT_NEAR(projected.mean_log_volume_ratio(0, field), std::log(J), 1e-12);
+    for (const std::string &name : all_materials().names())
+      {
+        SCOPED_TRACE(name);
+        std::mt19937 generator(5);
+        auto         points = random_material_points<dim>(
+          generator, 4, false, false, material_of_test(name));
+        for (auto &state : points.current)
+          state.A *= std::pow(0.9 / determinant(state.A), 1. / dim);
+        const auto field = affine_field(random_tensor<1, dim>(generator),
+                                        0.2 * random_tensor<2, dim>(generator),
+                                        points.h);
+        const InternalForce<dim> plain(points);
+        const InternalForce<dim> projected(points, VolumetricStrain::projected);
+        const TermOnOneCell<dim> expected(plain, GrowthAt::current);
+        const TermOnOneCell<dim> found(projected, GrowthAt::current);
+        expect_near(found.residual(field), expected.residual(field), 1e-12);
+        EXPECT_NEAR(found.energy(field),
+                    expected.energy(field),
+                    1e-12 * expected.energy(field));
+        const double J = 0.9 * determinant(field.step_deformation(
+                                 SplineValues<dim>(points.xi[0], points.h)));
+        EXPECT_NEAR(projected.mean_log_volume_ratio(0, field),
+                    std::log(J),
+                    1e-12);
+      }
   }
 
   /** A rotation of the deformed state leaves the energy and turns the forces.
@@ -214,9 +226,9 @@ namespace
         double expected = 0.;
         for (const auto &state : points.states(growth))
           expected +=
-            state.W *
-            NeoHookean<dim>((unit_tensor<dim>() + A) * state.A, points.lame[0])
-              .energy();
+            state.W * neo_hookean_point((unit_tensor<dim>() + A) * state.A,
+                                        points.lame[0])
+                        .energy();
         EXPECT_NEAR(TermOnOneCell<dim>(term, growth).energy(field),
                     expected,
                     1e-12 * expected);

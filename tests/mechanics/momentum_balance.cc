@@ -17,6 +17,7 @@
 
 #include "common/body_on_grid.h"
 #include "common/linear_problem.h"
+#include "common/materials.h"
 
 using namespace Morula;
 
@@ -130,7 +131,8 @@ namespace
       const auto groups = body.group(body.particles);
       static_cast<GroupedPoints<dim> &>(points) =
         body.grouped(body.particles, groups);
-      points.lame = {lame(1., 0.4)};
+      points.material = &neo_hookean();
+      points.lame     = {lame(1., 0.4)};
       points.current =
         states_at(body.particles, groups, 0.3, std::pow(spacing(), dim));
       points.previous =
@@ -187,6 +189,8 @@ namespace
         }
       terms.push_back(std::make_unique<Nitsche<dim>>(
         NitscheForm::symmetric,
+        neo_hookean(),
+        PartOfLaw::all,
         body.grouped(body.boundary, groups),
         std::move(conditions),
         states_at(body.boundary, groups, 0.3, 1.),
@@ -369,7 +373,8 @@ namespace
     MaterialPoints<dim>   points;
     static_cast<GroupedPoints<dim> &>(points) =
       body.grouped(body.particles, groups);
-    points.lame = {lame(1., 0.4)};
+    points.material = &neo_hookean();
+    points.lame     = {lame(1., 0.4)};
     points.current =
       std::vector<ElasticState<dim>>(groups.points.size(),
                                      {unit_tensor<dim>(), std::pow(18., dim)});

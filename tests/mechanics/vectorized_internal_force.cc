@@ -9,6 +9,8 @@
 #include <random>
 
 #include "common/finite_differences.h"
+#include "common/materials.h"
+#include "common/own_law.h"
 
 using namespace Morula;
 
@@ -18,9 +20,11 @@ namespace
   MaterialPoints<dim>
   random_material_points(std::mt19937      &generator,
                          const unsigned int n,
-                         const bool         uniform)
+                         const bool         uniform,
+                         const Material    &material = neo_hookean())
   {
     MaterialPoints<dim> points;
+    points.material = &material;
     static_cast<GroupedPoints<dim> &>(points) =
       random_points_in_cell<dim>(generator, n);
     for (unsigned int p = 0; p < (uniform ? 1 : n); ++p)
@@ -55,12 +59,30 @@ namespace
   }
 
   template <int dim>
+  std::vector<double>
+  entries(const LocalField<dim> &field)
+  {
+    const double *const first = &field.coefficient[0][0];
+    return {first, first + LocalSystem<dim>::n_dofs};
+  }
+
+  template <int dim>
   void
   expect_same(const LocalSystem<dim> &found, const LocalSystem<dim> &expected)
   {
     expect_same(found.residual, expected.residual);
     expect_same(found.magnitude, expected.magnitude);
     expect_same(found.matrix, expected.matrix);
+    ASSERT_EQ(found.linearisation.has_value(),
+              expected.linearisation.has_value());
+    if (expected.linearisation)
+      {
+        const auto &theirs = *expected.linearisation;
+        const auto &ours   = *found.linearisation;
+        EXPECT_NEAR(ours.value, theirs.value, 1e-14);
+        expect_same(entries(ours.derivative), entries(theirs.derivative));
+        expect_same(entries(ours.field), entries(theirs.field));
+      }
     EXPECT_NEAR(found.energy,
                 expected.energy,
                 1e-13 * expected.energy_magnitude);
@@ -79,30 +101,61 @@ namespace
     EXPECT_EQ(found.inverted, expected.inverted);
   }
 
+  /** The kernels of the neo-Hookean material. */
+  template <int dim>
+  const std::vector<VectorKernels<dim>> &
+  all_kernels()
+  {
+    return neo_hookean().vector_kernels<dim>();
+  }
+
+  const std::vector<VolumetricStrain> both_forms = {
+    VolumetricStrain::pointwise, VolumetricStrain::projected};
+
+  template <int dim>
+  void
+  check_any_number_of(const Material        &material,
+                      const VolumetricStrain form,
+                      const unsigned int     n,
+                      const bool             uniform)
+  {
+    std::mt19937 generator(n);
+    const auto   points =
+      random_material_points<dim>(generator, n, uniform, material);
+    const auto               field = random_field<dim>(generator, 0.15);
+    const InternalForce<dim> plain(points, form);
+    for (const auto &kernels : material.vector_kernels<dim>())
+      {
+        SCOPED_TRACE(kernels.name + std::string(", points: ") +
+                     std::to_string(n));
+        const VectorizedInternalForce<dim> vectorized(points, kernels, form);
+        EXPECT_NEAR(vectorized.mean_log_volume_ratio(0, field),
+                    plain.mean_log_volume_ratio(0, field),
+                    1e-14);
+        for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
+          for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
+                                    LocalSystem<dim>::rounding,
+                                    LocalSystem<dim>::tangent})
+            expect_same(system_of(vectorized, field, growth, wanted),
+                        system_of(plain, field, growth, wanted));
+      }
+  }
+
   template <int dim>
   void
   check_any_number()
   {
-    for (const auto &kernels : available_vector_kernels<dim>())
-      for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
-        for (const bool uniform : {true, false})
-          {
-            SCOPED_TRACE(kernels.name + std::string(", points: ") +
-                         std::to_string(n));
-            std::mt19937 generator(n);
-            const auto   points =
-              random_material_points<dim>(generator, n, uniform);
-            const auto               field = random_field<dim>(generator, 0.15);
-            const InternalForce<dim> plain(points);
-            const VectorizedInternalForce<dim> vectorized(points, kernels);
-            for (const GrowthAt growth :
-                 {GrowthAt::previous, GrowthAt::current})
-              for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
-                                        LocalSystem<dim>::rounding,
-                                        LocalSystem<dim>::tangent})
-                expect_same(system_of(vectorized, field, growth, wanted),
-                            system_of(plain, field, growth, wanted));
-          }
+    for (const std::string &name : all_materials().names())
+      for (const VolumetricStrain form : both_forms)
+        for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
+          for (const bool uniform : {true, false})
+            {
+              SCOPED_TRACE(name);
+              check_any_number_of<dim>(material_of_test(name),
+                                       form,
+                                       n,
+                                       uniform);
+            }
   }
 
   template <int dim>
@@ -112,7 +165,7 @@ namespace
     std::mt19937 generator(3);
     const auto   points = random_material_points<dim>(generator, 5, true);
     const auto   field  = random_field<dim>(generator, 0.15);
-    for (const auto &kernels : available_vector_kernels<dim>())
+    for (const auto &kernels : all_kernels<dim>())
       for (const auto wanted :
            {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
         {
@@ -139,7 +192,7 @@ namespace
     auto         points = random_material_points<dim>(generator, 1, true);
     points.offsets      = {0, 0};
     const auto field    = random_field<dim>(generator, 0.15);
-    for (const auto &kernels : available_vector_kernels<dim>())
+    for (const auto &kernels : all_kernels<dim>())
       expect_same(system_of(VectorizedInternalForce<dim>(points, kernels),
                             field,
                             GrowthAt::current,
@@ -155,7 +208,7 @@ namespace
     auto         points = random_material_points<dim>(generator, 11, true);
     points.current[9].A[0][0] *= -1.; // J_e < 0
     const auto field = random_field<dim>(generator, 0.05);
-    for (const auto &kernels : available_vector_kernels<dim>())
+    for (const auto &kernels : all_kernels<dim>())
       for (const auto wanted :
            {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
         {
@@ -192,7 +245,7 @@ TEST(VectorizedInternalForce, LogarithmsAreAccurate)
 {
   std::mt19937  generator(6);
   LocalField<3> rest = {};
-  for (const auto &kernels : available_vector_kernels<3>())
+  for (const auto &kernels : all_kernels<3>())
     for (const double J : {1e-100,
                            1e-9,
                            0.1,
@@ -226,6 +279,31 @@ TEST(VectorizedInternalForce, LogarithmsAreAccurate)
       }
 }
 
+// And an exponential: of a change of volume alone, 4 U = e^2ϑ - 1 - 2ϑ.
+TEST(VectorizedInternalForce, ExponentialsAreAccurate)
+{
+  std::mt19937    generator(6);
+  LocalField<3>   rest     = {};
+  const Material &material = material_of_test("isochoric neo-Hookean");
+  for (const auto &kernels : material.vector_kernels<3>())
+    for (const double log_J :
+         {-30., -3., -0.8, -0.3, -1e-3, -1e-8, 1e-9, 1e-4, 0.2, 1.5, 9., 60.})
+      {
+        auto points = random_material_points<3>(generator, 1, true, material);
+        points.lame = {{1., 0.}};
+        auto &A     = points.current[0].A;
+        A           = unit_symmetric_tensor<3>();
+        A[0][0]     = std::exp(log_J);
+        LocalSystem<3> system(LocalSystem<3>::energy_and_residual);
+        VectorizedInternalForce<3>(points, kernels)
+          .add(0, rest, GrowthAt::current, system);
+        const double twice = 2. * std::log(A[0][0]);
+        EXPECT_NEAR(system.energy,
+                    points.current[0].W * 0.25 * (std::expm1(twice) - twice),
+                    1e-15 * system.energy_magnitude);
+      }
+}
+
 TEST(VectorizedInternalForce, IsChosenByName)
 {
   std::mt19937 generator(7);
@@ -235,8 +313,10 @@ TEST(VectorizedInternalForce, IsChosenByName)
     return dynamic_cast<VectorizedInternalForce<3> *>(
              internal_force(points, form, kernel).get()) != nullptr;
   };
-  EXPECT_TRUE(is_vectorized(VolumetricStrain::pointwise, "automatic"));
-  EXPECT_TRUE(is_vectorized(VolumetricStrain::pointwise, "baseline"));
-  EXPECT_FALSE(is_vectorized(VolumetricStrain::pointwise, "plain"));
-  EXPECT_FALSE(is_vectorized(VolumetricStrain::projected, "automatic"));
+  for (const VolumetricStrain form : both_forms)
+    {
+      EXPECT_TRUE(is_vectorized(form, "automatic"));
+      EXPECT_TRUE(is_vectorized(form, "baseline"));
+      EXPECT_FALSE(is_vectorized(form, "plain"));
+    }
 }

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 
+#include "common/materials.h"
+
 using namespace Morula;
 
 namespace
@@ -91,8 +93,10 @@ TEST(CellFields, GivesCauchyStressInThreeDimensions)
   cell.writer().set(cell.columns.deformation, diagonal<3>({2., 1., 1.}));
   for (const bool per_grown_volume : {false, true})
     {
-      const CellQuantities q =
-        cell_quantities<3>(cell.reader(), lame_constants, per_grown_volume);
+      const CellQuantities q = cell_quantities<3>(cell.reader(),
+                                                  neo_hookean(),
+                                                  lame_constants,
+                                                  per_grown_volume);
       EXPECT_DOUBLE_EQ(q.initial_volume, 1000.);
       EXPECT_DOUBLE_EQ(q.volume, 2000.);
       EXPECT_DOUBLE_EQ(q.growth_volume_ratio, 1.);
@@ -119,12 +123,13 @@ TEST(CellFields, GivesShearStress)
   cell.writer().set(cell.columns.initial_volume, 1.);
   cell.writer().set(cell.columns.deformation, F);
   CellFields<3> fields(0., 1, cell.columns, false);
-  fields.add(0,
-             cell.reader(),
-             {},
-             9,
-             false,
-             cell_quantities<3>(cell.reader(), lame_constants, false));
+  fields.add(
+    0,
+    cell.reader(),
+    {},
+    9,
+    false,
+    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false));
   auto values = row(fields.fields(), 0);
   EXPECT_NEAR(values["sigma_xx"], mu * 0.25, 1e-15);
   EXPECT_NEAR(values["sigma_yy"], mu * 0.0625, 1e-15);
@@ -142,8 +147,10 @@ TEST(CellFields, CountsTheEnergyPerInitialOrGrownVolume)
   cell.writer().set(cell.columns.initial_volume, 8.);
   cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
   cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
-  const auto initial = cell_quantities<3>(cell.reader(), lame_constants, false);
-  const auto grown   = cell_quantities<3>(cell.reader(), lame_constants, true);
+  const auto initial =
+    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false);
+  const auto grown =
+    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, true);
   const double pressure = mu * (1. - 1. / 1.21) + 3. * lambda * std::log(1.1);
   EXPECT_NEAR(initial.stress[1][1], -pressure, 1e-14);
   EXPECT_NEAR(grown.stress[1][1], -0.62618, 5e-6);
@@ -170,7 +177,8 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   write.set(cell.columns.generation, 2);
 
   CellFields<2> fields(third, 1, cell.columns, false);
-  const auto    q = cell_quantities<2>(cell.reader(), lame_constants, true);
+  const auto    q =
+    cell_quantities<2>(cell.reader(), neo_hookean(), lame_constants, true);
   fields.add(12, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
   auto        values = row(table, 0);
@@ -248,7 +256,8 @@ TEST(CellFields, SayWhichCellsTheCheckpointHolds)
   cell.writer().set(cell.columns.initial_volume, 8.);
   cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
   cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
-  const auto q = cell_quantities<3>(cell.reader(), lame_constants, false);
+  const auto q =
+    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false);
   for (const bool held : {false, true})
     {
       CellFields<3> fields(0., 1, cell.columns, true);
@@ -280,7 +289,8 @@ TEST(CellFields, HaveTheColumnsThatEffectsWantThere)
   EXPECT_EQ(cell.reader().get(shown), 2u);
 
   CellFields<2> fields(0., 1, cell.columns, true);
-  const auto    q = cell_quantities<2>(cell.reader(), lame_constants, false);
+  const auto    q =
+    cell_quantities<2>(cell.reader(), neo_hookean(), lame_constants, false);
   fields.add(7, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
   auto        values = row(table, 0);

@@ -6,29 +6,28 @@
 
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
+#include <morula/mechanics/volume_mean.h>
 
 namespace Morula
 {
-  template <int dim>
-  struct ProjectedPoints;
-
   /**
-   * The internal virtual work Σ_p W τ : ∇δu of the neo-Hookean tissue, equation
-   * (2) of the paper, its energy Σ_p W Ψ and its tangent, doc/theory.md (2.4),
-   * (2.5):
+   * The internal virtual work Σ_p W τ : ∇δu of the tissue, equation (2) of the
+   * paper, its energy Σ_p W Ψ and its tangent, doc/theory.md (2.4), (2.5):
    *
    *   R_a = Σ_p W τ g_a, g_a = f⁻ᵀ ∇N_a,
-   *   K_ab^ij = Σ_p W [λ g_a^i g_b^j + (μ - λ ln J_e) g_a^j g_b^i
-   *                    + μ (g_a · b_e g_b) δ^ij].
+   *   K_ab^ij = Σ_p W [A g_a^i g_b^j + (α - γ) g_a^j g_b^i
+   *                    + α (g_a · b_e g_b) δ^ij
+   *                    + B ((b_e g_a)^i g_b^j + g_a^i (b_e g_b)^j)
+   *                    + C (b_e g_a)^i (b_e g_b)^j]
    *
-   * Projected, ln J_e in the terms with λ is its mean ϑ over the points of the
-   * grid cell, weighted with W λ: one volumetric constraint a grid cell, so
-   * that nearly incompressible tissue does not lock; doc/theory.md (2.7). Its
-   * tangents take ϑ in the coefficient of g_a^j g_b^i from the linearisation at
-   * the last tangent, if the local system has one, as if the pressure were an
-   * unknown of its own: ϑ of the displacement itself is wrong by the square of
-   * the correction, which times λ would swamp μ. Both agree at the solution.
-   * Without that linearisation a tangent is the exact derivative.
+   * with the coefficients of the material's law (Response). Projected, ln J_e
+   * in the volumetric part is its mean ϑ over the points of the grid cell: one
+   * volumetric constraint a grid cell, so that nearly incompressible tissue
+   * does not lock; doc/theory.md (2.7). Its tangents take ϑ from the
+   * linearisation at the last tangent, if the local system has one, as if the
+   * pressure were an unknown of its own: ϑ of the displacement itself is wrong
+   * by the square of the correction, which times λ would swamp μ. Both agree at
+   * the solution. Without that linearisation a tangent is the exact derivative.
    */
   template <int dim>
   class InternalForce : public Term<dim>
@@ -51,50 +50,52 @@ namespace Morula
     mean_log_volume_ratio(const unsigned int     grid_cell,
                           const LocalField<dim> &field) const;
 
+  protected:
+    const MaterialPoints<dim> &points;
+
   private:
-    /** Calls visit(gradients, material, W) for the points of a grid cell;
-     *  false at the first that @p system does not admit. */
+    /** Adds energy and residual or, if there is a @p mean, those of the
+     *  distortional part, and to the mean. False if a point is inverted. */
+    virtual bool
+    add_forces(const unsigned int     grid_cell,
+               const LocalField<dim> &field,
+               const GrowthAt         growth,
+               VolumeMean<dim>       *mean,
+               LocalSystem<dim>      &system) const;
+
+    /** Adds to the tangent; if there is a @p theta, all but the product of the
+     *  means in (2.7). False if a point is inverted. */
+    virtual bool
+    add_tangent(const unsigned int     grid_cell,
+                const LocalField<dim> &field,
+                const GrowthAt         growth,
+                const double          *theta,
+                LocalSystem<dim>      &system) const;
+
+    /** Calls visit(gradients, state, W) for the points of a grid cell; false at
+     *  the first that @p system does not admit. */
     template <typename Visit>
     bool
     for_each_point(const unsigned int     grid_cell,
                    const LocalField<dim> &field,
                    const GrowthAt         growth,
+                   const double          *theta,
                    LocalSystem<dim>      &system,
                    const Visit           &visit) const;
 
-    // Add energy and residual or, if there is one, to the blocks (i, j), i <=
-    // j, of the tangent; false if a point is inverted.
-    bool
-    add_pointwise(const unsigned int     grid_cell,
-                  const LocalField<dim> &field,
-                  const GrowthAt         growth,
-                  double                *tangent,
-                  LocalSystem<dim>      &system) const;
-    bool
-    add_projected(const unsigned int     grid_cell,
-                  const LocalField<dim> &field,
-                  const GrowthAt         growth,
-                  double                *tangent,
-                  LocalSystem<dim>      &system) const;
+    /** The mean over the points of a grid cell. */
+    VolumeMean<dim>
+    mean(const unsigned int     grid_cell,
+         const LocalField<dim> &field,
+         const GrowthAt         growth) const;
 
-    /** Collects the points of a grid cell; false if one is inverted. */
-    bool
-    project(const unsigned int     grid_cell,
-            const LocalField<dim> &field,
-            const GrowthAt         growth,
-            LocalSystem<dim>      &system,
-            ProjectedPoints<dim>  &projected) const;
+    void
+    add_projected_tangent(const unsigned int     grid_cell,
+                          const LocalField<dim> &field,
+                          const GrowthAt         growth,
+                          LocalSystem<dim>      &system) const;
 
-    /** ϑ with the growth at t + dt and its derivative at @p field, for the next
-     *  tangent. */
-    VolumeLinearisation<dim>
-    linearisation(const unsigned int          grid_cell,
-                  const LocalField<dim>      &field,
-                  const GrowthAt              growth,
-                  const ProjectedPoints<dim> &projected) const;
-
-    const MaterialPoints<dim> &points;
-    const VolumetricStrain     form;
+    const VolumetricStrain form;
   };
 } // namespace Morula
 

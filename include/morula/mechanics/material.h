@@ -4,15 +4,19 @@
 #ifndef morula_mechanics_material_h
 #define morula_mechanics_material_h
 
+#include <morula/mechanics/materials/materials.h>
+
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <string>
 
 namespace Morula
 {
   using namespace dealii;
 
-  /** What stands for ln J_e in the terms with λ (doc/theory.md, section 2). */
+  /** What stands for ln J_e in the volumetric part of the energy
+   *  (doc/theory.md, section 2). */
   enum class VolumetricStrain
   {
     /** ln J_e of the point itself. */
@@ -28,6 +32,9 @@ namespace Morula
     double      poissons_ratio    = 0.4;
     std::string energy_per        = "initial volume";
     std::string volumetric_strain = "pointwise";
+    std::string law               = "neo-Hookean";
+    /** What the law can be. */
+    Materials materials;
 
     void
     declare(ParameterHandler &prm);
@@ -38,6 +45,10 @@ namespace Morula
 
     VolumetricStrain
     volumetric_form() const;
+
+    /** The one that the law names. @throws InputError if there is none */
+    std::shared_ptr<const Material>
+    chosen_material() const;
   };
 
   /** Lamé's constants, kPa. */

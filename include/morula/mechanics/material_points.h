@@ -14,6 +14,8 @@
 
 namespace Morula
 {
+  class Material;
+
   /**
    * What the momentum balance needs of a point's growth and elastic state: the
    * elastic deformation before the step's own, so that F_e = f A.
@@ -42,6 +44,13 @@ namespace Morula
     std::vector<unsigned int> offsets;
     std::vector<Point<dim>>   xi;
     double                    h; // grid spacing, µm
+
+    /** Whether there are any in a grid cell. */
+    bool
+    any(const unsigned int grid_cell) const
+    {
+      return offsets[grid_cell] < offsets[grid_cell + 1];
+    }
   };
 
   /**
@@ -51,6 +60,8 @@ namespace Morula
   template <int dim>
   struct MaterialPoints : public GroupedPoints<dim>
   {
+    /** What they are made of; it must outlive them. */
+    const Material *material = nullptr;
     /** One for each point, or a single one for all. */
     std::vector<Lame> lame;
     /** Growth at t + dt. */

@@ -13,13 +13,22 @@ namespace Morula
   class TissueMaterial
   {
   public:
-    /** @throws InputError for an expression that cannot be parsed */
+    /** @throws InputError for an expression that cannot be parsed, or a law
+     *          that there is not */
     explicit TissueMaterial(const MaterialParameters &parameters)
       : E("Material/Young's modulus", parameters.youngs_modulus)
       , nu(parameters.poissons_ratio)
       , per_grown_volume_(parameters.per_grown_volume())
       , volumetric_form_(parameters.volumetric_form())
+      , material_(parameters.chosen_material())
     {}
+
+    /** Its law. */
+    const Material &
+    material() const
+    {
+      return *material_;
+    }
 
     /** Whether it is the same everywhere. */
     bool
@@ -58,10 +67,11 @@ namespace Morula
     }
 
   private:
-    Expression       E;
-    double           nu;
-    bool             per_grown_volume_;
-    VolumetricStrain volumetric_form_;
+    Expression                      E;
+    double                          nu;
+    bool                            per_grown_volume_;
+    VolumetricStrain                volumetric_form_;
+    std::shared_ptr<const Material> material_;
   };
 } // namespace Morula
 

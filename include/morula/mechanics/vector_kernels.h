@@ -26,6 +26,16 @@ namespace Morula
     unsigned int  lame_stride; // 2, or 0 if they are the same for all points
     double        h;           // µm
     const double *coefficients;
+    const void   *law; // of the material that the kernels were made for
+  };
+
+  /** What the projected volumetric strain sums over the points of a grid cell:
+   *  doc/theory.md (2.6). */
+  struct KernelVolume
+  {
+    double  modulus   = 0.;      // Σ W k
+    double  log_J     = 0.;      // Σ W k ln J_e
+    double *gradients = nullptr; // Σ W k g, dim 3^dim values by component
   };
 
   /** What a kernel finds. */
@@ -39,8 +49,8 @@ namespace Morula
 
   /**
    * The terms of InternalForce for all the particles of a grid cell at once,
-   * for one instruction set (doc/performance.md). Add nothing if a point
-   * is inverted.
+   * for one law and one instruction set (doc/performance.md). Add nothing if a
+   * point is inverted.
    */
   template <int dim>
   struct VectorKernels
@@ -48,19 +58,27 @@ namespace Morula
     const char *name;
 
     /** Adds to the residual, dim 3^dim values by component, and, if not null,
-     *  to the sums of the magnitudes of its contributions. */
+     *  to the sums of the magnitudes of its contributions. If @p volume is not
+     *  null, adds to that what the projected volumetric strain needs, and
+     * leaves the volumetric part of the law out of all else. */
     KernelResult (*residual)(const KernelInput &input,
                              double            *residual,
-                             double            *magnitudes);
+                             double            *magnitudes,
+                             KernelVolume      *volume);
 
-    /** Adds to the tangent row by row. */
-    KernelResult (*tangent)(const KernelInput &input, double *matrix);
+    /** Adds to the tangent row by row. If @p theta is not null, the volumetric
+     *  strain is projected, ϑ is this number, and the product of the means in
+     *  doc/theory.md (2.7) is left out. */
+    KernelResult (*tangent)(const KernelInput &input,
+                            const double      *theta,
+                            double            *matrix);
   };
 
-  /** Those that this processor can run, the fastest first. */
+  /** Those for law number @p law of the library's list that this processor can
+   *  run, the fastest first. */
   template <int dim>
   std::vector<VectorKernels<dim>>
-  available_vector_kernels();
+  available_vector_kernels(const unsigned int law);
 } // namespace Morula
 
 #endif

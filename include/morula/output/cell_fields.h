@@ -37,6 +37,7 @@ namespace Morula
   template <int dim>
   CellQuantities
   cell_quantities(const CellView<dim, const double> &cell,
+                  const Material                    &material,
                   const Lame                        &lame,
                   const bool                         per_grown_volume);
 

@@ -5,7 +5,7 @@
 #include <morula/effects/surface/dead_load.h>
 #include <morula/effects/surface/following_pressure.h>
 #include <morula/effects/surface/nitsche.h>
-#include <morula/mechanics/neo_hookean.h>
+#include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
@@ -81,17 +81,17 @@ namespace Morula
               (per_grown_volume ? determinant(F_g) : 1.) / determinant(F)};
     }
 
-    /** Of a stretch along @p n in a state, per area at t, kPa. */
+    /** Of a stretch along the normal of a point, per area at t, kPa. */
     template <int dim>
     double
-    stiffness(const ElasticState<dim> &state,
-              const Lame              &lame,
-              const Tensor<1, dim>    &n)
+    stiffness(const ElasticState<dim>                &state,
+              const typename Nitsche<dim>::Condition &condition,
+              const TissueMaterial                   &material)
     {
-      const NeoHookean<dim> material(state.A, lame);
-      const auto           &b = material.left_cauchy_green();
-      return state.W * (lame.lambda + material.mu_minus_lambda_log_J() +
-                        lame.mu * (n * (b * n)));
+      const ElasticPoint<dim> point(state.A,
+                                    condition.lame,
+                                    material.material());
+      return state.W * point.stiffness(condition.normal);
     }
 
     template <int dim>
@@ -158,21 +158,24 @@ namespace Morula
             current.push_back(state(F, at_end, material.per_grown_volume()));
           }
         // Without trust there is no traction that the penalty must hold down.
-        condition.penalty = conditions.penalty(material.youngs_modulus(X),
-                                               condition.lame,
-                                               condition.trust > 0. ?
-                                                 stiffness(current.back(),
-                                                           condition.lame,
-                                                           condition.normal) :
-                                                 0.,
-                                               material.volumetric_form(),
-                                               space.box().spacing());
-        // ln J_e of the point itself says nothing about the pressure there.
-        if (material.volumetric_form() == VolumetricStrain::projected)
-          condition.lame.lambda = 0.;
+        condition.penalty =
+          conditions.penalty(material.youngs_modulus(X),
+                             condition.lame,
+                             condition.trust > 0. ?
+                               stiffness(current.back(), condition, material) :
+                               0.,
+                             material.volumetric_form(),
+                             space.box().spacing());
         list.push_back(condition);
       }
+    // Projected, ln J_e of the point itself says nothing about the pressure.
+    const PartOfLaw part =
+      material.volumetric_form() == VolumetricStrain::projected ?
+        PartOfLaw::distortion :
+        PartOfLaw::all;
     return std::make_unique<Nitsche<dim>>(conditions.nitsche_form(),
+                                          material.material(),
+                                          part,
                                           positions(tissue, space, groups),
                                           std::move(list),
                                           std::move(current),

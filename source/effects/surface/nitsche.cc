@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/nitsche.h>
-#include <morula/mechanics/neo_hookean.h>
+#include <morula/mechanics/elastic_point.h>
 
 #include <array>
 
@@ -10,78 +10,176 @@ namespace Morula
 {
   namespace
   {
+    /** The coefficients of the stress and its derivative, (1.5), (2.5). */
+    struct Coefficients
+    {
+      double alpha, gamma, A, B, C;
+
+      Coefficients(const CoupledResponse<double> &r, const PartOfLaw part)
+        : alpha(r.alpha)
+        , gamma(part == PartOfLaw::all ? r.total_gamma() : r.gamma)
+        , A(part == PartOfLaw::all ? r.total_A() : r.A)
+        , B(r.B)
+        , C(r.C)
+      {}
+    };
+
     /** T and its derivatives at one boundary point: doc/theory.md (4.2), (4.3).
      */
     template <int dim>
     struct NominalTraction
     {
       static constexpr unsigned int n = BSpline<dim>::n;
+      using Row                       = std::array<double, n>;
 
-      Tensor<1, dim> m;                // f⁻ᵀ n_t
-      double         gradient[dim][n]; // f⁻ᵀ ∇N_a, by component
-      Tensor<1, dim> value;            // M T
+      Tensor<1, dim> m;             // f⁻ᵀ n_t
+      Tensor<1, dim> bm;            // b_e m
+      Row            gradient[dim]; // g = f⁻ᵀ ∇N, by component
+      Row            b_g[dim];      // b_e g
+      Tensor<1, dim> value;         // M T
       /** Component k of M DT for component j of spline a: [k][j][a]. */
-      double derivative[dim][dim][n];
+      Row derivative[dim][dim];
 
       NominalTraction(const SplineValues<dim>                &splines,
                       const Tensor<2, dim>                   &f_inverse,
-                      const NeoHookean<dim>                  &material,
+                      const ElasticPoint<dim>                &state,
+                      const PartOfLaw                         part,
                       const double                            weight,
                       const typename Nitsche<dim>::Condition &condition)
         : m(condition.normal * f_inverse)
+        , bm(state.b() * m)
         , weight(weight)
-        , lambda(material.lambda())
-        , c2(material.mu_minus_lambda_log_J())
+        , of(state.response(), part)
       {
-        const Tensor<1, dim> bm = material.left_cauchy_green() * m;
-        value =
-          weight * (condition.projection * (material.kirchhoff_stress() * m));
+        const auto tau_m = of.alpha * (bm - m) + of.gamma * m;
+        value            = weight * (condition.projection * tau_m);
         for (unsigned int a = 0; a < n; ++a)
           {
             Tensor<1, dim> g;
             for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int j = 0; j < dim; ++j)
                 g[j] += f_inverse[k][j] * splines.gradient[k][a];
+            const Tensor<1, dim> bg = state.b() * g;
             for (unsigned int j = 0; j < dim; ++j)
               {
                 // δT for δu = N_a e_j.
-                Tensor<1, dim> change = c2 * m[j] * g + lambda * g[j] * m;
-                change[j] += material.mu() * (g * bm);
+                Tensor<1, dim> change = (of.alpha - of.gamma) * m[j] * g +
+                                        (of.A * g[j] + of.B * bg[j]) * m +
+                                        (of.B * g[j] + of.C * bg[j]) * bm;
+                change[j] += of.alpha * (g * bm);
                 change = weight * (condition.projection * change);
                 for (unsigned int k = 0; k < dim; ++k)
                   derivative[k][j][a] = change[k];
                 gradient[j][a] = g[j];
+                b_g[j][a]      = bg[j];
               }
           }
       }
 
-      /**
-       * g·D²T for component i of spline a and component j of spline b,
-       * doc/theory.md (4.5b), is, for all b, a sum of three rows times these
-       * factors.
-       */
-      struct SecondDerivative
-      {
-        double gi, gj, along; // of gradient[i], gradient[j] and g·f⁻ᵀ∇N_b
-      };
+      /** W / V_t. */
+      const double weight;
+      /** Those of τ. */
+      const Coefficients of;
+    };
 
-      /** @param along g·f⁻ᵀ∇N_a */
-      SecondDerivative
-      second_derivative(const Tensor<1, dim> &gap,
-                        const double          along,
-                        const unsigned int    i,
-                        const unsigned int    a,
-                        const unsigned int    j) const
+    /**
+     * g·D²T at one boundary point, doc/theory.md (4.5b): for component i of
+     * spline a, component j and all splines b it is a sum of a few rows.
+     */
+    template <int dim>
+    class SecondDerivative
+    {
+    public:
+      static constexpr unsigned int n = BSpline<dim>::n;
+      using Row                       = std::array<double, n>;
+
+      /** @param coupled whether the law has B, C and D2 to D4 */
+      SecondDerivative(const NominalTraction<dim> &T,
+                       const Tensor<1, dim>       &gap,
+                       const ThirdDerivatives     &third,
+                       const bool                  coupled)
+        : T(T)
+        , gap(gap)
+        , third(third)
+        , coupled(coupled)
+        , gm(gap * T.m)
+        , gbm(gap * T.bm)
       {
-        const double gm = gap * m;
-        return {-weight * (lambda * gm * gradient[j][a] + c2 * along * m[j]),
-                -weight * lambda * along * m[i],
-                -weight * (lambda * gradient[i][a] * m[j] +
-                           c2 * gradient[j][a] * m[i])};
+        for (unsigned int b = 0; b < n; ++b)
+          {
+            along[b] = along_bm[b] = 0.;
+            for (unsigned int k = 0; k < dim; ++k)
+              {
+                along[b] += gap[k] * T.gradient[k][b];
+                along_bm[b] += T.bm[k] * T.gradient[k][b];
+              }
+          }
+      }
+
+      /** Adds @p factor times it, for all b. */
+      void
+      add(const unsigned int i,
+          const unsigned int a,
+          const unsigned int j,
+          const double       factor,
+          double            *row) const
+      {
+        const auto  &of = T.of;
+        const auto  &g  = T.gradient;
+        const double c  = of.alpha - of.gamma;
+        const double w  = factor * T.weight;
+        const double of_gi =
+          -w * ((of.A * gm + of.B * gbm) * g[j][a] + c * along[a] * T.m[j]);
+        const double of_gj =
+          w * (third.D1 * g[i][a] * gm - of.A * along[a] * T.m[i]);
+        const double of_along =
+          -w * (of.A * g[i][a] * T.m[j] + c * g[j][a] * T.m[i]);
+        for (unsigned int b = 0; b < n; ++b)
+          row[b] += of_gi * g[i][b] + of_gj * g[j][b] + of_along * along[b];
+        if (coupled)
+          add_coupled(i, a, j, w, row);
       }
 
     private:
-      const double weight, lambda, c2;
+      /** The parts with B, C and D2 to D4, but for that with g_b^i. */
+      void
+      add_coupled(const unsigned int i,
+                  const unsigned int a,
+                  const unsigned int j,
+                  const double       w,
+                  double            *row) const
+      {
+        const auto  &of = T.of;
+        const auto  &g = T.gradient, &bg = T.b_g;
+        const double of_gj =
+          w * (third.D2 * (g[i][a] * gbm + bg[i][a] * gm) +
+               third.D3 * bg[i][a] * gbm + of.B * along_bm[a] * gap[i]);
+        const double of_bgj =
+          w * (third.D2 * g[i][a] * gm +
+               third.D3 * (g[i][a] * gbm + bg[i][a] * gm) +
+               third.D4 * bg[i][a] * gbm + of.C * along_bm[a] * gap[i] -
+               of.B * along[a] * T.m[i]);
+        const double of_along = -w * of.B * bg[i][a] * T.m[j];
+        const double of_along_bm =
+          w * (of.C * bg[i][a] + of.B * g[i][a]) * gap[j];
+        for (unsigned int b = 0; b < n; ++b)
+          row[b] += of_gj * g[j][b] + of_bgj * bg[j][b] + of_along * along[b] +
+                    of_along_bm * along_bm[b];
+        if (i == j)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              const double of_bg = w * (of.C * gbm + of.B * gm) * g[k][a];
+              for (unsigned int b = 0; b < n; ++b)
+                row[b] += of_bg * bg[k][b];
+            }
+      }
+
+      const NominalTraction<dim> &T;
+      const Tensor<1, dim>       &gap;
+      const ThirdDerivatives     &third;
+      const bool                  coupled;
+      const double                gm, gbm;         // g·m, g·b_e m
+      Row                         along, along_bm; // g·g_b, (b_e m)·g_b
     };
 
     /** The sign of g·DT[δu] in -R. */
@@ -125,7 +223,7 @@ namespace Morula
     void
     add_tangent(const SplineValues<dim>                &splines,
                 const NominalTraction<dim>             &T,
-                const Tensor<1, dim>                   &gap,
+                const SecondDerivative<dim>            &second,
                 const typename Nitsche<dim>::Condition &condition,
                 const double                            sign,
                 LocalSystem<dim>                       &system)
@@ -133,37 +231,33 @@ namespace Morula
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const double           a_t    = condition.area;
-      std::array<double, n>  along{};
-      for (unsigned int b = 0; b < n; ++b)
-        for (unsigned int k = 0; k < dim; ++k)
-          along[b] += gap[k] * T.gradient[k][b];
-      const auto &N = splines.value;
+      const auto            &N      = splines.value;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int j = 0; j < dim; ++j)
             {
               double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
-              const auto   second = T.second_derivative(gap, along[a], i, a, j);
-              const double of_N =
+              const double  of_N =
                 a_t * (condition.penalty * condition.projection[i][j] * N[a] -
                        sign * T.derivative[j][i][a]);
               for (unsigned int b = 0; b < n; ++b)
-                row[b] +=
-                  of_N * N[b] - a_t * N[a] * T.derivative[i][j][b] -
-                  a_t * sign *
-                    (second.gi * T.gradient[i][b] +
-                     second.gj * T.gradient[j][b] + second.along * along[b]);
+                row[b] += of_N * N[b] - a_t * N[a] * T.derivative[i][j][b];
+              second.add(i, a, j, -a_t * sign, row);
             }
     }
   } // namespace
 
   template <int dim>
   Nitsche<dim>::Nitsche(const NitscheForm              form,
+                        const Material                &material,
+                        const PartOfLaw                part,
                         GroupedPoints<dim>             points,
                         std::vector<Condition>         conditions,
                         std::vector<ElasticState<dim>> current,
                         std::vector<ElasticState<dim>> previous)
     : form(form)
+    , material(material)
+    , part(part)
     , points(std::move(points))
     , conditions(std::move(conditions))
     , current(std::move(current))
@@ -192,17 +286,28 @@ namespace Morula
         if (trusted &&
             !system.admits(determinant(f), determinant(F_e), points.xi[p]))
           return;
-        const NeoHookean<dim>      material(F_e, condition.lame);
+        const ElasticPoint<dim>    state(F_e, condition.lame, material);
         const NominalTraction<dim> T(splines,
                                      invert(f),
-                                     material,
+                                     state,
+                                     part,
                                      condition.trust * states[p].W,
                                      condition);
         const Tensor<1, dim>       gap =
           condition.gap + condition.projection * field.value(splines);
         system.note_gap(gap.norm(), points.xi[p]);
         if (system.wanted == LocalSystem<dim>::tangent)
-          add_tangent(splines, T, gap, condition, sign_of(form), system);
+          {
+            const ThirdDerivatives third =
+              material.third_derivatives(state.strain(), part);
+            add_tangent(
+              splines,
+              T,
+              SecondDerivative<dim>(T, gap, third, material.coupled()),
+              condition,
+              sign_of(form),
+              system);
+          }
         else
           add_forces(splines, T, gap, condition, sign_of(form), system);
       }

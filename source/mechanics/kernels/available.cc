@@ -7,31 +7,31 @@ namespace Morula
 {
   template <int dim>
   VectorKernels<dim>
-  baseline_kernels();
+  baseline_kernels(const unsigned int law);
   template <int dim>
   VectorKernels<dim>
-  avx2_kernels();
+  avx2_kernels(const unsigned int law);
   template <int dim>
   VectorKernels<dim>
-  avx512_kernels();
+  avx512_kernels(const unsigned int law);
 
   template <int dim>
   std::vector<VectorKernels<dim>>
-  available_vector_kernels()
+  available_vector_kernels(const unsigned int law)
   {
     std::vector<VectorKernels<dim>> kernels;
 #ifdef MORULA_X86_KERNELS
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-      kernels.push_back(avx512_kernels<dim>());
+      kernels.push_back(avx512_kernels<dim>(law));
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-      kernels.push_back(avx2_kernels<dim>());
+      kernels.push_back(avx2_kernels<dim>(law));
 #endif
-    kernels.push_back(baseline_kernels<dim>());
+    kernels.push_back(baseline_kernels<dim>(law));
     return kernels;
   }
 
   template std::vector<VectorKernels<2>>
-  available_vector_kernels();
+  available_vector_kernels(const unsigned int);
   template std::vector<VectorKernels<3>>
-  available_vector_kernels();
+  available_vector_kernels(const unsigned int);
 } // namespace Morula

@@ -10,13 +10,13 @@ namespace Morula
 {
   template <int dim>
   VectorKernels<dim>
-  avx2_kernels()
+  avx2_kernels(const unsigned int law)
   {
-    return {"avx2", &avx2::residual<dim>, &avx2::tangent<dim>};
+    return avx2::kernels_of<dim>(OwnLaws(), law, "avx2");
   }
 
   template VectorKernels<2>
-  avx2_kernels();
+  avx2_kernels(const unsigned int);
   template VectorKernels<3>
-  avx2_kernels();
+  avx2_kernels(const unsigned int);
 } // namespace Morula

@@ -10,13 +10,13 @@ namespace Morula
 {
   template <int dim>
   VectorKernels<dim>
-  avx512_kernels()
+  avx512_kernels(const unsigned int law)
   {
-    return {"avx512", &avx512::residual<dim>, &avx512::tangent<dim>};
+    return avx512::kernels_of<dim>(OwnLaws(), law, "avx512");
   }
 
   template VectorKernels<2>
-  avx512_kernels();
+  avx512_kernels(const unsigned int);
   template VectorKernels<3>
-  avx512_kernels();
+  avx512_kernels(const unsigned int);
 } // namespace Morula

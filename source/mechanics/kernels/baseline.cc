@@ -10,13 +10,13 @@ namespace Morula
 {
   template <int dim>
   VectorKernels<dim>
-  baseline_kernels()
+  baseline_kernels(const unsigned int law)
   {
-    return {"baseline", &baseline::residual<dim>, &baseline::tangent<dim>};
+    return baseline::kernels_of<dim>(OwnLaws(), law, "baseline");
   }
 
   template VectorKernels<2>
-  baseline_kernels();
+  baseline_kernels(const unsigned int);
   template VectorKernels<3>
-  baseline_kernels();
+  baseline_kernels(const unsigned int);
 } // namespace Morula

@@ -3,7 +3,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/mechanics/neo_hookean.h>
 #include <morula/particles/detached_points.h>
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <functional>
 #include <memory>
 
+#include "common/materials.h"
 #include "effects/small_tissue.h"
 
 using namespace Morula;
@@ -255,9 +255,9 @@ namespace
     for (const bool grown : {false, true})
       for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
         {
-          const double          theta = at == GrowthAt::current ? 1.2 : 1.;
-          const NeoHookean<dim> state(F / theta, lame(3., 0.3));
-          Tensor<1, dim>        N;
+          const double theta = at == GrowthAt::current ? 1.2 : 1.;
+          const auto   state = neo_hookean_point<dim>(F / theta, lame(3., 0.3));
+          Tensor<1, dim> N;
           N[0] = 1.;
           // a_t n_t = det F F⁻ᵀ a⁰ N, and W / V_t = det F_g^(0, 1) / det F
           const Tensor<1, dim> expected =
@@ -314,8 +314,9 @@ namespace
           ShearedGrowth<dim>().growth({},
                                       0.,
                                       at == GrowthAt::current ? 1. : 0.);
-        const NeoHookean<dim> state(F * invert(F_g), lame(3., 0.3));
-        Tensor<1, dim>        N;
+        const auto state =
+          neo_hookean_point<dim>(F * invert(F_g), lame(3., 0.3));
+        Tensor<1, dim> N;
         N[0] = 1.;
         const Tensor<1, dim> expected =
           -area * determinant(F_g) *
@@ -335,9 +336,9 @@ namespace
     Tensor<2, dim> F = unit_tensor<dim>();
     F[0][0]          = 1.1;
     Tensor<1, dim> N;
-    N[0] = 1.;
-    const NeoHookean<dim> state(F, lame(3., 0.3));
-    const Tensor<1, dim>  all =
+    N[0]                       = 1.;
+    const auto           state = neo_hookean_point<dim>(F, lame(3., 0.3));
+    const Tensor<1, dim> all =
       -area * (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
     for (const double distance : {0., 16., 200.})
       {

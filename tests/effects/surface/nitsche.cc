@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/nitsche.h>
-#include <morula/mechanics/neo_hookean.h>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,8 @@
 #include <vector>
 
 #include "common/finite_differences.h"
+#include "common/materials.h"
+#include "common/own_law.h"
 
 using namespace Morula;
 
@@ -52,7 +53,9 @@ namespace
     Nitsche<dim>
     term(const LocalField<dim> &field,
          const double           scale,
-         const NitscheForm      form = NitscheForm::symmetric)
+         const NitscheForm      form     = NitscheForm::symmetric,
+         const Material        &material = neo_hookean(),
+         const PartOfLaw        part     = PartOfLaw::all)
     {
       std::mt19937 generator(99);
       for (unsigned int p = 0; p < 4; ++p)
@@ -63,7 +66,7 @@ namespace
             (scale * d -
              field.value(SplineValues<dim>(points.xi[p], points.h)));
         }
-      return {form, points, conditions, current, previous};
+      return {form, material, part, points, conditions, current, previous};
     }
   };
 
@@ -74,17 +77,22 @@ namespace
     std::mt19937 generator(1);
     Problem<dim> problem(generator);
     const auto   field = random_field<dim>(generator, 0.15);
-    for (const double gap : {0., 3.})
-      {
-        const auto symmetric = problem.term(field, gap);
-        EXPECT_TRUE(symmetric.is_conservative());
-        expect_derivatives(symmetric, field);
+    for (const std::string &name : all_materials().names())
+      for (const PartOfLaw part : {PartOfLaw::all, PartOfLaw::distortion})
+        for (const double gap : {0., 3.})
+          {
+            SCOPED_TRACE(name);
+            const Material &material = material_of_test(name);
+            const auto      symmetric =
+              problem.term(field, gap, NitscheForm::symmetric, material, part);
+            EXPECT_TRUE(symmetric.is_conservative());
+            expect_derivatives(symmetric, field);
 
-        const auto unsymmetric =
-          problem.term(field, gap, NitscheForm::unsymmetric);
-        EXPECT_FALSE(unsymmetric.is_conservative());
-        expect_derivatives(unsymmetric, field);
-      }
+            const auto unsymmetric = problem.term(
+              field, gap, NitscheForm::unsymmetric, material, part);
+            EXPECT_FALSE(unsymmetric.is_conservative());
+            expect_derivatives(unsymmetric, field);
+          }
   }
 
   /** Without gap, the traction's part of the unsymmetric tangent is skew: the
@@ -133,11 +141,11 @@ namespace
     Tensor<1, dim> expected, total;
     for (unsigned int p = 0; p < 4; ++p)
       {
-        const auto           &condition = problem.conditions[p];
-        const NeoHookean<dim> material(f * problem.current[p].A,
-                                       condition.lame);
+        const auto &condition = problem.conditions[p];
+        const auto  state =
+          neo_hookean_point(f * problem.current[p].A, condition.lame);
         expected -= condition.area * problem.current[p].W *
-                    (Tensor<2, dim>(material.kirchhoff_stress()) *
+                    (Tensor<2, dim>(state.kirchhoff_stress()) *
                      (condition.normal * invert(f)));
       }
     for (unsigned int i = 0; i < dim; ++i)

@@ -5,6 +5,7 @@
 #define morula_effects_surface_nitsche_h
 
 #include <morula/mechanics/material_points.h>
+#include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/term.h>
 
 #include <vector>
@@ -59,10 +60,14 @@ namespace Morula
     };
 
     /**
+     * Keeps a reference to the material.
+     * @param part     of the law that T counts
      * @param current  states with growth at t + dt
      * @param previous states with growth at t; empty if nothing grows
      */
     Nitsche(const NitscheForm              form,
+            const Material                &material,
+            const PartOfLaw                part,
             GroupedPoints<dim>             points,
             std::vector<Condition>         conditions,
             std::vector<ElasticState<dim>> current,
@@ -79,6 +84,8 @@ namespace Morula
 
   private:
     const NitscheForm                    form;
+    const Material                      &material;
+    const PartOfLaw                      part;
     const GroupedPoints<dim>             points;
     const std::vector<Condition>         conditions;
     const std::vector<ElasticState<dim>> current;

@@ -9,9 +9,6 @@ namespace Morula
   {
     constexpr unsigned int lanes = MORULA_LANES;
 
-    // Registers stay registers only where everything is inlined.
-#define MORULA_INLINE inline __attribute__((always_inline))
-
     /** A register of numbers, one for each of as many points. */
     using Lanes = double __attribute__((vector_size(sizeof(double) * lanes)));
 
@@ -57,37 +54,6 @@ namespace Morula
         return value[l];
       }
     };
-
-    /**
-     * ln x for positive normal numbers, to 2 units in the last place; libm's is
-     * for one number at a time and costs more than all the rest of a residual.
-     * x = 2^k m with √½ <= m < √2, and ln m = 2 artanh s, s = (m-1)/(m+1).
-     */
-    MORULA_INLINE Lanes
-    logarithm(const Lanes &x)
-    {
-      using Bits =
-        long long __attribute__((vector_size(sizeof(long long) * lanes)));
-      constexpr long long root_half = 0x3fe6a09e667f3bcdll; // √½
-      const Bits          bits      = reinterpret_cast<Bits>(x);
-      const Bits          exponent  = (bits - root_half) >> 52;
-      const Bits          scaled    = bits - (exponent << 52);
-      const Lanes         m         = reinterpret_cast<Lanes>(scaled);
-      const Lanes         k         = __builtin_convertvector(exponent, Lanes);
-      const Lanes         s = (m - 1.) / (m + 1.), s2 = s * s;
-      Lanes               series = all(1. / 23.);
-      for (int n = 21; n >= 3; n -= 2)
-        series = series * s2 + 1. / n;
-      return k * 0x1.62e42fefa38p-1 +
-             (2. * s + (2. * s * s2 * series + k * 0x1.ef35793c7673p-45));
-    }
-
-    /** The absolute values. */
-    MORULA_INLINE Lanes
-    magnitude(const Lanes &x)
-    {
-      return x < 0. ? -x : x;
-    }
 
     /** The square roots. */
     MORULA_INLINE Lanes

@@ -26,64 +26,88 @@ namespace Morula
     };
 
     /** By direction, for each spline: what the updates of one point take. */
-    template <int dim>
+    template <int dimension>
     struct PointRows
     {
+      static constexpr int          dim   = dimension;
       static constexpr unsigned int width = Sizes<dim>::width;
       using Rows                          = double[dim][width];
 
       alignas(64) Rows g;
       Rows m;
-      Rows g_c1, g_c2, g_both; // times c1, c2 and c1 + c2
+      Rows g_A, g_c, g_both; // times A, c = α - γ and A + c
 
       /** Fills the rows that are multiples of g. */
       MORULA_INLINE void
-      scale(const double c1, const double c2)
+      scale(const double A, const double c)
       {
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < width; ++a)
             {
-              g_c1[i][a]   = c1 * g[i][a];
-              g_c2[i][a]   = c2 * g[i][a];
-              g_both[i][a] = (c1 + c2) * g[i][a];
+              g_A[i][a]    = A * g[i][a];
+              g_c[i][a]    = c * g[i][a];
+              g_both[i][a] = (A + c) * g[i][a];
             }
       }
     };
 
-    /** A factor of an update: rows of PointRows. */
+    /** The same of a law with B and C. */
     template <int dim>
+    struct CoupledPointRows : public PointRows<dim>
+    {
+      typename PointRows<dim>::Rows b_g;   // b_e g
+      typename PointRows<dim>::Rows b_g_C; // B g + C b_e g
+
+      /** Fills the rows that are multiples of g and b_e g: B b_e g goes with A
+       *  g. */
+      MORULA_INLINE void
+      scale(const double A, const double c, const double B, const double C)
+      {
+        PointRows<dim>::scale(A, c);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int a = 0; a < PointRows<dim>::width; ++a)
+            {
+              this->g_A[i][a] += B * b_g[i][a];
+              this->g_both[i][a] += B * b_g[i][a];
+              b_g_C[i][a] = B * this->g[i][a] + C * b_g[i][a];
+            }
+      }
+    };
+
+    /** A factor of an update: rows of a PointRows. */
+    template <typename Point>
     struct Factor
     {
-      typename PointRows<dim>::Rows PointRows<dim>::*rows;
-      unsigned int                                   direction;
+      typename Point::Rows Point::*rows;
+      unsigned int                 direction;
 
       /** This factor's row of a point. */
       MORULA_INLINE const double *
-      of(const PointRows<dim> &point) const
+      of(const Point &point) const
       {
         return (point.*rows)[direction];
       }
     };
 
     /** Adds the sum over points and products of left[a] right[c]. */
-    template <int dim>
+    template <typename Point>
     struct Update
     {
-      Factor<dim> left, right;
+      Factor<Point> left, right;
     };
 
     template <int dim>
     using Block = double[Sizes<dim>::n_splines][Sizes<dim>::width];
 
     /** Adds the updates to R rows and C lanes-wide columns of a block. */
-    template <unsigned int R, unsigned int C, int dim, unsigned int K>
+    template <unsigned int R, unsigned int C, typename Point, unsigned int K>
     MORULA_INLINE void
-    update_tile(const PointRows<dim> *points,
-                const unsigned int    n,
-                const Update<dim> (&updates)[K],
+    update_tile(const Point       *points,
+                const unsigned int n,
+                const Update<Point> (&updates)[K],
                 const unsigned int row,
                 const unsigned int column,
-                Block<dim>        &block)
+                Block<Point::dim> &block)
     {
       Lanes sums[R][C];
       for (unsigned int r = 0; r < R; ++r)
@@ -113,17 +137,17 @@ namespace Morula
     }
 
     /** A row of tiles, from a column on. */
-    template <unsigned int R, int dim, unsigned int K>
+    template <unsigned int R, typename Point, unsigned int K>
     MORULA_INLINE void
-    update_rows(const PointRows<dim> *points,
-                const unsigned int    n,
-                const Update<dim> (&updates)[K],
+    update_rows(const Point       *points,
+                const unsigned int n,
+                const Update<Point> (&updates)[K],
                 const unsigned int row,
                 unsigned int       column,
-                Block<dim>        &block)
+                Block<Point::dim> &block)
     {
-      constexpr unsigned int width        = Sizes<dim>::width;
-      constexpr unsigned int tile_columns = Sizes<dim>::tile_columns;
+      constexpr unsigned int width        = Sizes<Point::dim>::width;
+      constexpr unsigned int tile_columns = Sizes<Point::dim>::tile_columns;
       constexpr unsigned int step         = tile_columns * lanes;
       for (; column + step <= width; column += step)
         update_tile<R, tile_columns>(points, n, updates, row, column, block);
@@ -143,16 +167,16 @@ namespace Morula
     }
 
     /** @param symmetric only the entries from the diagonal on are needed */
-    template <int dim, unsigned int K>
+    template <typename Point, unsigned int K>
     MORULA_INLINE void
-    update(const PointRows<dim> *points,
-           const unsigned int    n,
-           const Update<dim> (&updates)[K],
-           const bool  symmetric,
-           Block<dim> &block)
+    update(const Point       *points,
+           const unsigned int n,
+           const Update<Point> (&updates)[K],
+           const bool         symmetric,
+           Block<Point::dim> &block)
     {
-      constexpr unsigned int n_splines = Sizes<dim>::n_splines;
-      constexpr unsigned int tile_rows = Sizes<dim>::tile_rows;
+      constexpr unsigned int n_splines = Sizes<Point::dim>::n_splines;
+      constexpr unsigned int tile_rows = Sizes<Point::dim>::tile_rows;
       const auto first_column          = [symmetric](const unsigned int row) {
         return symmetric ? row / lanes * lanes : 0;
       };
@@ -178,22 +202,51 @@ namespace Morula
       MORULA_INLINE void
       update(const PointRows<dim> *points, const unsigned int n)
       {
-        using R = PointRows<dim>;
-        Update<dim> gg[dim];
-        for (unsigned int i = 0; i < dim; ++i)
-          gg[i] = {{&R::m, i}, {&R::m, i}};
-        MORULA_KERNELS::update<dim>(points, n, gg, true, geometric);
+        using P = PointRows<dim>;
+        update_geometric(points, n);
         for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
-            const Update<dim> ii[] = {{{&R::g_both, i}, {&R::g, i}}};
-            MORULA_KERNELS::update<dim>(points, n, ii, true, diagonal[i]);
+            const Update<P> ii[] = {{{&P::g_both, i}, {&P::g, i}}};
+            MORULA_KERNELS::update(points, n, ii, true, diagonal[i]);
             for (unsigned int j = i + 1; j < dim; ++j, ++k)
               {
-                const Update<dim> ij[] = {{{&R::g_c1, i}, {&R::g, j}},
-                                          {{&R::g_c2, j}, {&R::g, i}}};
-                MORULA_KERNELS::update<dim>(points, n, ij, false, other[k]);
+                const Update<P> ij[] = {{{&P::g_A, i}, {&P::g, j}},
+                                        {{&P::g_c, j}, {&P::g, i}}};
+                MORULA_KERNELS::update(points, n, ij, false, other[k]);
               }
           }
+      }
+
+      /** The same of a law with B and C. */
+      MORULA_INLINE void
+      update(const CoupledPointRows<dim> *points, const unsigned int n)
+      {
+        using P = CoupledPointRows<dim>;
+        update_geometric(points, n);
+        for (unsigned int i = 0, k = 0; i < dim; ++i)
+          {
+            const Update<P> ii[] = {{{&P::g_both, i}, {&P::g, i}},
+                                    {{&P::b_g_C, i}, {&P::b_g, i}}};
+            MORULA_KERNELS::update(points, n, ii, true, diagonal[i]);
+            for (unsigned int j = i + 1; j < dim; ++j, ++k)
+              {
+                const Update<P> ij[] = {{{&P::g_A, i}, {&P::g, j}},
+                                        {{&P::b_g_C, i}, {&P::b_g, j}},
+                                        {{&P::g_c, j}, {&P::g, i}}};
+                MORULA_KERNELS::update(points, n, ij, false, other[k]);
+              }
+          }
+      }
+
+      /** Adds the products m_a · m_b. */
+      template <typename Point>
+      MORULA_INLINE void
+      update_geometric(const Point *points, const unsigned int n)
+      {
+        Update<Point> mm[dim];
+        for (unsigned int i = 0; i < dim; ++i)
+          mm[i] = {{&Point::m, i}, {&Point::m, i}};
+        MORULA_KERNELS::update(points, n, mm, true, geometric);
       }
 
       /** Adds all blocks. */

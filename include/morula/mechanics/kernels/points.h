@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// See kernels.h. Points of a grid cell: their splines and deformations.
+
+namespace Morula
+{
+  namespace MORULA_KERNELS
+  {
+    /** Products of one-dimensional splines in all directions but x. */
+    template <int dim>
+    constexpr unsigned int n_yz = dim == 2 ? 3 : 9;
+
+    /** As many points as there are lanes, one in each. */
+    template <int dim>
+    struct Points
+    {
+      Lanes N[dim][3], dN[dim][3]; // one-dimensional splines, by direction
+      Lanes A[dim][dim], W, lambda, mu;
+      Lanes F_e[dim][dim], f_inverse[dim][dim], det_f, J, log_J;
+    };
+
+    /** The lanes behind the last point repeat it with W = 0. */
+    template <int dim>
+    MORULA_INLINE void
+    load(const KernelInput &input,
+         const unsigned int first,
+         Points<dim>       &points)
+    {
+      constexpr unsigned int n_state = dim * dim + 1;
+      Numbers                xi[dim], A[dim][dim], W, lambda, mu;
+      for (unsigned int l = 0; l < lanes; ++l)
+        {
+          const bool          exists = first + l < input.n;
+          const unsigned int  p      = exists ? first + l : input.n - 1;
+          const double *const state  = input.states + n_state * p;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              xi[d][l] = input.xi[dim * p + d];
+              for (unsigned int e = 0; e < dim; ++e)
+                A[d][e][l] = state[dim * d + e];
+            }
+          W[l]      = exists ? state[dim * dim] : 0.;
+          lambda[l] = input.lame[input.lame_stride * p];
+          mu[l]     = input.lame[input.lame_stride * p + 1];
+        }
+      points.W      = W;
+      points.lambda = lambda;
+      points.mu     = mu;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          points.A[d][e] = A[d][e];
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Lanes s   = xi[d];
+          points.N[d][0]  = 0.5 * (1. - s) * (1. - s);
+          points.N[d][1]  = 0.5 + s - s * s;
+          points.N[d][2]  = 0.5 * s * s;
+          points.dN[d][0] = (s - 1.) / input.h;
+          points.dN[d][1] = (1. - 2. * s) / input.h;
+          points.dN[d][2] = s / input.h;
+        }
+    }
+
+    /** Row i of I + grad u, direction by direction. */
+    template <int dim>
+    MORULA_INLINE void
+    step_deformation(const Points<dim> &points,
+                     const double      *coefficients,
+                     const unsigned int i,
+                     Lanes (&f)[dim])
+    {
+      for (unsigned int j = 0; j < dim; ++j)
+        f[j] = all(i == j ? 1. : 0.);
+      for (unsigned int z = 0; z < n_yz<dim> / 3; ++z)
+        {
+          Lanes x_part = {}, y_part = {}, value = {};
+          for (unsigned int y = 0; y < 3; ++y)
+            {
+              const double *const c =
+                coefficients + 3 * (n_yz<dim> * i + 3 * z + y);
+              const auto &N = points.N[0], &dN = points.dN[0];
+              const Lanes v = N[0] * c[0] + N[1] * c[1] + N[2] * c[2];
+              x_part +=
+                points.N[1][y] * (dN[0] * c[0] + dN[1] * c[1] + dN[2] * c[2]);
+              y_part += points.dN[1][y] * v;
+              value += points.N[1][y] * v;
+            }
+          if constexpr (dim == 2)
+            {
+              f[0] += x_part;
+              f[1] += y_part;
+            }
+          else
+            {
+              f[0] += points.N[2][z] * x_part;
+              f[1] += points.N[2][z] * y_part;
+              f[2] += points.dN[2][z] * value;
+            }
+        }
+    }
+
+    /** det f and f⁻¹ of the points from the splines' coefficients. */
+    template <int dim>
+    MORULA_INLINE void
+    deform(const double *coefficients, Points<dim> &points)
+    {
+      Lanes f[dim][dim];
+      for (unsigned int i = 0; i < dim; ++i)
+        step_deformation(points, coefficients, i, f[i]);
+      points.det_f = invert(f, points.f_inverse);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            points.F_e[i][j] = f[i][0] * points.A[0][j];
+            for (unsigned int k = 1; k < dim; ++k)
+              points.F_e[i][j] += f[i][k] * points.A[k][j];
+          }
+      Lanes unused[dim][dim];
+      points.J     = invert(points.F_e, unused);
+      points.log_J = logarithm(points.J);
+    }
+
+    /** False if a point is inverted. */
+    template <int dim>
+    MORULA_INLINE bool
+    admit(const Points<dim> &points,
+          const unsigned int first,
+          KernelResult      &result)
+    {
+      const Numbers det_f = points.det_f, J_e = points.J;
+      for (unsigned int l = 0; l < lanes; ++l)
+        {
+          const double J =
+            det_f[l] > 0. || J_e[l] < det_f[l] ? J_e[l] : det_f[l];
+          if (!(J >= result.smallest_J))
+            {
+              result.smallest_J = J;
+              result.at         = first + l;
+            }
+        }
+      return result.smallest_J > 0.;
+    }
+
+    /**
+     * The gradients of the splines, times a row M of a matrix from the left,
+     * are Nx[x] first[yz] + dNx[x] second[yz]: sum factorisation.
+     */
+    template <int dim>
+    MORULA_INLINE void
+    factors(const Points<dim> &points,
+            const Lanes (&M)[dim],
+            Lanes (&first)[n_yz<dim>],
+            Lanes (&second)[n_yz<dim>])
+    {
+      for (unsigned int yz = 0; yz < n_yz<dim>; ++yz)
+        {
+          const Lanes &N = points.N[1][yz % 3], &dN = points.dN[1][yz % 3];
+          if constexpr (dim == 2)
+            {
+              first[yz]  = M[1] * dN;
+              second[yz] = M[0] * N;
+            }
+          else
+            {
+              const Lanes &Nz = points.N[2][yz / 3];
+              first[yz]  = M[1] * (dN * Nz) + M[2] * (N * points.dN[2][yz / 3]);
+              second[yz] = M[0] * (N * Nz);
+            }
+        }
+    }
+
+    /** Column j of M, by @p scale. */
+    template <int dim>
+    MORULA_INLINE void
+    column(const Lanes (&M)[dim][dim],
+           const unsigned int j,
+           const Lanes       &scale,
+           Lanes (&result)[dim])
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        result[i] = scale * M[i][j];
+    }
+  } // namespace MORULA_KERNELS
+} // namespace Morula

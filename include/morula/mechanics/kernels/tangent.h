@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// See kernels.h. The tangent of a grid cell, by rank_updates.h.
+
+namespace Morula
+{
+  namespace MORULA_KERNELS
+  {
+    /** The rows of matrices M, times the gradients of the splines. */
+    template <int dim, unsigned int n_rows>
+    struct Rows
+    {
+      Numbers N[3], dN[3], first[n_rows][n_yz<dim>], second[n_rows][n_yz<dim>];
+
+      MORULA_INLINE
+      Rows(const Points<dim> &points, const Lanes (&M)[n_rows][dim])
+      {
+        for (unsigned int x = 0; x < 3; ++x)
+          {
+            N[x]  = points.N[0][x];
+            dN[x] = points.dN[0][x];
+          }
+        for (unsigned int i = 0; i < n_rows; ++i)
+          {
+            Lanes one[n_yz<dim>], other[n_yz<dim>];
+            factors(points, M[i], one, other);
+            for (unsigned int yz = 0; yz < n_yz<dim>; ++yz)
+              {
+                first[i][yz]  = one[yz];
+                second[i][yz] = other[yz];
+              }
+          }
+      }
+
+      /** Writes row i of the point in a lane, and a zero behind it. */
+      MORULA_INLINE void
+      write(const unsigned int i, const unsigned int lane, double *row) const
+      {
+        const Quad Nx  = {N[0][lane], N[1][lane], N[2][lane], 0.};
+        const Quad dNx = {dN[0][lane], dN[1][lane], dN[2][lane], 0.};
+        for (unsigned int yz = 0; yz < n_yz<dim>; ++yz)
+          // The zero is overwritten by the next three.
+          *reinterpret_cast<QuadInMemory *>(row + 3 * yz) =
+            first[i][yz][lane] * Nx + second[i][yz][lane] * dNx;
+      }
+    };
+
+    /** g = f⁻ᵀ ∇N, and m = √(W α) Aᵀ ∇N with m_a · m_b = W α g_a · b_e g_b, as
+     *  the first and the next rows of matrices. */
+    template <int dim, unsigned int n_rows>
+    MORULA_INLINE void
+    gradient_matrices(const Points<dim> &points,
+                      const Lanes       &alpha,
+                      Lanes (&M)[n_rows][dim])
+    {
+      const Lanes root = square_root(points.W * alpha);
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          column(points.f_inverse, i, all(1.), M[i]);
+          column(points.A, i, root, M[dim + i]);
+        }
+    }
+
+    /** The rows of the rank updates of these points. */
+    template <int dim>
+    MORULA_INLINE void
+    make_rows(const Points<dim>     &points,
+              const Response<Lanes> &r,
+              const Lanes           &A,
+              const Lanes           &gamma,
+              const unsigned int     n,
+              PointRows<dim>        *rows)
+    {
+      Lanes M[2 * dim][dim];
+      gradient_matrices(points, r.alpha, M);
+      const Rows<dim, 2 * dim> all_rows(points, M);
+      for (unsigned int l = 0; l < n; ++l)
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            all_rows.write(i, l, rows[l].g[i]);
+            all_rows.write(dim + i, l, rows[l].m[i]);
+          }
+      const Numbers W_A = points.W * A, W_c = points.W * (r.alpha - gamma);
+      for (unsigned int l = 0; l < n; ++l)
+        rows[l].scale(W_A[l], W_c[l]);
+    }
+
+    /** The same of a law with B and C: also b_e g = F_e Aᵀ ∇N. */
+    template <int dim>
+    MORULA_INLINE void
+    make_rows(const Points<dim>            &points,
+              const CoupledResponse<Lanes> &r,
+              const Lanes                  &A,
+              const Lanes                  &gamma,
+              const unsigned int            n,
+              CoupledPointRows<dim>        *rows)
+    {
+      Lanes M[3 * dim][dim];
+      gradient_matrices(points, r.alpha, M);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            M[2 * dim + i][k] = points.F_e[i][0] * points.A[k][0];
+            for (unsigned int l = 1; l < dim; ++l)
+              M[2 * dim + i][k] += points.F_e[i][l] * points.A[k][l];
+          }
+      const Rows<dim, 3 * dim> all_rows(points, M);
+      for (unsigned int l = 0; l < n; ++l)
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            all_rows.write(i, l, rows[l].g[i]);
+            all_rows.write(dim + i, l, rows[l].m[i]);
+            all_rows.write(2 * dim + i, l, rows[l].b_g[i]);
+          }
+      const Numbers W_A = points.W * A, W_c = points.W * (r.alpha - gamma),
+                    W_B = points.W * r.B, W_C = points.W * r.C;
+      for (unsigned int l = 0; l < n; ++l)
+        rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
+    }
+
+    // What a law's tangent needs of a point.
+    template <int dim, bool coupled>
+    struct RowsOfLaw
+    {
+      using Type = PointRows<dim>;
+    };
+    template <int dim>
+    struct RowsOfLaw<dim, true>
+    {
+      using Type = CoupledPointRows<dim>;
+    };
+
+    /** Tangent of a grid cell: doc/theory.md (2.5); projected, without the
+     *  first term of (2.7). See VectorKernels. */
+    template <int dim, typename Law>
+    inline KernelResult
+    tangent_of(const KernelInput &input, const double *theta, double *matrix)
+    {
+      KernelResult result;
+      result.smallest_J = __builtin_inf();
+      Blocks<dim> blocks;
+      // Also what stands behind the last entry.
+      typename RowsOfLaw<dim, is_coupled<Law>>::Type rows[lanes] = {};
+      const Law &law = *static_cast<const Law *>(input.law);
+      for (unsigned int p = 0; p < input.n; p += lanes)
+        {
+          Points<dim> points;
+          load(input, p, points);
+          deform(input.coefficients, points);
+          if (!admit(points, p, result))
+            return result;
+          const auto         r = law.response(strain(points, theta));
+          const unsigned int n = input.n - p < lanes ? input.n - p : lanes;
+          make_rows(points,
+                    r,
+                    theta != nullptr ? r.A : r.total_A(),
+                    r.total_gamma(),
+                    n,
+                    rows);
+          blocks.update(rows, n);
+        }
+      blocks.add_to(matrix);
+      return result;
+    }
+  } // namespace MORULA_KERNELS
+} // namespace Morula

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/materials/list.h>
+#include <morula/mechanics/materials/material_of.h>
+#include <morula/mechanics/materials/materials.h>
+
+#include <stdexcept>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Law number @p i of the library's list, with its kernels. */
+    template <typename Law>
+    void
+    add_own(const unsigned int i, Materials &materials)
+    {
+      const auto material =
+        std::make_shared<const MaterialOf<Law>>(Law(),
+                                                available_vector_kernels<2>(i),
+                                                available_vector_kernels<3>(i));
+      materials.add(Law::name, material);
+    }
+
+    template <typename... Law>
+    void
+    add_all(const Laws<Law...> &, Materials &materials)
+    {
+      unsigned int i = 0;
+      (add_own<Law>(i++, materials), ...);
+    }
+  } // namespace
+
+
+  Materials::Materials()
+  {
+    add_all(OwnLaws(), *this);
+  }
+
+
+  void
+  Materials::add(const std::string                     &name,
+                 const std::shared_ptr<const Material> &material)
+  {
+    if (find(name) != nullptr)
+      throw std::invalid_argument("There is a material '" + name +
+                                  "' already.");
+    list.emplace_back(name, material);
+  }
+
+
+  std::shared_ptr<const Material>
+  Materials::find(const std::string &name) const
+  {
+    for (const auto &[other, material] : list)
+      if (other == name)
+        return material;
+    return nullptr;
+  }
+
+
+  std::vector<std::string>
+  Materials::names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : list)
+      names.push_back(entry.first);
+    return names;
+  }
+} // namespace Morula

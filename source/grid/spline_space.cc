@@ -24,19 +24,6 @@ namespace Morula
         index[d] += BSpline<dim>::offset(a, d);
       return index;
     }
-
-    /** Expands spline numbers to degrees of freedom. */
-    IndexSet
-    times_dim(const IndexSet &splines, const unsigned int dim)
-    {
-      IndexSet dofs(splines.size() * dim);
-      for (auto range = splines.begin_intervals();
-           range != splines.end_intervals();
-           ++range)
-        dofs.add_range(*range->begin() * dim, (range->last() + 1) * dim);
-      dofs.compress();
-      return dofs;
-    }
   } // namespace
 
   template <int dim>
@@ -138,10 +125,9 @@ namespace Morula
         field.n_unknowns();
     std::partial_sum(next.begin(), next.end(), next.begin());
 
-    n_splines = next[n_ranks];
-    owned_    = IndexSet(n_splines);
+    n_unknowns_ = next[n_ranks];
+    owned_      = IndexSet(n_unknowns_);
     owned_.add_range(next[rank], next[rank + 1]);
-    owned_dofs_ = times_dim(owned_, dim);
 
     pieces_of_unknowns_.resize(owned_.n_elements());
     const auto set_piece = [&](const unsigned int number,
@@ -285,11 +271,10 @@ namespace Morula
                   grid_cell.unknowns.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    relevant_ = IndexSet(n_splines);
+    relevant_ = IndexSet(n_unknowns_);
     relevant_.add_indices(used.begin(), used.end());
     relevant_.add_indices(owned_);
     relevant_.compress();
-    relevant_dofs_ = times_dim(relevant_, dim);
     for (GridCell &grid_cell : grid_cells_)
       for (unsigned int &unknown : grid_cell.unknowns)
         unknown = relevant_.index_within_set(unknown);
@@ -298,35 +283,28 @@ namespace Morula
   template <int dim>
   std::vector<double>
   SplineSpace<dim>::affine_coefficients(const unsigned int    piece,
-                                        const Tensor<1, dim> &a,
-                                        const Tensor<2, dim> &A) const
+                                        const double          a,
+                                        const Tensor<1, dim> &gradient) const
   {
-    std::vector<double> coefficients(owned_dofs_.n_elements(), 0.);
-    const auto          set = [&](const unsigned int    unknown,
-                         const Tensor<1, dim> &value) {
-      if (!owned_.is_element(unknown))
-        return;
-      const unsigned int local = owned_.index_within_set(unknown);
-      for (unsigned int d = 0; d < dim; ++d)
-        coefficients[local * dim + d] = value[d];
+    std::vector<double> coefficients(owned_.n_elements(), 0.);
+    const auto set = [&](const unsigned int unknown, const double value) {
+      if (owned_.is_element(unknown))
+        coefficients[owned_.index_within_set(unknown)] = value;
+    };
+    const auto value_at = [&](const Point<dim> &x) {
+      return a + gradient * (x - Point<dim>());
     };
     for (unsigned int c = 0; c < numbers.size(); ++c)
       if (numbers[c] != none && copies.list()[c].piece == piece)
         set(numbers[c],
-            a + A * (box_.center(box_.index(copies.list()[c].spline)) -
-                     Point<dim>()));
+            value_at(box_.center(box_.index(copies.list()[c].spline))));
     if (const auto found = small_pieces.find(piece);
         found != small_pieces.end())
       {
         const PolynomialField &field = found->second;
-        set(field.first_unknown, a + A * (field.center - Point<dim>()));
+        set(field.first_unknown, value_at(field.center));
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            Tensor<1, dim> slope;
-            for (unsigned int i = 0; i < dim; ++i)
-              slope[i] = A[i][d] * box_.spacing();
-            set(field.first_unknown + 1 + d, slope);
-          }
+          set(field.first_unknown + 1 + d, gradient[d] * box_.spacing());
       }
     return coefficients;
   }
@@ -360,24 +338,10 @@ namespace Morula
   }
 
   template <int dim>
-  const IndexSet &
-  SplineSpace<dim>::owned_dofs() const
-  {
-    return owned_dofs_;
-  }
-
-  template <int dim>
-  const IndexSet &
-  SplineSpace<dim>::relevant_dofs() const
-  {
-    return relevant_dofs_;
-  }
-
-  template <int dim>
   unsigned int
   SplineSpace<dim>::n_unknowns() const
   {
-    return n_splines * dim;
+    return n_unknowns_;
   }
 
   template <int dim>

@@ -20,24 +20,24 @@ namespace Morula
     }
   } // namespace
 
-  template <int dim>
-  Condensation<dim>::Condensation(
+  template <int dim, int n_components>
+  Condensation<dim, n_components>::Condensation(
     const typename SplineSpace<dim>::GridCell &grid_cell)
     : grid_cell(grid_cell)
   {}
 
-  template <int dim>
+  template <int dim, int n_components>
   unsigned int
-  Condensation<dim>::m() const
+  Condensation<dim, n_components>::m() const
   {
     return grid_cell.unknowns.size();
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   template <typename Visit>
   void
-  Condensation<dim>::for_each_weight(const unsigned int a,
-                                     const Visit       &visit) const
+  Condensation<dim, n_components>::for_each_weight(const unsigned int a,
+                                                   const Visit &visit) const
   {
     if (grid_cell.weights.empty())
       visit(a, 1.);
@@ -47,45 +47,45 @@ namespace Morula
           visit(s, grid_cell.weights[a * m() + s]);
   }
 
-  template <int dim>
-  LocalField<dim>
-  Condensation<dim>::expand(const std::vector<double> &coefficients) const
+  template <int dim, int n_components>
+  LocalField<dim, n_components>
+  Condensation<dim, n_components>::expand(
+    const std::vector<double> &coefficients) const
   {
-    LocalField<dim> field = {};
+    LocalField<dim, n_components> field = {};
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
-        for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int i = 0; i < n_components; ++i)
           field.coefficient[i][a] += weight * coefficients[i * m() + s];
       });
     return field;
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   std::vector<double>
-  Condensation<dim>::condense(
-    const std::array<double, LocalSystem<dim>::n_dofs> &forces,
-    const bool                                          magnitudes) const
+  Condensation<dim, n_components>::condense(
+    const std::array<double, n_dofs> &forces, const bool magnitudes) const
   {
-    std::vector<double> result(dim * m(), 0.);
+    std::vector<double> result(n_components * m(), 0.);
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
-        for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int i = 0; i < n_components; ++i)
           result[i * m() + s] += (magnitudes ? std::abs(weight) : weight) *
                                  forces[i * BSpline<dim>::n + a];
       });
     return result;
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  Condensation<dim>::times_rows(const std::vector<double> &X,
-                                const unsigned int         n_columns,
-                                std::vector<double>       &result) const
+  Condensation<dim, n_components>::times_rows(const std::vector<double> &X,
+                                              const unsigned int   n_columns,
+                                              std::vector<double> &result) const
   {
-    result.assign(dim * m() * n_columns, 0.);
+    result.assign(n_components * m() * n_columns, 0.);
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
-        for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int i = 0; i < n_components; ++i)
           {
             const double *const source =
               &X[(i * BSpline<dim>::n + a) * n_columns];
@@ -96,22 +96,28 @@ namespace Morula
       });
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   const std::vector<double> &
-  Condensation<dim>::condense(const std::vector<double> &matrix,
-                              Work                      &work) const
+  Condensation<dim, n_components>::condense(const std::vector<double> &matrix,
+                                            Work &work) const
   {
     if (grid_cell.weights.empty())
       return matrix;
-    constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
     // (Cᵀ (Cᵀ K)ᵀ)ᵀ: both products run over contiguous rows.
     times_rows(matrix, n_dofs, work.product);
-    transpose(work.product, dim * m(), n_dofs, work.transposed);
-    times_rows(work.transposed, dim * m(), work.product);
-    transpose(work.product, dim * m(), dim * m(), work.transposed);
+    transpose(work.product, n_components * m(), n_dofs, work.transposed);
+    times_rows(work.transposed, n_components * m(), work.product);
+    transpose(work.product,
+              n_components * m(),
+              n_components * m(),
+              work.transposed);
     return work.transposed;
   }
 
-  template class Condensation<2>;
-  template class Condensation<3>;
+  template class Condensation<2, 1>;
+  template class Condensation<2, 2>;
+  template class Condensation<2, 3>;
+  template class Condensation<3, 1>;
+  template class Condensation<3, 2>;
+  template class Condensation<3, 3>;
 } // namespace Morula

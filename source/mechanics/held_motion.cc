@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/held_motion.h>
 
 #include <deal.II/base/mpi.h>
@@ -173,8 +174,8 @@ namespace Morula
           break;
       }
 
-    std::optional<Equilibrium::Vector> start;
-    std::vector<double> coefficients(space.owned_dofs().n_elements(), 0.);
+    bool                starts_moving = false;
+    std::vector<double> coefficients(dim * space.owned().n_elements(), 0.);
     for (unsigned int p = 0; p < fits.size(); ++p)
       {
         const RigidFit<dim> &fit = fits[p];
@@ -183,24 +184,21 @@ namespace Morula
           continue;
         const Tensor<1, dim> center = fit.center - Point<dim>();
         const auto           part =
-          space.affine_coefficients(p,
-                                    fit.shift + center - fit.Q * center,
-                                    fit.Q - Tensor<2, dim>(
-                                              unit_symmetric_tensor<dim>()));
+          affine_displacement(space,
+                              p,
+                              fit.shift + center - fit.Q * center,
+                              fit.Q -
+                                Tensor<2, dim>(unit_symmetric_tensor<dim>()));
         std::transform(part.begin(),
                        part.end(),
                        coefficients.begin(),
                        coefficients.begin(),
                        std::plus<>());
-        if (!start)
-          start.emplace(space.owned_dofs(), comm);
+        starts_moving = true;
       }
-    if (start)
-      {
-        std::copy(coefficients.begin(), coefficients.end(), start->begin());
-        start->compress(VectorOperation::insert);
-      }
-    return start;
+    if (!starts_moving)
+      return {};
+    return FieldUnknowns<dim>(space, comm).vector(coefficients);
   }
 
 #define INSTANTIATE(dim)                                   \

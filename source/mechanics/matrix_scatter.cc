@@ -13,10 +13,10 @@
 
 namespace Morula
 {
-  template <int dim>
-  MatrixScatter<dim>::MatrixScatter(const SplineSpace<dim> &space,
-                                    Matrix                 &matrix,
-                                    const MPI_Comm          comm)
+  template <int dim, int n_components>
+  MatrixScatter<dim, n_components>::MatrixScatter(const SplineSpace<dim> &space,
+                                                  Matrix        &matrix,
+                                                  const MPI_Comm comm)
     : space(space)
     , matrix(matrix)
     , comm(comm)
@@ -29,20 +29,20 @@ namespace Morula
     make_positions(columns, owners);
   }
 
-  template <int dim>
-  typename MatrixScatter<dim>::Couplings
-  MatrixScatter<dim>::couplings() const
+  template <int dim, int n_components>
+  typename MatrixScatter<dim, n_components>::Couplings
+  MatrixScatter<dim, n_components>::couplings() const
   {
     Couplings columns(space.relevant().n_elements());
-    Couplings cells_of(columns.size());
+    Couplings grid_cells_of(columns.size());
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       for (const unsigned int unknown : space.grid_cells()[c].unknowns)
-        cells_of[unknown].push_back(c);
+        grid_cells_of[unknown].push_back(c);
     std::vector<unsigned int> last(columns.size(),
                                    numbers::invalid_unsigned_int);
     for (unsigned int row = 0; row < columns.size(); ++row)
       {
-        for (const unsigned int c : cells_of[row])
+        for (const unsigned int c : grid_cells_of[row])
           for (const unsigned int column : space.grid_cells()[c].unknowns)
             if (last[column] != row)
               {
@@ -54,9 +54,9 @@ namespace Morula
     return columns;
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   std::vector<unsigned int>
-  MatrixScatter<dim>::owners_of_relevant() const
+  MatrixScatter<dim, n_components>::owners_of_relevant() const
   {
     const IndexSet &relevant = space.relevant();
     IndexSet        foreign  = relevant;
@@ -70,10 +70,10 @@ namespace Morula
     return all;
   }
 
-  template <int dim>
-  typename MatrixScatter<dim>::Messages
-  MatrixScatter<dim>::announce(const Couplings                 &columns,
-                               const std::vector<unsigned int> &owners)
+  template <int dim, int n_components>
+  typename MatrixScatter<dim, n_components>::Messages
+  MatrixScatter<dim, n_components>::announce(
+    const Couplings &columns, const std::vector<unsigned int> &owners)
   {
     const IndexSet &relevant = space.relevant();
     Messages        messages;
@@ -88,15 +88,16 @@ namespace Morula
         for (const unsigned int column : columns[s])
           message.push_back(relevant.nth_index_in_set(column));
         auto &values = sent[owners[s]];
-        values.resize(values.size() + dim * dim * columns[s].size());
+        values.resize(values.size() +
+                      n_components * n_components * columns[s].size());
       }
     return Utilities::MPI::some_to_some(comm, messages);
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  MatrixScatter<dim>::make_pattern(const Couplings &columns,
-                                   const Messages  &announced)
+  MatrixScatter<dim, n_components>::make_pattern(const Couplings &columns,
+                                                 const Messages  &announced)
   {
     const IndexSet &relevant = space.relevant(), &owned = space.owned();
     Unknowns        unknowns(owned.n_elements());
@@ -128,23 +129,25 @@ namespace Morula
     matrix.reinit(Epetra_CrsMatrix(Copy, graph(unknowns, others)), false);
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   Epetra_CrsGraph
-  MatrixScatter<dim>::graph(
+  MatrixScatter<dim, n_components>::graph(
     const Unknowns                             &unknowns,
     const std::vector<types::global_dof_index> &others) const
   {
     const IndexSet  &owned = space.owned();
-    const Epetra_Map rows  = space.owned_dofs().make_trilinos_map(comm);
+    const Epetra_Map rows  = FieldUnknowns<dim, n_components>(space, comm)
+                              .owned()
+                              .make_trilinos_map(comm);
 
     std::vector<int> columns(rows.MyGlobalElements(),
                              rows.MyGlobalElements() + rows.NumMyElements());
     for (const auto unknown : others)
-      for (unsigned int i = 0; i < dim; ++i)
-        columns.push_back(unknown * dim + i);
+      for (unsigned int i = 0; i < n_components; ++i)
+        columns.push_back(unknown * n_components + i);
     std::vector<int> lengths;
     for (const auto &row : unknowns)
-      lengths.insert(lengths.end(), dim, dim * row.size());
+      lengths.insert(lengths.end(), n_components, n_components * row.size());
     Epetra_CrsGraph graph(
       Copy,
       rows,
@@ -164,29 +167,30 @@ namespace Morula
                 owned.n_elements() +
                   (std::lower_bound(others.begin(), others.end(), unknown) -
                    others.begin());
-            for (unsigned int i = 0; i < dim; ++i)
-              ids.push_back(number * dim + i);
+            for (unsigned int i = 0; i < n_components; ++i)
+              ids.push_back(number * n_components + i);
           }
         std::sort(ids.begin(), ids.end());
-        for (unsigned int i = 0; i < dim; ++i)
-          graph.InsertMyIndices(r * dim + i, ids.size(), ids.data());
+        for (unsigned int i = 0; i < n_components; ++i)
+          graph.InsertMyIndices(r * n_components + i, ids.size(), ids.data());
       }
     graph.FillComplete();
     graph.OptimizeStorage();
     return graph;
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   int
-  MatrixScatter<dim>::column_id(const types::global_dof_index unknown) const
+  MatrixScatter<dim, n_components>::column_id(
+    const types::global_dof_index unknown) const
   {
     return matrix.trilinos_matrix().ColMap().LID(
-      static_cast<TrilinosWrappers::types::int_type>(unknown * dim));
+      static_cast<TrilinosWrappers::types::int_type>(unknown * n_components));
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  MatrixScatter<dim>::make_received(const Messages &announced)
+  MatrixScatter<dim, n_components>::make_received(const Messages &announced)
   {
     std::vector<int> position_of(matrix.trilinos_matrix().NumMyCols());
     for (const auto &[rank, message] : announced)
@@ -197,7 +201,7 @@ namespace Morula
           int     length;
           double *values;
           int    *ids;
-          matrix.trilinos_matrix().ExtractMyRowView(row.number * dim,
+          matrix.trilinos_matrix().ExtractMyRowView(row.number * n_components,
                                                     length,
                                                     values,
                                                     ids);
@@ -209,10 +213,10 @@ namespace Morula
         }
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  MatrixScatter<dim>::make_positions(const Couplings                 &columns,
-                                     const std::vector<unsigned int> &owners)
+  MatrixScatter<dim, n_components>::make_positions(
+    const Couplings &columns, const std::vector<unsigned int> &owners)
   {
     const IndexSet         &relevant = space.relevant();
     const Epetra_CrsMatrix &epetra   = matrix.trilinos_matrix();
@@ -227,7 +231,7 @@ namespace Morula
       }
 
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> places(
-      relevant.n_elements()); // (cell, row in the cell)
+      relevant.n_elements()); // (grid cell, row in it)
     positions.resize(space.grid_cells().size());
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
@@ -237,21 +241,21 @@ namespace Morula
           places[unknowns[s]].emplace_back(c, s);
       }
 
-    rows.resize(relevant.n_elements() * dim);
+    rows.resize(relevant.n_elements() * n_components);
     std::map<unsigned int, std::size_t> n_sent;
     std::vector<unsigned int>           position_of(
       std::max<int>(epetra.NumMyCols(), relevant.n_elements()));
     for (unsigned int unknown = 0; unknown < places.size(); ++unknown)
       {
         const bool owned = owned_number[unknown] >= 0;
-        for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int i = 0; i < n_components; ++i)
           if (owned)
             {
               int  length;
               int *row_ids;
-              epetra.ExtractMyRowView(owned_number[unknown] * dim + i,
+              epetra.ExtractMyRowView(owned_number[unknown] * n_components + i,
                                       length,
-                                      rows[unknown * dim + i],
+                                      rows[unknown * n_components + i],
                                       row_ids);
               // All components' rows have the same columns.
               for (int k = 0; i == 0 && k < length; ++k)
@@ -259,13 +263,13 @@ namespace Morula
             }
           else
             {
-              const unsigned int rank = owners[unknown];
-              rows[unknown * dim + i] = &sent[rank][n_sent[rank]];
-              n_sent[rank] += dim * columns[unknown].size();
+              const unsigned int rank          = owners[unknown];
+              rows[unknown * n_components + i] = &sent[rank][n_sent[rank]];
+              n_sent[rank] += n_components * columns[unknown].size();
             }
         if (!owned)
           for (unsigned int k = 0; k < columns[unknown].size(); ++k)
-            position_of[columns[unknown][k]] = k * dim;
+            position_of[columns[unknown][k]] = k * n_components;
         for (const auto &[c, s] : places[unknown])
           {
             const auto &unknowns = space.grid_cells()[c].unknowns;
@@ -276,28 +280,29 @@ namespace Morula
       }
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  MatrixScatter<dim>::add(const unsigned int         grid_cell,
-                          const std::vector<double> &cell_matrix)
+  MatrixScatter<dim, n_components>::add(const unsigned int         grid_cell,
+                                        const std::vector<double> &local_matrix)
   {
     const auto        &unknowns = space.grid_cells()[grid_cell].unknowns;
     const unsigned int m        = unknowns.size();
     for (unsigned int s = 0; s < m; ++s)
-      for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int i = 0; i < n_components; ++i)
         {
-          const double *const source = &cell_matrix[(i * m + s) * dim * m];
-          double *const       target = rows[unknowns[s] * dim + i];
+          const double *const source =
+            &local_matrix[(i * m + s) * n_components * m];
+          double *const target = rows[unknowns[s] * n_components + i];
           const unsigned int *const position = &positions[grid_cell][s * m];
-          for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int j = 0; j < n_components; ++j)
             for (unsigned int t = 0; t < m; ++t)
               target[position[t] + j] += source[j * m + t];
         }
   }
 
-  template <int dim>
+  template <int dim, int n_components>
   void
-  MatrixScatter<dim>::finish()
+  MatrixScatter<dim, n_components>::finish()
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return;
@@ -306,17 +311,17 @@ namespace Morula
       {
         const double *value = values.data();
         for (const Received &row : received.at(rank))
-          for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int i = 0; i < n_components; ++i)
             {
               int     length;
               double *target;
               int    *ids;
-              epetra.ExtractMyRowView(row.number * dim + i,
+              epetra.ExtractMyRowView(row.number * n_components + i,
                                       length,
                                       target,
                                       ids);
               for (const unsigned int position : row.positions)
-                for (unsigned int j = 0; j < dim; ++j)
+                for (unsigned int j = 0; j < n_components; ++j)
                   target[position + j] += *value++;
             }
       }
@@ -324,6 +329,10 @@ namespace Morula
       std::fill(values.begin(), values.end(), 0.);
   }
 
-  template class MatrixScatter<2>;
-  template class MatrixScatter<3>;
+  template class MatrixScatter<2, 1>;
+  template class MatrixScatter<2, 2>;
+  template class MatrixScatter<2, 3>;
+  template class MatrixScatter<3, 1>;
+  template class MatrixScatter<3, 2>;
+  template class MatrixScatter<3, 3>;
 } // namespace Morula

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/condensation.h>
-#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,7 +8,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <set>
 #include <sstream>
 
 namespace Morula
@@ -38,22 +35,6 @@ namespace Morula
       for (unsigned int d = 0; d < dim; ++d)
         place[d] = (*best)[1 + d];
     }
-
-    /** Which unknowns of a grid cell its extended splines depend on. */
-    template <int dim>
-    std::set<unsigned int>
-    unknowns_of_extensions(const typename SplineSpace<dim>::GridCell &grid_cell)
-    {
-      const std::size_t      n = grid_cell.unknowns.size();
-      std::set<unsigned int> result;
-      for (auto row = grid_cell.weights.begin(); row != grid_cell.weights.end();
-           row += n)
-        if (std::count(row, row + n, 0.) + 1 < static_cast<long>(n))
-          for (std::size_t k = 0; k < n; ++k)
-            if (row[k] != 0.)
-              result.insert(grid_cell.unknowns[k]);
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -69,60 +50,43 @@ namespace Morula
     , null_space_(std::move(null_space))
     , timer(timer)
     , comm(comm)
+    , assembly(space, comm)
   {}
 
   template <int dim>
   void
   MomentumBalance<dim>::initialize(Vector &vector) const
   {
-    vector.reinit(space.owned_dofs(), comm);
+    vector = assembly.unknowns().zero();
   }
 
   template <int dim>
   typename MomentumBalance<dim>::Evaluation
-  MomentumBalance<dim>::assemble_residual(
-    const Vector                           &u,
-    const typename LocalSystem<dim>::Wanted wanted,
-    Vector                                 &sum) const
+  MomentumBalance<dim>::sum_up(const Vector                           &u,
+                               const typename LocalSystem<dim>::Wanted wanted,
+                               Vector &sum) const
   {
     const TimerOutput::Scope section(timer, "residual");
-    const bool               magnitudes = wanted == LocalSystem<dim>::rounding;
-    const DisplacementField<dim> displacement(space, u, comm);
-    LocalSystem<dim>             system(wanted);
-    std::vector<double>          sums(space.relevant_dofs().n_elements(), 0.);
-    double                       energies[3] = {0., 0., 0.};
+    LocalSystem<dim>         system(wanted);
+    double                   energies[3] = {0., 0., 0.};
     extremes_of_rank = {std::numeric_limits<double>::infinity(), {}, -1., {}};
-    for (unsigned int c = 0; c < space.grid_cells().size() && !system.inverted;
-         ++c)
-      {
-        const LocalField<dim> field = displacement.on_grid_cell(c);
-        system.clear();
-        for (const auto &term : terms)
-          term->add(c, field, GrowthAt::current, system);
-        update_extremes(system, space.grid_cells()[c].number);
-        energies[0] += system.energy;
-        energies[1] += system.energy_magnitude;
-
-        const auto               &unknowns = space.grid_cells()[c].unknowns;
-        const std::vector<double> condensed =
-          Condensation<dim>(space.grid_cells()[c])
-            .condense(magnitudes ? system.magnitude : system.residual,
-                      magnitudes);
-        for (unsigned int s = 0; s < unknowns.size(); ++s)
-          for (unsigned int i = 0; i < dim; ++i)
-            sums[unknowns[s] * dim + i] += condensed[i * unknowns.size() + s];
-      }
-    energies[2] = system.inverted;
+    const auto add   = [&](const unsigned int     c,
+                         const LocalField<dim> &field,
+                         LocalSystem<dim>      &local) {
+      for (const auto &term : terms)
+        term->add(c, field, GrowthAt::current, local);
+      update_extremes(local, space.grid_cells()[c].number);
+      energies[0] += local.energy;
+      energies[1] += local.energy_magnitude;
+      return !local.inverted;
+    };
+    const std::vector<double> sums = assembly.residual(u, system, add);
+    energies[2]                    = system.inverted;
     double totals[3];
     Utilities::MPI::sum(energies, comm, totals);
     if (totals[2] > 0)
       return {std::numeric_limits<double>::infinity(), 0.};
-
-    sum.reinit(space.owned_dofs(), space.relevant_dofs(), comm, true);
-    const std::vector<types::global_dof_index> dofs(
-      space.relevant_dofs().begin(), space.relevant_dofs().end());
-    sum.add(dofs, sums);
-    sum.compress(VectorOperation::add);
+    sum = assembly.unknowns().sum(sums);
     return {totals[0], totals[1]};
   }
 
@@ -130,12 +94,7 @@ namespace Morula
   typename MomentumBalance<dim>::Evaluation
   MomentumBalance<dim>::residual(const Vector &u, Vector &R) const
   {
-    Vector           sum;
-    const Evaluation evaluation =
-      assemble_residual(u, LocalSystem<dim>::energy_and_residual, sum);
-    if (std::isfinite(evaluation.energy))
-      R = sum;
-    return evaluation;
+    return sum_up(u, LocalSystem<dim>::energy_and_residual, R);
   }
 
   template <int dim>
@@ -187,10 +146,10 @@ namespace Morula
         const unsigned int piece = space.pieces_of_unknowns()[unknown];
         if (places[piece].empty())
           places[piece] =
-            space.affine_coefficients(piece,
-                                      Tensor<1, dim>(),
-                                      Tensor<2, dim>(
-                                        unit_symmetric_tensor<dim>()));
+            affine_displacement(space,
+                                piece,
+                                Tensor<1, dim>(),
+                                Tensor<2, dim>(unit_symmetric_tensor<dim>()));
         largest = std::abs(R(row));
         for (unsigned int d = 0; d < dim; ++d)
           place[d] = places[piece][unknown * dim + d];
@@ -223,7 +182,7 @@ namespace Morula
   MomentumBalance<dim>::rounding(const Vector &u) const
   {
     Vector sum;
-    assemble_residual(u, LocalSystem<dim>::rounding, sum);
+    sum_up(u, LocalSystem<dim>::rounding, sum);
     return sum.size() == 0 ?
              0. :
              10. * std::numeric_limits<double>::epsilon() * sum.l2_norm();
@@ -233,39 +192,30 @@ namespace Morula
   const TrilinosWrappers::SparseMatrix &
   MomentumBalance<dim>::tangent(const Vector &u, const GrowthAt growth)
   {
-    if (!scatter)
+    if (!assembly.has_pattern())
       {
         const TimerOutput::Scope section(timer, "sparsity pattern");
-        scatter.emplace(space, matrix, comm);
+        assembly.make_pattern();
       }
     const TimerOutput::Scope section(timer, "tangent");
-    matrix = 0.;
-    const DisplacementField<dim>     displacement(space, u, comm);
-    LocalSystem<dim>                 system(LocalSystem<dim>::tangent);
-    typename Condensation<dim>::Work work;
     if (growth == GrowthAt::previous)
       linearisations.clear();
-    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-      {
-        const LocalField<dim> field = displacement.on_grid_cell(c);
-        system.clear();
-        system.last = !linearisations.empty() && linearisations[c] ?
-                        &*linearisations[c] :
-                        nullptr;
-        for (const auto &term : terms)
-          term->add(c, field, growth, system);
-        if (system.linearisation)
-          {
-            linearisations.resize(space.grid_cells().size());
-            linearisations[c] = system.linearisation;
-          }
-        scatter->add(c,
-                     Condensation<dim>(space.grid_cells()[c])
-                       .condense(system.matrix, work));
-      }
-    scatter->finish();
-    matrix.compress(VectorOperation::add);
-    return matrix;
+    const auto add = [&](const unsigned int     c,
+                         const LocalField<dim> &field,
+                         LocalSystem<dim>      &local) {
+      local.last = !linearisations.empty() && linearisations[c] ?
+                     &*linearisations[c] :
+                     nullptr;
+      for (const auto &term : terms)
+        term->add(c, field, growth, local);
+      if (local.linearisation)
+        {
+          linearisations.resize(space.grid_cells().size());
+          linearisations[c] = local.linearisation;
+        }
+    };
+    LocalSystem<dim> system(LocalSystem<dim>::tangent);
+    return assembly.matrix(u, system, add);
   }
 
   template <int dim>
@@ -289,15 +239,7 @@ namespace Morula
   IndexSet
   MomentumBalance<dim>::coupled_dofs() const
   {
-    IndexSet dofs(space.relevant_dofs().size());
-    for (const auto &grid_cell : space.grid_cells())
-      for (const unsigned int s : unknowns_of_extensions<dim>(grid_cell))
-        {
-          const auto first = space.relevant().nth_index_in_set(s) * dim;
-          dofs.add_range(first, first + dim);
-        }
-    dofs.compress();
-    return dofs;
+    return assembly.unknowns().of_extended_splines();
   }
 
   template <int dim>

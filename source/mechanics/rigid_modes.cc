@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/condensation.h>
+#include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/rigid_modes.h>
 
 #include <deal.II/base/mpi.h>
@@ -181,17 +182,16 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   RigidModes<dim>::null_space() const
   {
+    const FieldUnknowns<dim>         unknowns(space, comm);
     std::vector<Equilibrium::Vector> basis;
     for (unsigned int p = 0; p < pieces.size(); ++p)
       for (const Mode &mode : pieces[p].free)
-        {
-          const std::vector<double> coefficients = space.affine_coefficients(
-            p, mode.a - mode.B * (pieces[p].center - Point<dim>()), mode.B);
-          Equilibrium::Vector vector(space.owned_dofs(), comm);
-          std::copy(coefficients.begin(), coefficients.end(), vector.begin());
-          vector.compress(VectorOperation::insert);
-          add_orthonormal(std::move(vector), basis);
-        }
+        add_orthonormal(unknowns.vector(affine_displacement(
+                          space,
+                          p,
+                          mode.a - mode.B * (pieces[p].center - Point<dim>()),
+                          mode.B)),
+                        basis);
     return basis;
   }
 
@@ -202,9 +202,9 @@ namespace Morula
     std::vector<unsigned int> first(1, 0); // vector of each piece
     for (const Piece &piece : pieces)
       first.push_back(first.back() + piece.free.size());
+    const FieldUnknowns<dim>         unknowns(space, comm);
     std::vector<std::vector<double>> sums(
-      first.back(),
-      std::vector<double>(space.relevant_dofs().n_elements(), 0.));
+      first.back(), std::vector<double>(unknowns.relevant().n_elements(), 0.));
     const auto &grid_cells = space.grid_cells();
     for (const Mass &mass : masses)
       {
@@ -228,7 +228,7 @@ namespace Morula
             const Mode          &mode = piece.free[k];
             const Tensor<1, dim> force =
               mass.V0 * (mode.a + mode.B * (mass.x - piece.center));
-            std::array<double, LocalSystem<dim>::n_dofs> forces;
+            std::array<double, Condensation<dim>::n_dofs> forces;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
                 forces[i * BSpline<dim>::n + a] = force[i] * splines.value[a];
@@ -241,24 +241,15 @@ namespace Morula
           }
       }
 
-    const std::vector<types::global_dof_index> dofs(
-      space.relevant_dofs().begin(), space.relevant_dofs().end());
     const std::vector<Equilibrium::Vector> motions = null_space();
     std::vector<Equilibrium::Vector>       basis;
     for (unsigned int p = 0; p < pieces.size(); ++p)
       for (unsigned int k = first[p]; k < first[p + 1]; ++k)
-        {
-          Equilibrium::Vector sum, vector(space.owned_dofs(), comm);
-          sum.reinit(space.owned_dofs(), space.relevant_dofs(), comm, true);
-          sum.add(dofs, sums[k]);
-          sum.compress(VectorOperation::add);
-          vector = sum;
-          // A rotation without inertia keeps its coefficient vector.
-          if (!add_orthonormal(std::move(vector),
-                               basis,
-                               inertia_tolerance * pieces[p].volume))
-            add_orthonormal(motions[k], basis);
-        }
+        // A rotation without inertia keeps its coefficient vector.
+        if (!add_orthonormal(unknowns.sum(sums[k]),
+                             basis,
+                             inertia_tolerance * pieces[p].volume))
+          add_orthonormal(motions[k], basis);
     return basis;
   }
 

@@ -5,7 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/surface/dead_load.h>
-#include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
@@ -488,7 +488,7 @@ namespace Morula
   unsigned int
   Simulation<dim>::n_unknowns()
   {
-    return splines().n_unknowns();
+    return dim * splines().n_unknowns();
   }
 
   template class Simulation<2>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 

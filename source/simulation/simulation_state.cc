@@ -57,7 +57,7 @@ namespace Morula
       row.active_grid_cells = space.n_active_grid_cells();
       row.inner_splines     = space.n_inner_splines();
       row.outer_splines     = space.n_outer_splines();
-      row.unknowns          = space.n_unknowns();
+      row.unknowns          = dim * space.n_unknowns();
     }
   } // namespace
 

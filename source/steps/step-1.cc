@@ -102,7 +102,7 @@ namespace Step1
     tissue.place(cells_of_disc(scene.tissue, tissue.cells().columns()),
                  no_boundary_points);
     space.emplace(tissue.splines());
-    n_unknowns = space->n_unknowns() / dim;
+    n_unknowns = space->n_unknowns();
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <morula/grid/spline_space.h>
 #include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/particles/point_store.h>
 #include <morula/particles/tissue.h>
@@ -166,10 +167,10 @@ namespace Morula
     std::vector<double>
     affine(const Tensor<1, dim> &a, const Tensor<2, dim> &A) const
     {
-      std::vector<double> sum(space->owned_dofs().n_elements(), 0.);
+      std::vector<double> sum(dim * space->owned().n_elements(), 0.);
       for (unsigned int piece = 0; piece < space->n_pieces(); ++piece)
         {
-          const auto part = space->affine_coefficients(piece, a, A);
+          const auto part = affine_displacement(*space, piece, a, A);
           for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += part[i];
         }
@@ -199,25 +200,21 @@ namespace Morula
       return vector_of(values);
     }
 
-    /** @param values of owned_dofs(), in order */
+    /** @param values of FieldUnknowns::owned(), in order */
     Equilibrium::Vector
     vector_of(const std::vector<double> &values) const
     {
-      Equilibrium::Vector vector(space->owned_dofs(), comm);
-      std::copy(values.begin(), values.end(), vector.begin());
-      vector.compress(VectorOperation::insert);
-      return vector;
+      return FieldUnknowns<dim>(*space, comm).vector(values);
     }
 
     /** The field on each active grid cell of this rank, straight from the
-     *  weights of SplineSpace::cells(). */
+     *  weights of SplineSpace::grid_cells(). */
     std::vector<LocalField<dim>>
     fields(const Equilibrium::Vector &u) const
     {
-      constexpr unsigned int n = BSpline<dim>::n;
-      Equilibrium::Vector    ghosted(space->owned_dofs(),
-                                  space->relevant_dofs(),
-                                  comm);
+      constexpr unsigned int   n = BSpline<dim>::n;
+      const FieldUnknowns<dim> unknowns(*space, comm);
+      Equilibrium::Vector ghosted(unknowns.owned(), unknowns.relevant(), comm);
       ghosted = u;
       std::vector<LocalField<dim>> result;
       for (const auto &cell : space->grid_cells())

@@ -4,9 +4,9 @@
 
 #include <morula/effects/surface/following_pressure.h>
 #include <morula/effects/surface/nitsche.h>
-#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/momentum_balance.h>
+#include <morula/mechanics/spline_field.h>
 
 #include <gtest/gtest.h>
 
@@ -225,7 +225,7 @@ namespace
           {
             auto v = direction(ball, phase);
             if (phase > 100.)
-              for (const auto i : ball.body.space->owned_dofs())
+              for (const auto i : v.locally_owned_elements())
                 v(i) = std::sin(1e4 * (v(i) + 0.1));
             v.compress(VectorOperation::insert);
             Equilibrium::Vector upper(ball.u), lower(ball.u), Kv(R);

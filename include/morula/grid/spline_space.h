@@ -28,8 +28,8 @@ namespace Morula
    * piece is smaller than a grid cell, an affine one if it is smaller than two
    * and has fewer than 3^dim particles, or has no inner grid cell. (A tensor
    * product of quadratics has monomials up to degree 2 dim, which nearly vanish
-   * on a small piece.) Each unknown is a vector: unknown number s, component i
-   * is degree of freedom s dim + i, in µm.
+   * on a small piece.) An unknown is one number of a scalar field; fields of
+   * several components have it for each (FieldUnknowns).
    */
   template <int dim>
   class SplineSpace
@@ -63,16 +63,9 @@ namespace Morula
     const IndexSet &
     relevant() const;
 
-    /** The same for degrees of freedom: dim for each spline. */
-    const IndexSet &
-    owned_dofs() const;
-
-    const IndexSet &
-    relevant_dofs() const;
-
     /** Counts over all ranks. */
     unsigned int
-    n_unknowns() const; // splines times dim
+    n_unknowns() const;
     unsigned int
     n_active_grid_cells() const;
     unsigned int
@@ -94,15 +87,16 @@ namespace Morula
     occupancy() const;
 
     /**
-     * Coefficients of the affine field a + A x (µm) in one piece, zero in the
-     * others: of this rank's unknowns, in the order of owned_dofs(). Splines
+     * Coefficients of the affine field a + g·x in one piece, zero in the
+     * others: of this rank's unknowns, in the order of owned(). Splines
      * reproduce affine fields: the coefficient is the field's value at the
      * spline's centre.
+     * @param gradient g, per µm
      */
     std::vector<double>
     affine_coefficients(const unsigned int    piece,
-                        const Tensor<1, dim> &a,
-                        const Tensor<2, dim> &A) const;
+                        const double          a,
+                        const Tensor<1, dim> &gradient) const;
 
     /** The piece of each of this rank's unknowns, in the order of owned(). */
     const std::vector<unsigned int> &
@@ -165,11 +159,11 @@ namespace Morula
     std::vector<unsigned int>  pieces_of_unknowns_;
     std::map<unsigned int, PolynomialField> small_pieces;
     std::vector<GridCell>                   grid_cells_;
-    IndexSet     owned_, relevant_, owned_dofs_, relevant_dofs_;
-    unsigned int n_splines = 0;
-    unsigned int n_active  = 0;
-    unsigned int n_inner   = 0;
-    unsigned int n_outer   = 0;
+    IndexSet                                owned_, relevant_;
+    unsigned int                            n_unknowns_ = 0;
+    unsigned int                            n_active    = 0;
+    unsigned int                            n_inner     = 0;
+    unsigned int                            n_outer     = 0;
   };
 } // namespace Morula
 

@@ -5,7 +5,7 @@
 #define morula_mechanics_condensation_h
 
 #include <morula/grid/spline_space.h>
-#include <morula/mechanics/term.h>
+#include <morula/mechanics/local_system.h>
 
 #include <vector>
 
@@ -17,12 +17,17 @@ namespace Morula
    * small dense products is several times cheaper than a global sparse triple
    * product or entrywise constraint resolution: doc/theory.md (3.5).
    *
-   * Component i of unknown s is entry i m + s.
+   * Component i of unknown s is entry i m + s. Without a number of components
+   * the field is the displacement.
    */
-  template <int dim>
+  template <int dim, int n_components = dim>
   class Condensation
   {
   public:
+    /** Rows of a grid cell's equations. */
+    static constexpr unsigned int n_dofs =
+      LocalEquations<dim, n_components>::n_dofs;
+
     /** Keeps a reference to the grid cell. */
     explicit Condensation(const typename SplineSpace<dim>::GridCell &grid_cell);
 
@@ -30,17 +35,17 @@ namespace Morula
     unsigned int
     m() const;
 
-    /** @param coefficients dim m values */
-    LocalField<dim>
+    /** @param coefficients n m values, n the number of components */
+    LocalField<dim, n_components>
     expand(const std::vector<double> &coefficients) const;
 
     /**
-     * @param forces dim 3^dim values
+     * @param forces n 3^dim values
      * @param magnitudes whether to use |C|, for sums of magnitudes
      */
     std::vector<double>
-    condense(const std::array<double, LocalSystem<dim>::n_dofs> &forces,
-             const bool magnitudes = false) const;
+    condense(const std::array<double, n_dofs> &forces,
+             const bool                        magnitudes = false) const;
 
     /** Memory for condense(), to be used for one grid cell after the other. */
     struct Work
@@ -49,7 +54,7 @@ namespace Morula
     };
 
     /**
-     * @param matrix (dim 3^dim)² values, row by row
+     * @param matrix (n 3^dim)² values, row by row
      * @return @p matrix itself where the unknowns are the splines, else a
      *         vector in @p work
      */
@@ -62,7 +67,7 @@ namespace Morula
     void
     for_each_weight(const unsigned int a, const Visit &visit) const;
 
-    /** Cᵀ X, C acting on each component; X has dim 3^dim rows. */
+    /** Cᵀ X, C acting on each component; X has n 3^dim rows. */
     void
     times_rows(const std::vector<double> &X,
                const unsigned int         n_columns,

@@ -4,7 +4,7 @@
 #ifndef morula_mechanics_matrix_scatter_h
 #define morula_mechanics_matrix_scatter_h
 
-#include <morula/grid/spline_space.h>
+#include <morula/mechanics/field_unknowns.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -17,14 +17,16 @@
 namespace Morula
 {
   /**
-   * Makes the sparse matrix of a spline space and adds the condensed matrices
-   * of grid cells to it. Rows that this rank owns are written straight into
-   * the matrix's own arrays through a table of positions that is made once a
-   * step: TrilinosWrappers' add() searches every entry again, which costs more
-   * than all the particles at fine grids (doc/theory.md, section 3). Rows of
-   * other ranks are summed up here in the same way, and sent once.
+   * Makes the sparse matrix of a field of n components on a spline space and
+   * adds the condensed matrices of grid cells to it. Without a number of
+   * components the field is the displacement. Rows that this rank owns are
+   * written straight into the matrix's own arrays through a table of positions
+   * that is made once a step: TrilinosWrappers' add() searches every entry
+   * again, which costs more than all the particles at fine grids
+   * (doc/theory.md, section 3). Rows of other ranks are summed up here in the
+   * same way, and sent once.
    */
-  template <int dim>
+  template <int dim, int n_components = dim>
   class MatrixScatter
   {
   public:
@@ -40,7 +42,7 @@ namespace Morula
      * the grid cell's s-th unknown, m their number.
      */
     void
-    add(const unsigned int grid_cell, const std::vector<double> &cell_matrix);
+    add(const unsigned int grid_cell, const std::vector<double> &local_matrix);
 
     /** Adds what was added to other ranks' rows to these. Collective. */
     void
@@ -112,7 +114,7 @@ namespace Morula
     const MPI_Comm                         comm;
     std::vector<double *>                  rows;         // by relevant dof
     std::vector<int>                       owned_number; // by relevant unknown
-    std::vector<std::vector<unsigned int>> positions;    // by cell: m x m
+    std::vector<std::vector<unsigned int>> positions;    // by grid cell: m x m
 
     /** By owner: values of its rows, one after the other. */
     std::map<unsigned int, std::vector<double>>   sent;

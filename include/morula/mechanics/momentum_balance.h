@@ -5,8 +5,8 @@
 #define morula_mechanics_momentum_balance_h
 
 #include <morula/grid/spline_space.h>
+#include <morula/mechanics/assembly.h>
 #include <morula/mechanics/equilibrium.h>
-#include <morula/mechanics/matrix_scatter.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
 
@@ -101,9 +101,9 @@ namespace Morula
 
   private:
     Evaluation
-    assemble_residual(const Vector                           &u,
-                      const typename LocalSystem<dim>::Wanted wanted,
-                      Vector                                 &sum) const;
+    sum_up(const Vector                           &u,
+           const typename LocalSystem<dim>::Wanted wanted,
+           Vector                                 &sum) const;
 
     /** Takes a grid cell's extremes into account. */
     void
@@ -114,15 +114,14 @@ namespace Morula
     Point<dim>
     place_of_largest(const Vector &R) const;
 
-    const SplineSpace<dim>           &space;
-    const TermList                   &terms;
-    const double                      youngs_modulus;
-    const std::vector<Vector>         null_space_;
-    TimerOutput                      &timer;
-    const MPI_Comm                    comm;
-    Matrix                            matrix;
-    mutable Extremes<dim>             extremes_of_rank; // last evaluation's
-    std::optional<MatrixScatter<dim>> scatter; // made with the first tangent
+    const SplineSpace<dim>   &space;
+    const TermList           &terms;
+    const double              youngs_modulus;
+    const std::vector<Vector> null_space_;
+    TimerOutput              &timer;
+    const MPI_Comm            comm;
+    Assembly<dim>             assembly;
+    mutable Extremes<dim>     extremes_of_rank; // last evaluation's
 
     // The last tangent's, by active grid cell; empty if no term has any.
     std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;

@@ -7,9 +7,9 @@
 #include <morula/effects/growth/cell_growth.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/grid/piece_watch.h>
-#include <morula/mechanics/displacement_field.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/particles/tissue.h>
 #include <morula/scene/scene.h>
 #include <morula/simulation/run_files.h>

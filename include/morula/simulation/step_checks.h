@@ -4,7 +4,7 @@
 #ifndef morula_simulation_step_checks_h
 #define morula_simulation_step_checks_h
 
-#include <morula/mechanics/displacement_field.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/particles/point_store.h>
 
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_mechanics_displacement_field_h
-#define morula_mechanics_displacement_field_h
+#ifndef morula_mechanics_spline_field_h
+#define morula_mechanics_spline_field_h
 
-#include <morula/grid/spline_space.h>
-#include <morula/mechanics/term.h>
+#include <morula/mechanics/field_unknowns.h>
+#include <morula/mechanics/local_system.h>
 #include <morula/particles/point_store.h>
 
 #include <deal.II/lac/trilinos_vector.h>
@@ -15,22 +15,22 @@
 namespace Morula
 {
   /**
-   * A displacement on this rank's active grid cells, with the unknowns of other
-   * ranks that these need. Keeps a reference to the space.
+   * A field of n components on this rank's active grid cells, with the unknowns
+   * of other ranks that these need. Keeps a reference to the space.
    */
-  template <int dim>
-  class DisplacementField
+  template <int dim, int n_components>
+  class SplineField
   {
   public:
     /**
-     * @param u in the layout of SplineSpace::owned_dofs(). Collective.
+     * @param u in the layout of FieldUnknowns::owned(). Collective.
      */
-    DisplacementField(const SplineSpace<dim>              &space,
-                      const TrilinosWrappers::MPI::Vector &u,
-                      const MPI_Comm                       comm);
+    SplineField(const SplineSpace<dim>              &space,
+                const TrilinosWrappers::MPI::Vector &u,
+                const MPI_Comm                       comm);
 
     /** Coefficients of the splines of one active grid cell. */
-    LocalField<dim>
+    LocalField<dim, n_components>
     on_grid_cell(const unsigned int grid_cell) const;
 
     /**
@@ -47,19 +47,23 @@ namespace Morula
     TrilinosWrappers::MPI::Vector relevant;
   };
 
+  /** The displacement. */
   template <int dim>
+  using DisplacementField = SplineField<dim, dim>;
+
+  template <int dim, int n_components>
   template <typename Action>
   void
-  DisplacementField<dim>::at_points(const PointStore<dim> &store,
-                                    const Action          &action) const
+  SplineField<dim, n_components>::at_points(const PointStore<dim> &store,
+                                            const Action          &action) const
   {
     unsigned int c = 0;
     for (const auto &grid_cell : store.grid_cells())
       {
         while (space.grid_cells()[c].number != grid_cell.number)
           ++c;
-        const LocalField<dim> field = on_grid_cell(c);
-        const GridIndex<dim>  index = space.box().index(grid_cell.number);
+        const LocalField<dim, n_components> field = on_grid_cell(c);
+        const GridIndex<dim> index = space.box().index(grid_cell.number);
         for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
           action(p,
                  field,

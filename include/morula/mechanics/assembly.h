@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_assembly_h
+#define morula_mechanics_assembly_h
+
+#include <morula/mechanics/condensation.h>
+#include <morula/mechanics/field_unknowns.h>
+#include <morula/mechanics/matrix_scatter.h>
+#include <morula/mechanics/spline_field.h>
+
+#include <optional>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Adds up the equations of a field of n components over the active grid
+   * cells, condensed to the unknown splines inside each grid cell:
+   * doc/theory.md (3.5). Without a number of components the field is the
+   * displacement. Keeps a reference to the space.
+   *
+   * The equations of one grid cell are what add(grid_cell, field, local) makes
+   * of `local`, a LocalEquations<dim, n_components> or a class derived from it,
+   * where the field has the coefficients `field`.
+   */
+  template <int dim, int n_components = dim>
+  class Assembly
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+    using Matrix = TrilinosWrappers::SparseMatrix;
+
+    Assembly(const SplineSpace<dim> &space, const MPI_Comm comm)
+      : space(space)
+      , comm(comm)
+      , unknowns_(space, comm)
+    {}
+
+    const FieldUnknowns<dim, n_components> &
+    unknowns() const
+    {
+      return unknowns_;
+    }
+
+    /**
+     * Adds up the residuals, or with local.wanted == rounding the magnitudes.
+     * FieldUnknowns::sum() adds up those of all ranks. Stops where add()
+     * returns false. Collective.
+     * @return this rank's sums, in the order of FieldUnknowns::relevant()
+     */
+    template <typename Local, typename Add>
+    std::vector<double>
+    residual(const Vector &u, Local &local, const Add &add) const;
+
+    /** Whether make_pattern() has been called. */
+    bool
+    has_pattern() const
+    {
+      return scatter.has_value();
+    }
+
+    /** Makes the sparse matrix, once before the first matrix(). Collective. */
+    void
+    make_pattern()
+    {
+      scatter.emplace(space, matrix_, comm);
+    }
+
+    /** Adds up the tangents; the matrix of the last call is overwritten.
+     *  Collective. */
+    template <typename Local, typename Add>
+    const Matrix &
+    matrix(const Vector &u, Local &local, const Add &add);
+
+  private:
+    const SplineSpace<dim>                         &space;
+    const MPI_Comm                                  comm;
+    const FieldUnknowns<dim, n_components>          unknowns_;
+    Matrix                                          matrix_;
+    std::optional<MatrixScatter<dim, n_components>> scatter;
+  };
+
+  template <int dim, int n_components>
+  template <typename Local, typename Add>
+  std::vector<double>
+  Assembly<dim, n_components>::residual(const Vector &u,
+                                        Local        &local,
+                                        const Add    &add) const
+  {
+    const bool magnitudes = local.wanted == Local::rounding;
+    const SplineField<dim, n_components> field(space, u, comm);
+    std::vector<double> sums(unknowns_.relevant().n_elements(), 0.);
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      {
+        local.clear();
+        if (!add(c, field.on_grid_cell(c), local))
+          break;
+        const auto               &splines = space.grid_cells()[c].unknowns;
+        const std::vector<double> condensed =
+          Condensation<dim, n_components>(space.grid_cells()[c])
+            .condense(magnitudes ? local.magnitude : local.residual,
+                      magnitudes);
+        for (unsigned int s = 0; s < splines.size(); ++s)
+          for (unsigned int i = 0; i < n_components; ++i)
+            sums[splines[s] * n_components + i] +=
+              condensed[i * splines.size() + s];
+      }
+    return sums;
+  }
+
+  template <int dim, int n_components>
+  template <typename Local, typename Add>
+  const TrilinosWrappers::SparseMatrix &
+  Assembly<dim, n_components>::matrix(const Vector &u,
+                                      Local        &local,
+                                      const Add    &add)
+  {
+    matrix_ = 0.;
+    const SplineField<dim, n_components>           field(space, u, comm);
+    typename Condensation<dim, n_components>::Work work;
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      {
+        local.clear();
+        add(c, field.on_grid_cell(c), local);
+        scatter->add(c,
+                     Condensation<dim, n_components>(space.grid_cells()[c])
+                       .condense(local.matrix, work));
+      }
+    scatter->finish();
+    matrix_.compress(VectorOperation::add);
+    return matrix_;
+  }
+} // namespace Morula
+
+#endif

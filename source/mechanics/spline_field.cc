@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/condensation.h>
+#include <morula/mechanics/spline_field.h>
+
+#include <vector>
+
+namespace Morula
+{
+  template <int dim, int n_components>
+  SplineField<dim, n_components>::SplineField(
+    const SplineSpace<dim>              &space,
+    const TrilinosWrappers::MPI::Vector &u,
+    const MPI_Comm                       comm)
+    : space(space)
+  {
+    const FieldUnknowns<dim, n_components> unknowns(space, comm);
+    relevant.reinit(unknowns.owned(), unknowns.relevant(), comm);
+    relevant = u;
+  }
+
+  template <int dim, int n_components>
+  LocalField<dim, n_components>
+  SplineField<dim, n_components>::on_grid_cell(
+    const unsigned int grid_cell) const
+  {
+    // A ghosted Trilinos vector stores its entries in the order of the set of
+    // relevant degrees of freedom.
+    const double *const values   = relevant.trilinos_vector()[0];
+    const auto         &unknowns = space.grid_cells()[grid_cell].unknowns;
+    std::vector<double> coefficients(n_components * unknowns.size());
+    for (unsigned int s = 0; s < unknowns.size(); ++s)
+      for (unsigned int i = 0; i < n_components; ++i)
+        coefficients[i * unknowns.size() + s] =
+          values[unknowns[s] * n_components + i];
+    return Condensation<dim, n_components>(space.grid_cells()[grid_cell])
+      .expand(coefficients);
+  }
+
+  template class SplineField<2, 1>;
+  template class SplineField<2, 2>;
+  template class SplineField<2, 3>;
+  template class SplineField<3, 1>;
+  template class SplineField<3, 2>;
+  template class SplineField<3, 3>;
+} // namespace Morula

@@ -37,7 +37,7 @@ namespace Morula
     , copies(box_, classes)
   {
     if (extend)
-      find_small_pieces();
+      small_pieces = find_small_pieces(occupancy_, classes, copies);
     n_active = std::count_if(classes.begin(), classes.end(), is_active);
     n_inner =
       std::count_if(copies.list().begin(),
@@ -49,54 +49,6 @@ namespace Morula
     number_unknowns(grid);
     express_grid_cells(grid);
     find_relevant();
-  }
-
-  template <int dim>
-  std::vector<typename SplineSpace<dim>::Extent>
-  SplineSpace<dim>::extents() const
-  {
-    std::vector<Extent> list(copies.n_pieces());
-    for (unsigned int number = 0; number < box_.size(); ++number)
-      if (is_active(classes[number]))
-        {
-          Extent              &extent = list[copies.piece(number)];
-          const GridIndex<dim> index  = box_.index(number);
-          const auto [lower, upper]   = occupancy_.bounds(number);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              extent.lower[d] = extent.n_grid_cells == 0 ?
-                                  lower[d] :
-                                  std::min(extent.lower[d], lower[d]);
-              extent.upper[d] = extent.n_grid_cells == 0 ?
-                                  upper[d] :
-                                  std::max(extent.upper[d], upper[d]);
-            }
-          extent.inner |= classes[number] == GridCellClass::inner;
-          extent.n_particles += occupancy_.n_particles(number);
-          extent.sum_of_centers += box_.center(index) - Point<dim>();
-          ++extent.n_grid_cells;
-        }
-    return list;
-  }
-
-  template <int dim>
-  void
-  SplineSpace<dim>::find_small_pieces()
-  {
-    const std::vector<Extent> list = extents();
-    for (unsigned int piece = 0; piece < list.size(); ++piece)
-      {
-        const Extent &extent  = list[piece];
-        double        largest = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          largest = std::max(largest, extent.upper[d] - extent.lower[d]);
-        const bool few = extent.n_particles < BSpline<dim>::n;
-        if (!extent.inner || largest < (few ? 2. : 1.) * box_.spacing())
-          small_pieces[piece] = {Point<dim>(extent.sum_of_centers /
-                                            extent.n_grid_cells),
-                                 !few && largest < box_.spacing(),
-                                 none};
-      }
   }
 
   template <int dim>
@@ -120,9 +72,9 @@ namespace Morula
     for (const SplineCopy &copy : list)
       if (is_unknown(copy))
         ++next[grid.owner(copy.spline) + 1];
-    for (const auto &[piece, field] : small_pieces)
+    for (const auto &[piece, polynomial] : small_pieces)
       next[grid.owner(copies.lowest_grid_cell(piece)) + 1] +=
-        field.n_unknowns();
+        polynomial.n_unknowns();
     std::partial_sum(next.begin(), next.end(), next.begin());
 
     n_unknowns_ = next[n_ranks];
@@ -142,11 +94,11 @@ namespace Morula
           numbers[c] = next[grid.owner(list[c].spline)]++;
           set_piece(numbers[c], list[c].piece);
         }
-    for (auto &[piece, field] : small_pieces)
+    for (auto &[piece, polynomial] : small_pieces)
       {
         unsigned int &first = next[grid.owner(copies.lowest_grid_cell(piece))];
-        field.first_unknown = first;
-        for (unsigned int k = 0; k < field.n_unknowns(); ++k)
+        polynomial.first_unknown = first;
+        for (unsigned int k = 0; k < polynomial.n_unknowns(); ++k)
           set_piece(first++, piece);
       }
   }
@@ -161,25 +113,9 @@ namespace Morula
 
     const SplineCopy    &copy  = copies.list()[c];
     const GridIndex<dim> index = box_.index(copy.spline);
-    Terms                terms;
     if (const auto found = small_pieces.find(copy.piece);
         found != small_pieces.end())
-      {
-        const PolynomialField &field = found->second;
-        const Tensor<1, dim>   xi =
-          (box_.center(index) - field.center) / box_.spacing();
-        unsigned int unknown = field.first_unknown;
-        terms.emplace_back(unknown++, 1.);
-        for (unsigned int d = 0; d < dim; ++d)
-          terms.emplace_back(unknown++, xi[d]);
-        // The splines' coefficients of ξ² are those of the centres less 1/4.
-        if (field.quadratic)
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int e = d; e < dim; ++e)
-              terms.emplace_back(unknown++,
-                                 xi[d] * xi[e] - (d == e ? 0.25 : 0.));
-        return terms;
-      }
+      return found->second.expression(box_.center(index), box_.spacing());
     const std::vector<unsigned int> blocks = search.blocks(copy);
     AssertThrow(!blocks.empty(), ExcInternalError());
     // doc/theory.md (3.3b); sums of integers, exact in any order
@@ -192,6 +128,7 @@ namespace Morula
           if (weights[a] != 0.)
             sums[numbers[copies.at(neighbor(inner, a), inner)]] += weights[a];
       }
+    Terms terms;
     for (const auto &[unknown, sum] : sums)
       if (sum != 0.)
         terms.emplace_back(unknown, sum / blocks.size());
@@ -301,10 +238,10 @@ namespace Morula
     if (const auto found = small_pieces.find(piece);
         found != small_pieces.end())
       {
-        const PolynomialField &field = found->second;
-        set(field.first_unknown, value_at(field.center));
+        const PiecePolynomial<dim> &polynomial = found->second;
+        set(polynomial.first_unknown, value_at(polynomial.center));
         for (unsigned int d = 0; d < dim; ++d)
-          set(field.first_unknown + 1 + d, gradient[d] * box_.spacing());
+          set(polynomial.first_unknown + 1 + d, gradient[d] * box_.spacing());
       }
     return coefficients;
   }

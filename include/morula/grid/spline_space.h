@@ -7,6 +7,7 @@
 #include <morula/grid/background_grid.h>
 #include <morula/grid/bspline.h>
 #include <morula/grid/extension.h>
+#include <morula/grid/small_pieces.h>
 #include <morula/grid/spline_copies.h>
 
 #include <deal.II/base/index_set.h>
@@ -103,38 +104,8 @@ namespace Morula
     pieces_of_unknowns() const;
 
   private:
-    /** The polynomial of a small piece: Σ c_m m(ξ) over the monomials m of
-     *  ξ = (x - center)/h up to a degree; one unknown for each: doc/theory.md
-     *  (3.4). */
-    struct PolynomialField
-    {
-      Point<dim>   center; // µm
-      bool         quadratic;
-      unsigned int first_unknown;
-
-      unsigned int
-      n_unknowns() const
-      {
-        return quadratic ? (dim + 1) * (dim + 2) / 2 : dim + 1;
-      }
-    };
-
-    /** What the grid cells of a piece hold. */
-    struct Extent
-    {
-      bool           inner        = false;
-      std::uint64_t  n_particles  = 0;
-      unsigned int   n_grid_cells = 0;
-      Point<dim>     lower, upper;   // of the tissue, µm
-      Tensor<1, dim> sum_of_centers; // of the grid cells, µm
-    };
-
     using Terms = std::vector<std::pair<unsigned int, double>>;
 
-    std::vector<Extent>
-    extents() const;
-    void
-    find_small_pieces();
     bool
     is_unknown(const SplineCopy &copy) const;
     void
@@ -157,13 +128,13 @@ namespace Morula
     SplineCopies<dim>          copies;
     std::vector<unsigned int>  numbers; // by copy: unknown's number
     std::vector<unsigned int>  pieces_of_unknowns_;
-    std::map<unsigned int, PolynomialField> small_pieces;
-    std::vector<GridCell>                   grid_cells_;
-    IndexSet                                owned_, relevant_;
-    unsigned int                            n_unknowns_ = 0;
-    unsigned int                            n_active    = 0;
-    unsigned int                            n_inner     = 0;
-    unsigned int                            n_outer     = 0;
+    std::map<unsigned int, PiecePolynomial<dim>> small_pieces;
+    std::vector<GridCell>                        grid_cells_;
+    IndexSet                                     owned_, relevant_;
+    unsigned int                                 n_unknowns_ = 0;
+    unsigned int                                 n_active    = 0;
+    unsigned int                                 n_inner     = 0;
+    unsigned int                                 n_outer     = 0;
   };
 } // namespace Morula
 

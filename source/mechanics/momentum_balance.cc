@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <sstream>
@@ -16,66 +18,84 @@ namespace Morula
   {
     /** The value for which better(value, others') holds, and its place, over
      *  all ranks; the first rank's of equal ones. */
-    template <int dim, typename Better>
-    void
-    find_best(double        &value,
-              Point<dim>    &place,
-              const Better  &better,
-              const MPI_Comm comm)
+    template <typename Better>
+    Equilibrium::Extreme
+    best_of_ranks(const Equilibrium::Extreme &extreme,
+                  const Better               &better,
+                  const MPI_Comm              comm)
     {
-      std::vector<double> own = {value};
-      for (unsigned int d = 0; d < dim; ++d)
-        own.push_back(place[d]);
-      const auto  all  = Utilities::MPI::all_gather(comm, own);
+      const auto all =
+        Utilities::MPI::all_gather(comm,
+                                   std::array<double, 4>{{extreme.value,
+                                                          extreme.place[0],
+                                                          extreme.place[1],
+                                                          extreme.place[2]}});
       const auto *best = &all[0];
-      for (const std::vector<double> &other : all)
+      for (const auto &other : all)
         if (better(other[0], (*best)[0]))
           best = &other;
-      value = (*best)[0];
+      return {(*best)[0], Point<3>((*best)[1], (*best)[2], (*best)[3])};
+    }
+
+    Point<3>
+    in_space(const Point<2> &x)
+    {
+      return Point<3>(x[0], x[1], 0.);
+    }
+
+    Point<3>
+    in_space(const Point<3> &x)
+    {
+      return x;
+    }
+
+    template <int dim>
+    Point<dim>
+    from_space(const Point<3> &x)
+    {
+      Point<dim> result;
       for (unsigned int d = 0; d < dim; ++d)
-        place[d] = (*best)[1 + d];
+        result[d] = x[d];
+      return result;
     }
   } // namespace
 
   template <int dim>
   MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim> &space,
                                         const TermList         &terms,
-                                        const double            youngs_modulus,
-                                        std::vector<Vector>     null_space,
                                         TimerOutput            &timer,
                                         const MPI_Comm          comm)
     : space(space)
     , terms(terms)
-    , youngs_modulus(youngs_modulus)
-    , null_space_(std::move(null_space))
     , timer(timer)
     , comm(comm)
     , assembly(space, comm)
   {}
 
   template <int dim>
-  void
-  MomentumBalance<dim>::initialize(Vector &vector) const
+  Equilibrium::Vector
+  MomentumBalance<dim>::rest() const
   {
-    vector = assembly.unknowns().zero();
+    return assembly.unknowns().zero();
   }
 
   template <int dim>
-  typename MomentumBalance<dim>::Evaluation
+  Equilibrium::Evaluation
   MomentumBalance<dim>::sum_up(const Vector                           &u,
                                const typename LocalSystem<dim>::Wanted wanted,
                                Vector &sum) const
   {
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted);
-    double                   energies[3] = {0., 0., 0.};
-    extremes_of_rank = {std::numeric_limits<double>::infinity(), {}, -1., {}};
-    const auto add   = [&](const unsigned int     c,
+    Evaluation               evaluation;
+    evaluation.smallest_J.value = std::numeric_limits<double>::infinity();
+    double     energies[3]      = {0., 0., 0.};
+    const auto add              = [&](const unsigned int     c,
                          const LocalField<dim> &field,
                          LocalSystem<dim>      &local) {
       for (const auto &term : terms)
         term->add(c, field, GrowthAt::current, local);
-      update_extremes(local, space.grid_cells()[c].number);
+      update_extremes(local, space.grid_cells()[c].number, evaluation);
       energies[0] += local.energy;
       energies[1] += local.energy_magnitude;
       return !local.inverted;
@@ -84,14 +104,17 @@ namespace Morula
     energies[2]                    = system.inverted;
     double totals[3];
     Utilities::MPI::sum(energies, comm, totals);
-    if (totals[2] > 0)
-      return {std::numeric_limits<double>::infinity(), 0.};
-    sum = assembly.unknowns().sum(sums);
-    return {totals[0], totals[1]};
+    const bool inverted = totals[2] > 0.;
+    evaluation.energy =
+      inverted ? std::numeric_limits<double>::infinity() : totals[0];
+    evaluation.energy_magnitude = inverted ? 0. : totals[1];
+    if (!inverted)
+      sum = assembly.unknowns().sum(sums);
+    return evaluation;
   }
 
   template <int dim>
-  typename MomentumBalance<dim>::Evaluation
+  Equilibrium::Evaluation
   MomentumBalance<dim>::residual(const Vector &u, Vector &R) const
   {
     return sum_up(u, LocalSystem<dim>::energy_and_residual, R);
@@ -100,33 +123,33 @@ namespace Morula
   template <int dim>
   void
   MomentumBalance<dim>::update_extremes(const LocalSystem<dim> &system,
-                                        const unsigned int      number) const
+                                        const unsigned int      number,
+                                        Evaluation &evaluation) const
   {
     const auto place = [&](const Point<dim> &xi) {
-      return space.box().corner(space.box().index(number)) +
-             space.box().spacing() * Tensor<1, dim>(xi);
+      return in_space(space.box().corner(space.box().index(number)) +
+                      space.box().spacing() * Tensor<1, dim>(xi));
     };
-    Extremes<dim> &all = extremes_of_rank;
-    if (system.smallest_J.value < all.smallest_J)
-      {
-        all.smallest_J = system.smallest_J.value;
-        all.place_of_J = place(system.smallest_J.xi);
-      }
-    if (system.largest_gap.value > all.largest_gap)
-      {
-        all.largest_gap  = system.largest_gap.value;
-        all.place_of_gap = place(system.largest_gap.xi);
-      }
+    if (system.smallest_J.value < evaluation.smallest_J.value)
+      evaluation.smallest_J = {system.smallest_J.value,
+                               place(system.smallest_J.xi)};
+    if (system.largest_gap.value > evaluation.largest_gap.value)
+      evaluation.largest_gap = {system.largest_gap.value,
+                                place(system.largest_gap.xi)};
   }
 
   template <int dim>
   Extremes<dim>
-  MomentumBalance<dim>::extremes() const
+  MomentumBalance<dim>::extremes(const Evaluation &evaluation) const
   {
-    Extremes<dim> all = extremes_of_rank;
-    find_best(all.smallest_J, all.place_of_J, std::less<double>(), comm);
-    find_best(all.largest_gap, all.place_of_gap, std::greater<double>(), comm);
-    return all;
+    const Extreme J =
+      best_of_ranks(evaluation.smallest_J, std::less<double>(), comm);
+    const Extreme gap =
+      best_of_ranks(evaluation.largest_gap, std::greater<double>(), comm);
+    return {J.value,
+            from_space<dim>(J.place),
+            gap.value,
+            from_space<dim>(gap.place)};
   }
 
   template <int dim>
@@ -154,15 +177,17 @@ namespace Morula
         for (unsigned int d = 0; d < dim; ++d)
           place[d] = places[piece][unknown * dim + d];
       }
-    find_best(largest, place, std::greater<double>(), comm);
-    return place;
+    return from_space<dim>(
+      best_of_ranks({largest, in_space(place)}, std::greater<double>(), comm)
+        .place);
   }
 
   template <int dim>
   std::string
-  MomentumBalance<dim>::describe(const Vector &R) const
+  MomentumBalance<dim>::describe(const Vector &u) const
   {
-    const Extremes<dim> all = extremes();
+    Vector              R(u);
+    const Extremes<dim> all = extremes(residual(u, R));
     std::ostringstream  text;
     if (all.smallest_J > 0.)
       text << "The smallest J_e is " << all.smallest_J << ", at ("
@@ -179,13 +204,11 @@ namespace Morula
 
   template <int dim>
   double
-  MomentumBalance<dim>::rounding(const Vector &u) const
+  MomentumBalance<dim>::residual_magnitude(const Vector &u) const
   {
     Vector sum;
     sum_up(u, LocalSystem<dim>::rounding, sum);
-    return sum.size() == 0 ?
-             0. :
-             10. * std::numeric_limits<double>::epsilon() * sum.l2_norm();
+    return sum.size() == 0 ? 0. : sum.l2_norm();
   }
 
   template <int dim>
@@ -219,48 +242,28 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  MomentumBalance<dim>::is_conservative() const
+  LinearProblem
+  MomentumBalance<dim>::linear_problem(const double        youngs_modulus,
+                                       std::vector<Vector> null_space) const
   {
-    for (const auto &term : terms)
-      if (!term->is_conservative())
-        return false;
-    return true;
+    LinearProblem result;
+    result.symmetric =
+      std::all_of(terms.begin(), terms.end(), [](const auto &term) {
+        return term->is_conservative();
+      });
+    result.null_space       = std::move(null_space);
+    result.strongly_coupled = assembly.unknowns().of_extended_splines();
+    result.typical_entry =
+      youngs_modulus * std::pow(space.box().spacing(), dim - 2);
+    return result;
   }
 
   template <int dim>
-  const std::vector<Equilibrium::Vector> &
-  MomentumBalance<dim>::null_space() const
+  NewtonScales
+  MomentumBalance<dim>::scales(const double youngs_modulus) const
   {
-    return null_space_;
-  }
-
-  template <int dim>
-  IndexSet
-  MomentumBalance<dim>::coupled_dofs() const
-  {
-    return assembly.unknowns().of_extended_splines();
-  }
-
-  template <int dim>
-  double
-  MomentumBalance<dim>::small_force() const
-  {
-    return 1e-6 * youngs_modulus * std::pow(space.box().spacing(), dim - 1);
-  }
-
-  template <int dim>
-  double
-  MomentumBalance<dim>::typical_length() const
-  {
-    return space.box().spacing();
-  }
-
-  template <int dim>
-  double
-  MomentumBalance<dim>::stiffness_scale() const
-  {
-    return youngs_modulus * std::pow(space.box().spacing(), dim - 2);
+    const double h = space.box().spacing();
+    return {1e-6 * youngs_modulus * std::pow(h, dim - 1), h};
   }
 
   template class MomentumBalance<2>;

@@ -244,17 +244,28 @@ namespace Morula
       points = material_points(tissue, space, growth_of_step, material);
     }
     const auto           list = terms(points, space);
-    MomentumBalance<dim> balance(
-      space, list, typical_stiffness, inertia(space, rigid_modes), timer, comm);
-    estimate_condition(balance);
-    solve(balance,
-          scene.solver,
-          timer,
-          u,
-          newton_report,
-          start_of_step(space, rigid_modes));
+    MomentumBalance<dim> balance(space, list, timer, comm);
+    const LinearProblem  linear_problem =
+      balance.linear_problem(typical_stiffness, inertia(space, rigid_modes));
+    estimate_condition(balance, linear_problem);
+    u = start_of_step(space, rigid_modes).value_or(balance.rest());
+    Equilibrium::Evaluation evaluation;
+    try
+      {
+        evaluation = solve(balance,
+                           linear_problem,
+                           balance.scales(typical_stiffness),
+                           scene.solver,
+                           timer,
+                           u,
+                           newton_report);
+      }
+    catch (const StepFailed &failure)
+      {
+        throw StepFailed(failure.what() + (". " + balance.describe(u)));
+      }
     if (boundary_conditions.has_dirichlet())
-      check_gap(balance.extremes());
+      check_gap(balance.extremes(evaluation));
 
     // A large cell is several quadrature points, but deforms as the field does
     // at its own position: no energy has kept that from turning inside out.
@@ -282,13 +293,15 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance)
+  Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance,
+                                      const LinearProblem  &linear_problem)
   {
     // Once a step, in its first attempt.
     if (!scene.output.condition_estimate || condition)
       return;
     const TimerOutput::Scope section(timer, "condition estimate");
-    condition = Morula::estimate_condition(balance);
+    condition =
+      Morula::estimate_condition(balance, linear_problem, balance.rest());
   }
 
   template <int dim>

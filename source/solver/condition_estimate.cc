@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/solver/condition_estimate.h>
+#include <morula/solver/null_space.h>
 
 #include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_cg.h>
@@ -28,13 +29,6 @@ namespace Morula
     constexpr double       reduction               = 1e-20;
     constexpr unsigned int max_estimate_iterations = 5000; // and 100 + 10 n
 
-    void
-    remove(Vector &x, const std::vector<Vector> &directions)
-    {
-      for (const Vector &direction : directions)
-        x.add(-(x * direction), direction);
-    }
-
     /**
      * P D^(-1/2) (K + K^T)/2 D^(-1/2) P, where P removes the scaled null space.
      * There it is a multiple of the identity, the mean of the other
@@ -44,11 +38,11 @@ namespace Morula
     class ScaledTangent
     {
     public:
-      ScaledTangent(const Equilibrium &problem,
-                    const Matrix      &K,
-                    const Vector      &layout)
+      ScaledTangent(const LinearProblem &problem,
+                    const Matrix        &K,
+                    const Vector        &layout)
         : K(K)
-        , symmetric(problem.is_conservative())
+        , symmetric(problem.symmetric)
         , scale(layout)
         , x(layout)
         , part(layout)
@@ -59,14 +53,14 @@ namespace Morula
             scale(row) = diagonal > 0. ? 1. / std::sqrt(diagonal) : 1.;
           }
         scale.compress(VectorOperation::insert);
-        for (const Vector &direction : problem.null_space())
+        for (const Vector &direction : problem.null_space)
           {
             // D^(1/2) n, orthonormal
             Vector scaled(direction);
             for (const auto row : scaled.locally_owned_elements())
               scaled(row) = direction(row) / scale(row);
             scaled.compress(VectorOperation::insert);
-            remove(scaled, null_space);
+            remove_parts(scaled, null_space);
             scaled /= scaled.l2_norm();
             null_space.push_back(scaled);
           }
@@ -78,7 +72,7 @@ namespace Morula
       vmult(Vector &y, const Vector &in) const
       {
         x = in;
-        remove(x, null_space);
+        remove_parts(x, null_space);
         x.scale(scale);
         K.vmult(y, x);
         if (!symmetric)
@@ -87,9 +81,9 @@ namespace Morula
             y.sadd(0.5, 0.5, part);
           }
         y.scale(scale);
-        remove(y, null_space);
+        remove_parts(y, null_space);
         part = in;
-        remove(part, null_space);
+        remove_parts(part, null_space);
         part.sadd(-1., 1., in);
         y.add(mean, part);
       }
@@ -145,7 +139,7 @@ namespace Morula
       double              carried = 0.;
     };
 
-    /** Has a part in every eigenvector, for all that can be foreseen. */
+    /** A random vector has a part in every eigenvector. */
     Vector
     random_vector(const Vector &layout)
     {
@@ -171,19 +165,19 @@ namespace Morula
   }
 
   ConditionEstimate
-  estimate_condition(Equilibrium &problem)
+  estimate_condition(Equilibrium         &problem,
+                     const LinearProblem &linear_problem,
+                     const Vector        &rest)
   {
-    Vector zero;
-    problem.initialize(zero);
-    const Matrix       &K = problem.tangent(zero, GrowthAt::previous);
-    const ScaledTangent A(problem, K, zero);
-    Vector              x(zero), b = random_vector(zero);
+    const Matrix       &K = problem.tangent(rest, GrowthAt::previous);
+    const ScaledTangent A(linear_problem, K, rest);
+    Vector              x(rest), b = random_vector(rest);
 
-    // It does not matter whether conjugate gradients solve the system.
+    // Only the coefficients are used; convergence is irrelevant.
     LanczosMatrix    lanczos;
     bool             breakdown = false;
     ReductionControl control(std::min<unsigned int>(max_estimate_iterations,
-                                                    100 + 10 * zero.size()),
+                                                    100 + 10 * rest.size()),
                              0.,
                              reduction,
                              false,
@@ -205,7 +199,7 @@ namespace Morula
       }
 
     ConditionEstimate estimate;
-    estimate.unknowns                             = zero.size();
+    estimate.unknowns                             = rest.size();
     std::tie(estimate.smallest, estimate.largest) = lanczos.extremes();
     // A direction without any stiffness.
     if (breakdown)

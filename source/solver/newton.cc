@@ -27,19 +27,21 @@ namespace Morula
     class EnergyLineSearchFactory : public NOX::LineSearch::UserDefinedFactory
     {
     public:
-      explicit EnergyLineSearchFactory(const Equilibrium &problem)
+      EnergyLineSearchFactory(const Equilibrium &problem, const bool has_energy)
         : problem(problem)
+        , has_energy(has_energy)
       {}
 
       Teuchos::RCP<NOX::LineSearch::Generic>
       buildLineSearch(const Teuchos::RCP<NOX::GlobalData> &,
                       Teuchos::ParameterList &) const override
       {
-        return Teuchos::rcp(new EnergyLineSearch(problem));
+        return Teuchos::rcp(new EnergyLineSearch(problem, has_energy));
       }
 
     private:
       const Equilibrium &problem;
+      const bool         has_energy;
     };
 
     /** Converged where both the unbalanced forces and what they may still
@@ -117,26 +119,10 @@ namespace Morula
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
     };
 
-    /** The failure of an attempt that has come as far as @p u, with what the
-     *  user should know of it. */
-    StepFailed
-    failure(std::string                reason,
-            const Equilibrium         &problem,
-            const Equilibrium::Vector &u,
-            const double               largest_shift)
-    {
-      if (largest_shift > 0.)
-        reason += ". The tangent was indefinite: the body is unstable (it "
-                  "buckles or folds, or its material is stretched so far that "
-                  "it has lost its ellipticity)";
-      Equilibrium::Vector R(u);
-      problem.residual(u, R);
-      const std::string state = problem.describe(R);
-      return StepFailed(state.empty() ? reason : reason + ". " + state);
-    }
-
     Teuchos::RCP<Teuchos::ParameterList>
-    nox_parameters(const Equilibrium &problem, const double linear_tolerance)
+    nox_parameters(const Equilibrium &problem,
+                   const bool         has_energy,
+                   const double       linear_tolerance)
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
@@ -164,49 +150,49 @@ namespace Morula
       Teuchos::ParameterList &search = parameters->sublist("Line Search");
       search.set("Method", "User Defined");
       const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory =
-        Teuchos::rcp(new EnergyLineSearchFactory(problem));
+        Teuchos::rcp(new EnergyLineSearchFactory(problem, has_energy));
       search.set("User Defined Line Search Factory", factory);
       return parameters;
     }
   } // namespace
 
-  void
-  solve(Equilibrium                              &problem,
-        const SolverParameters                   &parameters,
-        TimerOutput                              &timer,
-        Equilibrium::Vector                      &u,
-        NewtonReport                             &report,
-        const std::optional<Equilibrium::Vector> &start)
+  Equilibrium::Evaluation
+  solve(Equilibrium            &problem,
+        const LinearProblem    &linear_problem,
+        const NewtonScales     &scales,
+        const SolverParameters &parameters,
+        TimerOutput            &timer,
+        Equilibrium::Vector    &u,
+        NewtonReport           &report)
   {
-    problem.initialize(u);
-    if (start)
-      u = *start;
-    LinearSolver linear_solver(parameters, problem, timer);
-    const auto   group =
-      Teuchos::rcp(new NoxGroup(problem, linear_solver, report, u));
+    LinearSolver linear_solver(parameters, linear_problem, timer);
+    const auto   group = Teuchos::rcp(
+      new NoxGroup(problem, linear_problem, linear_solver, report, u));
     group->computeF();
     if (!std::isfinite(group->evaluation().energy))
-      throw failure("there is no state to start from", problem, u, 0.);
+      throw StepFailed("there is no state to start from");
     const double first    = group->getNormF();
-    const double rounding = problem.rounding(u);
+    const double rounding = rounding_of_residual(problem, u);
     const double bound    = std::max(parameters.newton_tolerance *
-                                    std::max(first, problem.small_force()),
+                                    std::max(first, scales.small_force),
                                   rounding);
     report.residual       = first > 0. ? 1. : 0.;
     if (first <= bound)
-      return;
+      return group->evaluation();
 
     ConvergenceTest::Bounds bounds;
-    bounds.residual = bound;
-    bounds.rounding = rounding;
-    bounds.displacement =
-      parameters.newton_tolerance * problem.typical_length();
-    const auto  test   = Teuchos::rcp(new ConvergenceTest(bounds));
-    std::string reason = "Newton's method has not converged: ";
+    bounds.residual     = bound;
+    bounds.rounding     = rounding;
+    bounds.displacement = parameters.newton_tolerance * scales.length;
+    const auto  test    = Teuchos::rcp(new ConvergenceTest(bounds));
+    std::string reason  = "Newton's method has not converged: ";
     try
       {
-        NOX::Solver::buildSolver(
-          group, test, nox_parameters(problem, parameters.linear_tolerance))
+        NOX::Solver::buildSolver(group,
+                                 test,
+                                 nox_parameters(problem,
+                                                linear_problem.symmetric,
+                                                parameters.linear_tolerance))
           ->solve();
         reason += test->reason_of_failure();
       }
@@ -226,10 +212,14 @@ namespace Morula
       }
     u               = values_of(group->getX());
     report.residual = group->getNormF() / first;
-    // A failure to improve what is in balance already is none.
+    // Converged already: a failed line search does not matter.
     if (group->isF() && std::isfinite(group->evaluation().energy) &&
         group->getNormF() <= bound)
-      return;
-    throw failure(reason, problem, u, linear_solver.largest_shift());
+      return group->evaluation();
+    if (linear_solver.largest_shift() > 0.)
+      reason += ". The tangent was indefinite: the body is unstable (it "
+                "buckles or folds, or its material is stretched so far that "
+                "it has lost its ellipticity)";
+    throw StepFailed(reason);
   }
 } // namespace Morula

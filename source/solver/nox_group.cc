@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/solver/nox_group.h>
+#include <morula/solver/null_space.h>
 
 #include <NOX_Solver_Generic.H>
 #include <Teuchos_ParameterList.hpp>
@@ -11,11 +12,26 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** A sum's rounding error, relative to the sum of its magnitudes. */
+    constexpr double rounding_error =
+      10. * std::numeric_limits<double>::epsilon();
+  } // namespace
+
+  double
+  rounding_of_residual(const Equilibrium &problem, const Equilibrium::Vector &u)
+  {
+    return rounding_error * problem.residual_magnitude(u);
+  }
+
   NoxGroup::NoxGroup(Equilibrium               &problem,
+                     const LinearProblem       &linear_problem,
                      LinearSolver              &linear_solver,
                      NewtonReport              &report,
                      const Equilibrium::Vector &u)
     : problem(problem)
+    , linear_problem(linear_problem)
     , linear_solver(linear_solver)
     , report(report)
     , u(u)
@@ -77,8 +93,7 @@ namespace Morula
         evaluation_ = problem.residual(u.values, R.values);
         // Nothing balances a force along an unsupported motion, and nothing
         // moves along it: what counts is the rest.
-        for (const Equilibrium::Vector &direction : problem.null_space())
-          R.values.add(-(R.values * direction), direction);
+        remove_parts(R.values, linear_problem.null_space);
       }
     has_residual = true;
     return Ok;
@@ -211,15 +226,17 @@ namespace Morula
   Teuchos::RCP<NOX::Abstract::Group>
   NoxGroup::clone(const NOX::CopyType type) const
   {
-    const auto copy =
-      Teuchos::rcp(new NoxGroup(problem, linear_solver, report, u.values));
+    const auto copy = Teuchos::rcp(
+      new NoxGroup(problem, linear_problem, linear_solver, report, u.values));
     if (type == NOX::DeepCopy)
       *copy = static_cast<const NOX::Abstract::Group &>(*this);
     return copy;
   }
 
-  EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem)
+  EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem,
+                                     const bool         has_energy)
     : problem(problem)
+    , has_energy(has_energy)
   {}
 
   bool
@@ -234,12 +251,10 @@ namespace Morula
       dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
     auto &new_group = dynamic_cast<NoxGroup &>(group);
 
-    const bool   conservative = problem.is_conservative();
-    const double slope        = direction.innerProduct(old_group.getF());
-    const auto  &before       = old_group.evaluation();
-    const double slack =
-      10. * std::numeric_limits<double>::epsilon() * before.energy_magnitude;
-    step = 1.;
+    const double slope  = direction.innerProduct(old_group.getF());
+    const auto  &before = old_group.evaluation();
+    const double slack  = rounding_error * before.energy_magnitude;
+    step                = 1.;
     for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
       {
         new_group.computeX(old_group, direction, step);
@@ -247,12 +262,12 @@ namespace Morula
         const double energy = new_group.evaluation().energy;
         if (!std::isfinite(energy))
           continue;
-        if (conservative ?
+        if (has_energy ?
               energy <= before.energy + armijo * step * slope + slack :
               new_group.getNormF() <=
                   (1. - armijo * step) * old_group.getNormF() ||
                 new_group.getNormF() <=
-                  problem.rounding(values_of(new_group.getX())))
+                  rounding_of_residual(problem, values_of(new_group.getX())))
           return true;
       }
     step = 0.; // any other length NOX would take for a recovery step

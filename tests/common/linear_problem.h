@@ -48,10 +48,9 @@ namespace Morula
     /** Energy at u. */
     std::function<double(const std::vector<double> &)> energy =
       [](const std::vector<double> &) { return 0.; };
-    bool                conservative = true;
-    double              small        = 0.;
-    double              length       = 1.;
-    std::vector<Vector> nulls;
+    /** What the solvers are told besides. */
+    LinearProblem linear;
+    NewtonScales  scales;
 
     /** What Newton's method asked for. */
     std::vector<GrowthAt>       tangents;
@@ -74,12 +73,13 @@ namespace Morula
           pattern.add(row, column);
       pattern.compress();
       K.reinit(pattern);
+      linear.strongly_coupled = owned;
     }
 
-    void
-    initialize(Vector &vector) const override
+    Vector
+    zero() const
     {
-      vector.reinit(owned, MPI_COMM_WORLD);
+      return Vector(owned, MPI_COMM_WORLD);
     }
 
     Evaluation
@@ -88,19 +88,19 @@ namespace Morula
       const auto   values = gathered(u);
       const double e      = energy(values);
       if (!std::isfinite(e))
-        return {e, 0.};
-      initialize(R);
+        return evaluation(e, 0.);
+      R = zero();
       for (const auto i : owned)
         R(i) = force(i, values);
       R.compress(VectorOperation::insert);
       residual_norms.push_back(R.l2_norm());
-      return {e, std::abs(e)};
+      return evaluation(e, std::abs(e));
     }
 
     double
-    rounding(const Vector &) const override
+    residual_magnitude(const Vector &) const override
     {
-      return 1e-13;
+      return 1e-14 / std::numeric_limits<double>::epsilon();
     }
 
     const Matrix &
@@ -117,42 +117,6 @@ namespace Morula
       return K;
     }
 
-    bool
-    is_conservative() const override
-    {
-      return conservative;
-    }
-
-    const std::vector<Vector> &
-    null_space() const override
-    {
-      return nulls;
-    }
-
-    IndexSet
-    coupled_dofs() const override
-    {
-      return owned;
-    }
-
-    double
-    small_force() const override
-    {
-      return small;
-    }
-
-    double
-    typical_length() const override
-    {
-      return length;
-    }
-
-    double
-    stiffness_scale() const override
-    {
-      return 1.;
-    }
-
     /** All entries of a vector, on all ranks. */
     std::vector<double>
     gathered(const Vector &u) const
@@ -167,8 +131,7 @@ namespace Morula
     Vector
     vector_of(const std::vector<double> &values) const
     {
-      Vector vector;
-      initialize(vector);
+      Vector vector = zero();
       for (const auto i : owned)
         vector(i) = values[i];
       vector.compress(VectorOperation::insert);
@@ -179,6 +142,15 @@ namespace Morula
     IndexSet           owned;
 
   private:
+    static Evaluation
+    evaluation(const double energy, const double magnitude)
+    {
+      Evaluation result;
+      result.energy           = energy;
+      result.energy_magnitude = magnitude;
+      return result;
+    }
+
     Matrix K;
   };
 } // namespace Morula

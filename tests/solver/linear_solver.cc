@@ -45,7 +45,7 @@ namespace
         return foundation + (i > 0 ? spring(i - 1) : 0.) +
                (i + 1 < n ? spring(i) : 0.);
       };
-    problem.conservative = skew == 0.;
+    problem.linear.symmetric = skew == 0.;
     return problem;
   }
 
@@ -71,15 +71,14 @@ namespace
   check_solution(const std::string &solver, const double skew)
   {
     SCOPED_TRACE(solver);
-    unsigned int        ignored = 0;
-    QuietTimer          timer;
-    ChainProblem        problem = chain(0.5, skew);
-    LinearSolver        linear_solver(parameters(solver), problem, timer);
-    Equilibrium::Vector zero, b, x;
-    problem.initialize(zero);
-    const auto &K        = problem.tangent(zero, GrowthAt::current);
-    const auto  solution = problem.vector_of(random_values(1));
-    b                    = solution;
+    unsigned int ignored = 0;
+    QuietTimer   timer;
+    ChainProblem problem = chain(0.5, skew);
+    LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+    Equilibrium::Vector zero     = problem.zero(), b, x;
+    const auto         &K        = problem.tangent(zero, GrowthAt::current);
+    const auto          solution = problem.vector_of(random_values(1));
+    b                            = solution;
     K.vmult(b, solution);
     x                         = zero;
     unsigned int n_iterations = 0;
@@ -91,7 +90,7 @@ namespace
 
     // A loose tolerance is no more work, and the preconditioner serves for
     // another matrix.
-    problem.initialize(x);
+    x                    = zero;
     unsigned int n_loose = 0;
     linear_solver.solve(K, x, b, 1e-2, n_loose);
     EXPECT_LE(n_loose, n_iterations);
@@ -120,10 +119,9 @@ namespace
     problem.stiffness = [&](const unsigned int i,
                             const unsigned int j,
                             auto &) { return i == j ? entry(i) : 0.; };
-    LinearSolver        linear_solver(parameters(solver), problem, timer);
-    Equilibrium::Vector x;
-    problem.initialize(x);
-    const auto &K = problem.tangent(x, GrowthAt::current);
+    LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+    Equilibrium::Vector x = problem.zero();
+    const auto         &K = problem.tangent(x, GrowthAt::current);
     for (unsigned int seed = 1; seed <= 5; ++seed)
       {
         // Mostly where the curvature is negative.
@@ -146,17 +144,17 @@ namespace
     unsigned int ignored = 0;
     QuietTimer   timer;
     ChainProblem problem = chain(0.);
-    problem.nulls.push_back(
+    problem.linear.null_space.push_back(
       problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n))));
-    LinearSolver        linear_solver(parameters(solver), problem, timer);
-    Equilibrium::Vector x;
-    problem.initialize(x);
-    const auto &K        = problem.tangent(x, GrowthAt::current);
-    auto        balanced = problem.vector_of(random_values(2));
-    auto        b        = balanced;
-    balanced.add(-(b * problem.nulls[0]), problem.nulls[0]);
+    LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+    Equilibrium::Vector x        = problem.zero();
+    const auto         &K        = problem.tangent(x, GrowthAt::current);
+    auto                balanced = problem.vector_of(random_values(2));
+    auto                b        = balanced;
+    balanced.add(-(b * problem.linear.null_space[0]),
+                 problem.linear.null_space[0]);
     linear_solver.solve(K, x, b, 1e-9, ignored);
-    EXPECT_NEAR(x * problem.nulls[0], 0., 1e-9 * x.l2_norm());
+    EXPECT_NEAR(x * problem.linear.null_space[0], 0., 1e-9 * x.l2_norm());
     // The direct solver shifts the diagonal a little.
     EXPECT_LE(defect(K, x, balanced), solver == "direct" ? 1e-3 : 1e-8);
   }
@@ -210,11 +208,10 @@ TEST(LinearSolver, SolvesWithEmptyRows)
           [=](const unsigned int i, const unsigned int j, const auto &u) {
             return empty(i) || empty(j) ? 0. : full(i, j, u);
           };
-        LinearSolver        linear_solver(parameters(solver), problem, timer);
-        Equilibrium::Vector x, b;
-        problem.initialize(x);
-        const auto &K      = problem.tangent(x, GrowthAt::current);
-        auto        values = random_values(4);
+        LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+        Equilibrium::Vector x      = problem.zero(), b;
+        const auto         &K      = problem.tangent(x, GrowthAt::current);
+        auto                values = random_values(4);
         for (unsigned int i = 0; i < n; ++i)
           if (empty(i))
             values[i] = 0.;
@@ -237,11 +234,10 @@ TEST(LinearSolver, DoesWithoutAFactorisation)
     [](const unsigned int i, const unsigned int j, const auto &) {
       return i == j ? (i % 5 == 0 ? 1e-12 : 1.) : (i / 5 == j / 5 ? 1e-7 : 0.);
     };
-  LinearSolver        linear_solver(parameters("iterative"), problem, timer);
-  Equilibrium::Vector x;
-  problem.initialize(x);
-  const auto &K = problem.tangent(x, GrowthAt::current);
-  const auto  b = problem.vector_of(random_values(5));
+  LinearSolver linear_solver(parameters("iterative"), problem.linear, timer);
+  Equilibrium::Vector x = problem.zero();
+  const auto         &K = problem.tangent(x, GrowthAt::current);
+  const auto          b = problem.vector_of(random_values(5));
   linear_solver.solve(K, x, b, 1e-6, ignored);
   EXPECT_TRUE(std::isfinite(x.l2_norm()));
   EXPECT_GT(x * b, 0.);
@@ -254,9 +250,8 @@ TEST(LinearSolver, FailsTogetherWhereNothingHelps)
   QuietTimer   timer;
   ChainProblem problem(n);
   problem.stiffness = [](auto, auto, auto &) { return 0.; };
-  LinearSolver        linear_solver(parameters("iterative"), problem, timer);
-  Equilibrium::Vector x;
-  problem.initialize(x);
+  LinearSolver linear_solver(parameters("iterative"), problem.linear, timer);
+  Equilibrium::Vector x = problem.zero();
   EXPECT_THROW(linear_solver.solve(problem.tangent(x, GrowthAt::current),
                                    x,
                                    problem.vector_of(random_values(3)),

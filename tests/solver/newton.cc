@@ -68,7 +68,7 @@ namespace
           }
         return sum;
       };
-    problem.conservative = skew == 0.;
+    problem.linear.symmetric = skew == 0.;
     return problem;
   }
 
@@ -87,9 +87,15 @@ namespace
     SolverParameters parameters;
     parameters.newton_tolerance = tolerance;
     parameters.linear_solver    = linear_solver;
-    Equilibrium::Vector u;
+    Equilibrium::Vector u       = problem.zero();
     Result              result;
-    solve(problem, parameters, timer, u, result.report);
+    solve(problem,
+          problem.linear,
+          problem.scales,
+          parameters,
+          timer,
+          u,
+          result.report);
     result.u = problem.gathered(u);
     return result;
   }
@@ -183,9 +189,9 @@ TEST(Newton, DoesNothingAtEquilibrium)
       alike([](double u) { return 0.5 * u * u - 1e-9 * u; },
             [](double u) { return u - 1e-9; },
             [](double) { return 1.; });
-    problem.small = 1.;
+    problem.scales.small_force = 1.;
     EXPECT_EQ(solved(problem, 1e-6).report.newton_iterations, 0u);
-    problem.small = 1e-9;
+    problem.scales.small_force = 1e-9;
     EXPECT_GT(solved(problem, 1e-6).report.newton_iterations, 0u);
   }
 }
@@ -196,11 +202,11 @@ TEST(Newton, DoesNothingAtEquilibrium)
 TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
 {
   const auto error = [](const double length, unsigned int &iterations) {
-    ChainProblem problem = hardening(0.);
-    problem.length       = length;
-    const Result result  = solved(problem, 1e-2, "direct");
-    iterations           = result.report.newton_iterations;
-    double largest       = 0.;
+    ChainProblem problem  = hardening(0.);
+    problem.scales.length = length;
+    const Result result   = solved(problem, 1e-2, "direct");
+    iterations            = result.report.newton_iterations;
+    double largest        = 0.;
     for (unsigned int i = 0; i < n; ++i)
       largest = std::max(largest, std::abs(result.u[i] - solution(i)));
     return largest;
@@ -262,10 +268,10 @@ TEST(Newton, FailsWithoutASolution)
   EXPECT_THROW(solved(inverted, 1e-6), StepFailed);
 
   // Without energy: |R| has a minimum where R is not zero.
-  ChainProblem stuck = alike([](double) { return 0.; },
+  ChainProblem stuck     = alike([](double) { return 0.; },
                              [](double u) { return u * u - u + 1.; },
                              [](double u) { return 2. * u - 1.; });
-  stuck.conservative = false;
+  stuck.linear.symmetric = false;
   EXPECT_THROW(solved(stuck, 1e-6), StepFailed);
 }
 
@@ -282,8 +288,14 @@ TEST(Newton, EndsWithASearchThatFindsNothing)
     [](double) { return 1.; });
   QuietTimer          timer;
   NewtonReport        report;
-  Equilibrium::Vector u;
-  EXPECT_THROW(solve(problem, SolverParameters(), timer, u, report),
+  Equilibrium::Vector u = problem.zero();
+  EXPECT_THROW(solve(problem,
+                     problem.linear,
+                     problem.scales,
+                     SolverParameters(),
+                     timer,
+                     u,
+                     report),
                StepFailed);
   EXPECT_EQ(report.newton_iterations, 1u);
 }
@@ -333,10 +345,16 @@ TEST(Newton, SaysThatTheTangentIsIndefinite)
                                [](double u) { return -std::exp(u); });
   QuietTimer          timer;
   NewtonReport        report;
-  Equilibrium::Vector u;
+  Equilibrium::Vector u = problem.zero();
   try
     {
-      solve(problem, SolverParameters(), timer, u, report);
+      solve(problem,
+            problem.linear,
+            problem.scales,
+            SolverParameters(),
+            timer,
+            u,
+            report);
       FAIL() << "it must fail";
     }
   catch (const StepFailed &failure)
@@ -349,14 +367,18 @@ TEST(Newton, SaysThatTheTangentIsIndefinite)
 
 TEST(Newton, ReportsAddUp)
 {
-  QuietTimer          timer;
-  SolverParameters    parameters;
-  NewtonReport        report;
-  Equilibrium::Vector u;
-  ChainProblem        problem = hardening(0.);
-  solve(problem, parameters, timer, u, report);
+  QuietTimer       timer;
+  SolverParameters parameters;
+  NewtonReport     report;
+  ChainProblem     problem   = hardening(0.);
+  const auto       once_more = [&]() {
+    Equilibrium::Vector u = problem.zero();
+    solve(
+      problem, problem.linear, problem.scales, parameters, timer, u, report);
+  };
+  once_more();
   const unsigned int once = report.newton_iterations;
-  solve(problem, parameters, timer, u, report);
+  once_more();
   EXPECT_EQ(report.newton_iterations, 2 * once);
   EXPECT_LE(report.residual, parameters.newton_tolerance);
 }
@@ -387,7 +409,7 @@ TEST(Newton, LeavesAnUnbalancedLoadOut)
             (i > 0 ? 0.5 * std::pow(u[i] - u[i - 1], 2) : 0.) - load(i) * u[i];
         return sum;
       };
-      problem.nulls.push_back(
+      problem.linear.null_space.push_back(
         problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n))));
       const Result result = solved(problem, 1e-9, linear_solver);
 

@@ -6,11 +6,12 @@
 
 #include <morula/mechanics/term.h>
 
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace Morula
@@ -28,7 +29,8 @@ namespace Morula
 
   /**
    * A nonlinear equilibrium problem as Newton's method sees it, in terms of
-   * the increment u of one step (µm). All functions are collective.
+   * the increment u of one step (µm): energy, residual and tangent. All
+   * functions are collective.
    */
   class Equilibrium
   {
@@ -38,75 +40,73 @@ namespace Morula
 
     virtual ~Equilibrium() = default;
 
+    /** A value, and the place where it is extreme: µm, in the configuration at
+     *  t; with z = 0 in 2-D. */
+    struct Extreme
+    {
+      double   value;
+      Point<3> place;
+    };
+
     /** What an evaluation of the residual gives besides. */
     struct Evaluation
     {
       /** Energy, kPa µm^dim; infinite where the body is inverted on any
        *  rank. */
-      double energy;
+      double energy = 0.;
       /** Σ|contributions| to the energy, for its rounding error. */
-      double energy_magnitude;
+      double energy_magnitude = 0.;
+
+      /** Of this rank's points: the smallest J_e, or det f where the step
+       *  inverts the tissue. */
+      Extreme smallest_J = {0., {}};
+      /** Of this rank's held points: the largest distance from where one is
+       *  held, µm; negative: none is held. */
+      Extreme largest_gap = {-1., {}};
     };
 
-    /** Gives @p vector the layout of the unknowns, all zero. */
-    virtual void
-    initialize(Vector &vector) const = 0;
-
-    /** Energy and residual R(u) = dΠ/du, kPa µm^(dim-1). */
+    /** Energy and residual R(u) = dΠ/du, kPa µm^(dim-1). R is left alone where
+     *  the energy is infinite. */
     virtual Evaluation
     residual(const Vector &u, Vector &R) const = 0;
 
-    /**
-     * Size of the residual that rounding alone can cause:
-     * 10 ε ‖Σ|contributions|‖.
-     */
+    /** ‖Σ|contributions|‖ to the residual at u, kPa µm^(dim-1), for its
+     *  rounding error; 0 where the body is inverted. */
     virtual double
-    rounding(const Vector &u) const = 0;
+    residual_magnitude(const Vector &u) const = 0;
 
-    /**
-     * What a user should know of the last state that residual() was called
-     * for, where Newton's method fails there: extreme values and their places.
-     * The argument is its residual.
-     */
-    virtual std::string
-    describe(const Vector & /*R*/) const
-    {
-      return "";
-    }
-
-    /** The tangent K(u). The matrix belongs to the problem. */
+    /** The tangent K(u). The matrix belongs to the problem, and is overwritten
+     *  by the next call. */
     virtual const Matrix &
     tangent(const Vector &u, const GrowthAt growth) = 0;
+  };
 
-    /** Whether there is an energy and the tangent is symmetric. */
-    virtual bool
-    is_conservative() const = 0;
-
+  /** What a linear solver should know of the matrices of a problem. */
+  struct LinearProblem
+  {
+    /** Whether they are symmetric, i.e., whether there is an energy. */
+    bool symmetric = true;
     /**
      * Orthonormal vectors along which forces are left out, as if inertia
-     * balanced them, since nothing else does: the
-     * solution is sought orthogonal to them.
+     * balanced them, since nothing else does: the solution is sought orthogonal
+     * to them.
      */
-    virtual const std::vector<Vector> &
-    null_space() const = 0;
+    std::vector<Equilibrium::Vector> null_space;
+    /** Unknowns, of this rank or others, that extended splines in this rank's
+     *  part of the problem couple strongly. The preconditioner keeps them in
+     *  one block. */
+    IndexSet strongly_coupled;
+    /** Typical entry of a matrix; of a tangent in kPa µm^(dim-2). */
+    double typical_entry = 1.;
+  };
 
-    /** Unknowns, of this rank or others, that hang together so closely that a
-     *  preconditioner must not part them: what couples them most is this rank's
-     *  part of the problem. */
-    virtual IndexSet
-    coupled_dofs() const = 0;
-
+  /** What Newton's method compares with. */
+  struct NewtonScales
+  {
     /** A force that counts as small in this scene, kPa µm^(dim-1). */
-    virtual double
-    small_force() const = 0;
-
+    double small_force = 0.;
     /** The length that errors of the increment are compared with, µm. */
-    virtual double
-    typical_length() const = 0;
-
-    /** Typical entry of the tangent, kPa µm^(dim-2). */
-    virtual double
-    stiffness_scale() const = 0;
+    double length = 1.;
   };
 } // namespace Morula
 

@@ -43,61 +43,49 @@ namespace Morula
   public:
     using TermList = std::vector<std::unique_ptr<Term<dim>>>;
 
-    /**
-     * Keeps references to the space and the terms.
-     * @param youngs_modulus a typical one, kPa
-     * @param null_space     orthonormal; forces along them are left out, and
-     *                       u is sought orthogonal to them: as in
-     *                       RigidModes::inertia()
-     */
+    /** Keeps references to the space, the terms and the timer. */
     MomentumBalance(const SplineSpace<dim> &space,
                     const TermList         &terms,
-                    const double            youngs_modulus,
-                    std::vector<Vector>     null_space,
                     TimerOutput            &timer,
                     const MPI_Comm          comm);
 
-    void
-    initialize(Vector &vector) const override;
+    /** u = 0. Collective. */
+    Vector
+    rest() const;
 
     Evaluation
     residual(const Vector &u, Vector &R) const override;
 
     double
-    rounding(const Vector &u) const override;
+    residual_magnitude(const Vector &u) const override;
 
-    /** Of the state that residual() was last called for. Collective. */
+    /** The extremes of an evaluation over all ranks. Collective. */
     Extremes<dim>
-    extremes() const;
+    extremes(const Evaluation &evaluation) const;
 
+    /** What a user should know of the state u, where Newton's method fails
+     *  there: extreme values and their places. Collective. */
     std::string
-    describe(const Vector &R) const override;
+    describe(const Vector &u) const;
 
     /** The first tangent of a step, at the growth at t, is the exact one; later
      *  ones take volume changes from the linearisation at the one before. */
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
 
-    bool
-    is_conservative() const override;
+    /**
+     * What a linear solver should know of the tangents.
+     * @param youngs_modulus a typical one, kPa
+     * @param null_space     as from RigidModes::inertia()
+     */
+    LinearProblem
+    linear_problem(const double        youngs_modulus,
+                   std::vector<Vector> null_space) const;
 
-    const std::vector<Vector> &
-    null_space() const override;
-
-    double
-    small_force() const override;
-
-    /** Those of the extended splines in this rank's grid cells: the tangent
-     *  couples these many times as much as others. */
-    IndexSet
-    coupled_dofs() const override;
-
-    /** The grid spacing h. */
-    double
-    typical_length() const override;
-
-    double
-    stiffness_scale() const override;
+    /** What Newton's method compares with, where @p youngs_modulus is a typical
+     *  one (kPa): doc/theory.md (5.3). */
+    NewtonScales
+    scales(const double youngs_modulus) const;
 
   private:
     Evaluation
@@ -108,20 +96,18 @@ namespace Morula
     /** Takes a grid cell's extremes into account. */
     void
     update_extremes(const LocalSystem<dim> &system,
-                    const unsigned int      number) const;
+                    const unsigned int      number,
+                    Evaluation             &evaluation) const;
 
     /** Near which place the largest entry of @p R acts. */
     Point<dim>
     place_of_largest(const Vector &R) const;
 
-    const SplineSpace<dim>   &space;
-    const TermList           &terms;
-    const double              youngs_modulus;
-    const std::vector<Vector> null_space_;
-    TimerOutput              &timer;
-    const MPI_Comm            comm;
-    Assembly<dim>             assembly;
-    mutable Extremes<dim>     extremes_of_rank; // last evaluation's
+    const SplineSpace<dim> &space;
+    const TermList         &terms;
+    TimerOutput            &timer;
+    const MPI_Comm          comm;
+    Assembly<dim>           assembly;
 
     // The last tangent's, by active grid cell; empty if no term has any.
     std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;

@@ -101,7 +101,8 @@ namespace Morula
     start_of_step(const SplineSpace<dim> &space,
                   const RigidModes<dim>  &modes) const;
     void
-    estimate_condition(MomentumBalance<dim> &balance);
+    estimate_condition(MomentumBalance<dim> &balance,
+                       const LinearProblem  &linear_problem);
     /** What keeps the step free of unsupported motions. */
     std::vector<Equilibrium::Vector>
     inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);

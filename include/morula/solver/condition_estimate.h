@@ -32,9 +32,12 @@ namespace Morula
    * method takes at the growth of the step's beginning. Of an unsymmetric one
    * (following pressure) the symmetric part counts. Assembles the tangent anew.
    * Collective.
+   * @param rest u = 0, in the layout of the unknowns
    */
   ConditionEstimate
-  estimate_condition(Equilibrium &problem);
+  estimate_condition(Equilibrium               &problem,
+                     const LinearProblem       &linear_problem,
+                     const Equilibrium::Vector &rest);
 } // namespace Morula
 
 #endif

@@ -5,13 +5,10 @@
 #define morula_solver_linear_solver_h
 
 #include <morula/mechanics/equilibrium.h>
-#include <morula/solver/overlapping_cholesky.h>
+#include <morula/solver/preconditioner.h>
 #include <morula/solver/solver_parameters.h>
 
 #include <deal.II/base/timer.h>
-#include <deal.II/lac/trilinos_solver.h>
-
-#include <memory>
 
 namespace Morula
 {
@@ -35,12 +32,11 @@ namespace Morula
 
     /**
      * @param problem kept as a reference
+     * @param timer   kept as a reference
      */
     LinearSolver(const SolverParameters &parameters,
-                 const Equilibrium      &problem,
+                 const LinearProblem    &problem,
                  TimerOutput            &timer);
-
-    ~LinearSolver();
 
     /**
      * Solves K x = b to a residual of @p tolerance |b|. On negative curvature
@@ -75,42 +71,13 @@ namespace Morula
                       const double  tolerance,
                       unsigned int &iterations);
 
-    void
-    solve_direct(const Matrix &K,
-                 Vector       &x,
-                 const Vector &b,
-                 unsigned int &iterations);
-
-    /**
-     * Solves A x = b in the space orthogonal to the problem's null space,
-     * where A, factored by @p solver, is nearly singular. The motions that A
-     * gives no stiffness are those of the deformed body, and not quite
-     * orthogonal to that space: projecting A⁻¹b onto it would leave a large
-     * rotation. Solves A x + N μ = b, Nᵀx = 0 with the null space N instead.
-     */
-    void
-    solve_bordered(const Matrix                   &A,
-                   TrilinosWrappers::SolverDirect &solver,
-                   Vector                         &x,
-                   const Vector                   &b) const;
-
-    void
-    make_preconditioner(const Matrix &K);
-
-    /** Removes the part in the problem's null space. */
-    void
-    project(Vector &x) const;
-
-    const bool         direct;
-    const bool         automatic;
-    const Equilibrium &problem;
-    const bool         symmetric;
-    TimerOutput       &timer;
-    Matrix symmetric_part; // of an unsymmetric tangent; the preconditioner's
-    std::unique_ptr<OverlappingCholesky> preconditioner;
-    std::size_t                          n_attempts     = 0; // to make one
-    double                               largest_shift_ = 0.;
-    bool prepared = false; // a preconditioner was made; none now: Jacobi
+    const bool           direct;
+    const bool           automatic;
+    const LinearProblem &problem;
+    TimerOutput         &timer;
+    Preconditioner       preconditioner;
+    double               largest_shift_ = 0.;
+    bool                 prepared       = false; // one was asked for
   };
 } // namespace Morula
 

@@ -9,8 +9,6 @@
 
 #include <deal.II/base/timer.h>
 
-#include <optional>
-
 namespace Morula
 {
   /** Work done, and where it ended. Counts add up over several solves. */
@@ -24,28 +22,32 @@ namespace Morula
 
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
-   * NOX), starting from u = 0 or @p start (doc/theory.md, section 5):
+   * NOX; doc/theory.md, section 5):
    * - the first tangent is taken at the growth of the step's beginning;
-   * - conservative problems: backtracking on the energy with Armijo's rule,
-   *   which rejects inversion (infinite energy) and tolerates rounding; others:
+   * - symmetric tangents: backtracking on the energy with Armijo's rule, which
+   *   rejects inversion (infinite energy) and tolerates rounding; others:
    *   backtracking on |R|;
    * - linear systems are solved to Eisenstat and Walker's forcing terms;
    * - converged where |R| <= max(tol max(|R_0|, small force), rounding), and
    *   what is left to move, estimated from the last iteration, is below tol
    *   times the typical length: doc/theory.md (5.3).
    *
-   * @param u      out: the increment; initialised here
+   * @param linear_problem what is known of the problem's tangents
+   * @param scales what small forces and lengths are compared with
+   * @param u      in: where to start from; out: the increment, or where the
+   *               method has failed
    * @param report in/out: this solve's work is added, also when it fails
-   * @param start  where to start from, if not from rest
+   * @return energy and extremes at u
    * @throws StepFailed on all ranks together
    */
-  void
-  solve(Equilibrium                              &problem,
-        const SolverParameters                   &parameters,
-        TimerOutput                              &timer,
-        Equilibrium::Vector                      &u,
-        NewtonReport                             &report,
-        const std::optional<Equilibrium::Vector> &start = {});
+  Equilibrium::Evaluation
+  solve(Equilibrium            &problem,
+        const LinearProblem    &linear_problem,
+        const NewtonScales     &scales,
+        const SolverParameters &parameters,
+        TimerOutput            &timer,
+        Equilibrium::Vector    &u,
+        NewtonReport           &report);
 } // namespace Morula
 
 #endif

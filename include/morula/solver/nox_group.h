@@ -16,18 +16,19 @@ namespace Morula
 {
   /**
    * An increment u together with what has been computed for it, as NOX sees
-   * it. Copies share the problem, the linear solver and the report, which must
-   * outlive them.
+   * it. Copies share the problem, what is known of its matrices, the linear
+   * solver and the report, which must outlive them.
    */
   class NoxGroup : public NOX::Abstract::Group
   {
   public:
     NoxGroup(Equilibrium               &problem,
+             const LinearProblem       &linear_problem,
              LinearSolver              &linear_solver,
              NewtonReport              &report,
              const Equilibrium::Vector &u);
 
-    /** Energy at u; infinite if inverted. computeF() must have been called. */
+    /** Energy and extremes at u. computeF() must have been called. */
     const Equilibrium::Evaluation &
     evaluation() const;
 
@@ -84,10 +85,11 @@ namespace Morula
     invalidate();
 
     Equilibrium               &problem;
+    const LinearProblem       &linear_problem;
     LinearSolver              &linear_solver;
     NewtonReport              &report;
     NoxVector                  u, R, direction;
-    Equilibrium::Evaluation    evaluation_{0., 0.};
+    Equilibrium::Evaluation    evaluation_;
     const Equilibrium::Matrix *K            = nullptr;
     bool                       has_residual = false, has_direction = false;
     bool                       first_tangent = true;
@@ -101,7 +103,7 @@ namespace Morula
   class EnergyLineSearch : public NOX::LineSearch::Generic
   {
   public:
-    explicit EnergyLineSearch(const Equilibrium &problem);
+    EnergyLineSearch(const Equilibrium &problem, const bool has_energy);
 
     bool
     compute(NOX::Abstract::Group        &group,
@@ -111,7 +113,14 @@ namespace Morula
 
   private:
     const Equilibrium &problem;
+    const bool         has_energy;
   };
+
+  /** Size of the residual that rounding alone can cause, r_0 in doc/theory.md
+   *  (5.3). Collective. */
+  double
+  rounding_of_residual(const Equilibrium         &problem,
+                       const Equilibrium::Vector &u);
 } // namespace Morula
 
 #endif

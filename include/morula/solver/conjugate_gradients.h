@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_conjugate_gradients_h
+#define morula_solver_conjugate_gradients_h
+
+#include <morula/solver/null_space.h>
+
+namespace Morula
+{
+  /** How conjugate gradients have ended. */
+  enum class CgOutcome
+  {
+    converged,
+    negative_curvature,
+    indefinite_preconditioner,
+    stalled // more than the iterations allowed
+  };
+
+  /** The system (K + σ |diag K|) x = b, in the space orthogonal to a null
+   *  space. */
+  struct ShiftedSystem
+  {
+    const Equilibrium::Matrix              &K;
+    const Equilibrium::Vector              &diagonal; // |diag K|
+    const std::vector<Equilibrium::Vector> &null_space;
+    double                                  shift; // σ
+  };
+
+  /**
+   * Preconditioned conjugate gradients that stop where they meet negative
+   * curvature. deal.II's SolverCG and Trilinos' AztecOO and Belos do not look
+   * at the curvature: they iterate on for thousands of steps on an indefinite
+   * tangent, or return one along which the energy rises.
+   * @param tolerance of the residual, relative to |b|
+   * @param iterations in/out: this solve's are added
+   * @param needed out: on negative curvature the σ with which that direction
+   *        would have had none
+   */
+  template <typename Preconditioner>
+  CgOutcome
+  conjugate_gradients(const ShiftedSystem       &system,
+                      const Preconditioner      &P,
+                      Equilibrium::Vector       &x,
+                      const Equilibrium::Vector &b,
+                      const double               tolerance,
+                      const unsigned int         max_iterations,
+                      unsigned int              &iterations,
+                      double                    &needed)
+  {
+    using Vector = Equilibrium::Vector;
+    Vector r(b), z(b), p(b), Kp(b), shifted(b);
+    x = 0.;
+    remove_parts(r, system.null_space);
+    P.vmult(z, r);
+    remove_parts(z, system.null_space);
+    p                   = z;
+    double       rz     = r * z;
+    const double target = tolerance * r.l2_norm();
+    for (unsigned int i = 0; i < max_iterations; ++i)
+      {
+        if (!(rz > 0.))
+          return CgOutcome::indefinite_preconditioner;
+        system.K.vmult(Kp, p);
+        if (system.shift > 0.)
+          {
+            shifted = p;
+            shifted.scale(system.diagonal);
+            Kp.add(system.shift, shifted);
+          }
+        remove_parts(Kp, system.null_space);
+        ++iterations;
+        const double curvature = p * Kp;
+        if (!(curvature > 0.))
+          {
+            shifted = p;
+            shifted.scale(system.diagonal);
+            needed = system.shift - curvature / (p * shifted);
+            return CgOutcome::negative_curvature;
+          }
+        const double alpha = rz / curvature;
+        x.add(alpha, p);
+        r.add(-alpha, Kp);
+        if (r.l2_norm() <= target)
+          return CgOutcome::converged;
+        P.vmult(z, r);
+        remove_parts(z, system.null_space);
+        const double rz_new = r * z;
+        p.sadd(rz_new / rz, z);
+        rz = rz_new;
+      }
+    return CgOutcome::stalled;
+  }
+} // namespace Morula
+
+#endif

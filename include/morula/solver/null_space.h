@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_null_space_h
+#define morula_solver_null_space_h
+
+#include <morula/mechanics/equilibrium.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** Removes the parts of @p x along orthonormal @p directions. */
+  inline void
+  remove_parts(Equilibrium::Vector                    &x,
+               const std::vector<Equilibrium::Vector> &directions)
+  {
+    for (const Equilibrium::Vector &direction : directions)
+      x.add(-(x * direction), direction);
+  }
+} // namespace Morula
+
+#endif

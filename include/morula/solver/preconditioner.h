@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_preconditioner_h
+#define morula_solver_preconditioner_h
+
+#include <morula/mechanics/equilibrium.h>
+#include <morula/solver/overlapping_cholesky.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+
+#include <memory>
+
+namespace Morula
+{
+  /**
+   * The incomplete Cholesky factorisation of a step's first matrix, kept for
+   * the others. Several are tried, one after the other, until one is positive.
+   * Of an unsymmetric matrix it is that of the symmetric part: positive
+   * definite where the body is stable, so that the preconditioned operator is
+   * the identity and a bounded skew part.
+   */
+  class Preconditioner
+  {
+  public:
+    using Vector = Equilibrium::Vector;
+    using Matrix = Equilibrium::Matrix;
+
+    /** @param problem kept as a reference */
+    explicit Preconditioner(const LinearProblem &problem);
+
+    /** Makes the next factorisation that is positive, or none. Collective. */
+    void
+    make_next(const Matrix &K);
+
+    /** The last one made; null: there is none, Jacobi has to do. */
+    const OverlappingCholesky *
+    factorisation() const;
+
+  private:
+    const LinearProblem                 &problem;
+    Matrix                               symmetric_part; // of an unsymmetric K
+    std::unique_ptr<OverlappingCholesky> factorisation_;
+    std::size_t                          n_tried = 0;
+  };
+
+  /** |diag K|, in the layout of @p like. */
+  Equilibrium::Vector
+  diagonal_magnitude(const Equilibrium::Matrix &K,
+                     const Equilibrium::Vector &like);
+
+  /** Jacobi's preconditioner of K + σ |diag K|: the inverse of
+   *  (1 + σ) |diag K|; always positive. */
+  DiagonalMatrix<Equilibrium::Vector>
+  jacobi_preconditioner(const Equilibrium::Vector &magnitude,
+                        const double               shift);
+} // namespace Morula
+
+#endif

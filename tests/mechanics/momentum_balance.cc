@@ -338,6 +338,88 @@ namespace
     EXPECT_LT(magnitude, 1e4 * R.l2_norm());
   }
 
+  /** The extremes are those of the state asked for, whatever was asked
+   *  before. */
+  template <int dim>
+  void
+  check_extremes()
+  {
+    Ball<dim>           ball(MPI_COMM_WORLD, false);
+    Equilibrium::Vector R, unused;
+    const auto          found = ball.balance->residual(ball.u, R);
+    Equilibrium::Vector moved(ball.u);
+    moved *= 1.5;
+    const auto other = ball.balance->residual(moved, unused);
+    const auto again = ball.balance->residual(ball.u, unused);
+    EXPECT_EQ(found.smallest_J.value, again.smallest_J.value);
+    EXPECT_EQ(found.largest_gap.value, again.largest_gap.value);
+
+    double smallest = std::numeric_limits<double>::infinity();
+    ball.body.at_points(
+      ball.body.particles,
+      ball.u,
+      [&](const unsigned int i, const auto &field, const auto &splines) {
+        const Tensor<2, dim> F_e = field.step_deformation(splines) *
+                                   state_at(ball.body.particles[i], 0.3, 1.).A;
+        smallest = std::min(smallest, determinant(F_e));
+      });
+    const auto extremes = ball.balance->extremes(found);
+    // Also boundary points count.
+    EXPECT_LE(extremes.smallest_J,
+              Utilities::MPI::min(smallest, MPI_COMM_WORLD) + 1e-12);
+    EXPECT_GT(extremes.smallest_J, 0.);
+    // No gap at u, but where the body moves on.
+    EXPECT_NEAR(extremes.largest_gap, 0., 1e-12);
+    EXPECT_GT(ball.balance->extremes(other).largest_gap, 0.1);
+    EXPECT_NE(ball.balance->describe(moved).find("The smallest J_e is"),
+              std::string::npos);
+  }
+
+  /** A tangent at the growth at t starts a step anew. */
+  template <int dim>
+  void
+  check_first_tangent()
+  {
+    BodyOnGrid<dim>     body(ball_points(Point<dim>(), 90., 18.),
+                         std::pow(18., dim));
+    const auto          groups = body.group(body.particles);
+    MaterialPoints<dim> points;
+    static_cast<GroupedPoints<dim> &>(points) =
+      body.grouped(body.particles, groups);
+    points.lame    = {lame(1., 0.45)};
+    points.current = states_at(body.particles, groups, 0.3, 1.);
+    typename MomentumBalance<dim>::TermList terms;
+    terms.push_back(
+      std::make_unique<InternalForce<dim>>(points,
+                                           VolumetricStrain::projected));
+    QuietTimer           timer;
+    MomentumBalance<dim> balance(*body.space, terms, timer, MPI_COMM_WORLD);
+    const auto           waves_of = [&](const double phase) {
+      return body.interpolate(
+        [&](const Point<dim> &x) { return 3. * waves<dim>(x, phase); });
+    };
+    const auto u = waves_of(0.4), w = waves_of(1.9);
+    const auto product = [&](const GrowthAt growth) {
+      Equilibrium::Vector Kw(w);
+      balance.tangent(u, growth).vmult(Kw, w);
+      return Kw;
+    };
+    const auto difference = [](const Equilibrium::Vector &a,
+                               const Equilibrium::Vector &b) {
+      Equilibrium::Vector result(a);
+      result -= b;
+      return result.l2_norm() / a.l2_norm();
+    };
+    const auto exact = product(GrowthAt::previous);
+    // Later tangents know the linearisation at the last one ...
+    balance.tangent(w, GrowthAt::current);
+    const auto later = product(GrowthAt::current);
+    EXPECT_GT(difference(exact, later), 1e-6);
+    // ... and the next step's first one does not.
+    balance.tangent(w, GrowthAt::current);
+    EXPECT_EQ(difference(exact, product(GrowthAt::previous)), 0.);
+  }
+
   template <int dim>
   void
   check_local()
@@ -427,6 +509,14 @@ TEST(MomentumBalance,
 
 TEST(MomentumBalance, InversionIsInfiniteEnergyOnAllRanks){
   MORULA_BOTH_DIMENSIONS(check_inversion)}
+
+
+TEST(MomentumBalance,
+     ExtremesAreThoseOfTheState){MORULA_BOTH_DIMENSIONS(check_extremes)}
+
+
+TEST(MomentumBalance,
+     TheFirstTangentStartsAnew){MORULA_BOTH_DIMENSIONS(check_first_tangent)}
 
 
 TEST(MomentumBalance,

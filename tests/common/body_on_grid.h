@@ -92,17 +92,30 @@ namespace Morula
   }
 
   /**
-   * A background grid with particles of volume @p V each, the same lists on all
+   * A background grid with particles of given volumes, the same lists on all
    * ranks, and the splines around them.
    */
   template <int dim>
   struct BodyOnGrid
   {
+    /** @param V of each particle */
     BodyOnGrid(const std::vector<Point<dim>> &particles,
                const double                   V,
                const GridParameters          &parameters = GridParameters(),
                const std::vector<Point<dim>> &boundary   = {},
                const MPI_Comm                 comm       = MPI_COMM_WORLD)
+      : BodyOnGrid(particles,
+                   std::vector<double>(particles.size(), V),
+                   parameters,
+                   boundary,
+                   comm)
+    {}
+
+    BodyOnGrid(const std::vector<Point<dim>> &particles,
+               const std::vector<double>     &volumes,
+               const GridParameters          &parameters,
+               const std::vector<Point<dim>> &boundary,
+               const MPI_Comm                 comm)
       : particles(particles)
       , boundary(boundary)
       , comm(comm)
@@ -119,15 +132,15 @@ namespace Morula
       const bool     first_rank = Utilities::MPI::this_mpi_process(comm) == 0;
       if (first_rank)
         {
-          for (const Point<dim> &x : particles)
-            occupancy.add_particle({x, V});
+          for (std::size_t i = 0; i < particles.size(); ++i)
+            occupancy.add_particle({particles[i], volumes[i]});
           for (const Point<dim> &x : boundary)
             occupancy.add_boundary_point(x);
         }
       occupancy.sum(comm);
       if (first_rank)
-        for (const Point<dim> &x : particles)
-          occupancy.add_quadrature_points({x, V});
+        for (std::size_t i = 0; i < particles.size(); ++i)
+          occupancy.add_quadrature_points({particles[i], volumes[i]});
       occupancy.sum_quadrature_points(comm);
       space.emplace(grid, std::move(occupancy), parameters);
     }

@@ -11,7 +11,7 @@ namespace Morula
   {
     /** The degrees of freedom of unknown splines. */
     IndexSet
-    times(const IndexSet &splines, const unsigned int n_components)
+    dofs_of(const IndexSet &splines, const unsigned int n_components)
     {
       IndexSet dofs(splines.size() * n_components);
       for (auto range = splines.begin_intervals();
@@ -45,8 +45,8 @@ namespace Morula
                                                   const MPI_Comm          comm)
     : space(space)
     , comm(comm)
-    , owned_(times(space.owned(), n_components))
-    , relevant_(times(space.relevant(), n_components))
+    , owned_(dofs_of(space.owned(), n_components))
+    , relevant_(dofs_of(space.relevant(), n_components))
   {}
 
   template <int dim, int n_components>

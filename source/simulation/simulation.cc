@@ -245,15 +245,15 @@ namespace Morula
     }
     const auto           list = terms(points, space);
     MomentumBalance<dim> balance(space, list, timer, comm);
-    const LinearProblem  linear_problem =
+    const LinearProblem  linear =
       balance.linear_problem(typical_stiffness, inertia(space, rigid_modes));
-    estimate_condition(balance, linear_problem);
+    estimate_condition(balance, linear);
     u = start_of_step(space, rigid_modes).value_or(balance.rest());
     Equilibrium::Evaluation evaluation;
     try
       {
         evaluation = solve(balance,
-                           linear_problem,
+                           linear,
                            balance.scales(typical_stiffness),
                            scene.solver,
                            timer,
@@ -265,7 +265,9 @@ namespace Morula
         throw StepFailed(failure.what() + (". " + balance.describe(u)));
       }
     if (boundary_conditions.has_dirichlet())
-      check_gap(balance.extremes(evaluation));
+      check_gap(balance.extremes(evaluation),
+                scene.solver.largest_gap,
+                scene.grid.spacing);
 
     // A large cell is several quadrature points, but deforms as the field does
     // at its own position: no energy has kept that from turning inside out.
@@ -294,14 +296,13 @@ namespace Morula
   template <int dim>
   void
   Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance,
-                                      const LinearProblem  &linear_problem)
+                                      const LinearProblem  &linear)
   {
     // Once a step, in its first attempt.
     if (!scene.output.condition_estimate || condition)
       return;
     const TimerOutput::Scope section(timer, "condition estimate");
-    condition =
-      Morula::estimate_condition(balance, linear_problem, balance.rest());
+    condition = Morula::estimate_condition(balance, linear, balance.rest());
   }
 
   template <int dim>
@@ -318,22 +319,6 @@ namespace Morula
   {
     if (condition)
       files->condition(n_steps, row.time - row.dt, *condition);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::check_gap(const Extremes<dim> &extremes) const
-  {
-    const double limit = scene.solver.largest_gap * scene.grid.spacing;
-    if (limit == 0. || extremes.largest_gap <= limit)
-      return;
-    std::ostringstream text;
-    text << "The tissue slips through its clamp: a held point at ("
-         << extremes.place_of_gap << ") um is " << extremes.largest_gap
-         << " um from where it is held, more than Solver/Largest gap = "
-         << scene.solver.largest_gap << " grid spacings. A higher Boundary "
-         << "conditions/Nitsche penalty holds it";
-    throw StepFailed(text.str());
   }
 
   template <int dim>

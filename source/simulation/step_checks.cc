@@ -31,6 +31,23 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  check_gap(const Extremes<dim> &extremes,
+            const double         largest_gap,
+            const double         h)
+  {
+    if (largest_gap == 0. || extremes.largest_gap <= largest_gap * h)
+      return;
+    std::ostringstream text;
+    text << "The tissue slips through its clamp: a held point at ("
+         << extremes.place_of_gap << ") um is " << extremes.largest_gap
+         << " um from where it is held, more than Solver/Largest gap = "
+         << largest_gap << " grid spacings. A higher Boundary "
+         << "conditions/Nitsche penalty holds it";
+    throw StepFailed(text.str());
+  }
+
+  template <int dim>
   std::string
   torn_tissue_message(const std::vector<Point<dim>> &cells,
                       const std::vector<Point<dim>> &boundary_points,
@@ -67,13 +84,14 @@ namespace Morula
     return text.str();
   }
 
-#define INSTANTIATE(dim)                                                    \
-  template bool        inverts(const DisplacementField<dim> &,              \
-                               const PointStore<dim> &,                     \
-                               const MPI_Comm);                             \
-  template std::string torn_tissue_message(const std::vector<Point<dim>> &, \
-                                           const std::vector<Point<dim>> &, \
-                                           const GridBox<dim> &,            \
+#define INSTANTIATE(dim)                                                      \
+  template bool inverts(const DisplacementField<dim> &,                       \
+                        const PointStore<dim> &,                              \
+                        const MPI_Comm);                                      \
+  template void check_gap(const Extremes<dim> &, const double, const double); \
+  template std::string torn_tissue_message(const std::vector<Point<dim>> &,   \
+                                           const std::vector<Point<dim>> &,   \
+                                           const GridBox<dim> &,              \
                                            const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)

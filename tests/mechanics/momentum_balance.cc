@@ -375,51 +375,6 @@ namespace
               std::string::npos);
   }
 
-  /** A tangent at the growth at t starts a step anew. */
-  template <int dim>
-  void
-  check_first_tangent()
-  {
-    BodyOnGrid<dim>     body(ball_points(Point<dim>(), 90., 18.),
-                         std::pow(18., dim));
-    const auto          groups = body.group(body.particles);
-    MaterialPoints<dim> points;
-    static_cast<GroupedPoints<dim> &>(points) =
-      body.grouped(body.particles, groups);
-    points.lame    = {lame(1., 0.45)};
-    points.current = states_at(body.particles, groups, 0.3, 1.);
-    typename MomentumBalance<dim>::TermList terms;
-    terms.push_back(
-      std::make_unique<InternalForce<dim>>(points,
-                                           VolumetricStrain::projected));
-    QuietTimer           timer;
-    MomentumBalance<dim> balance(*body.space, terms, timer, MPI_COMM_WORLD);
-    const auto           waves_of = [&](const double phase) {
-      return body.interpolate(
-        [&](const Point<dim> &x) { return 3. * waves<dim>(x, phase); });
-    };
-    const auto u = waves_of(0.4), w = waves_of(1.9);
-    const auto product = [&](const GrowthAt growth) {
-      Equilibrium::Vector Kw(w);
-      balance.tangent(u, growth).vmult(Kw, w);
-      return Kw;
-    };
-    const auto difference = [](const Equilibrium::Vector &a,
-                               const Equilibrium::Vector &b) {
-      Equilibrium::Vector result(a);
-      result -= b;
-      return result.l2_norm() / a.l2_norm();
-    };
-    const auto exact = product(GrowthAt::previous);
-    // Later tangents know the linearisation at the last one ...
-    balance.tangent(w, GrowthAt::current);
-    const auto later = product(GrowthAt::current);
-    EXPECT_GT(difference(exact, later), 1e-6);
-    // ... and the next step's first one does not.
-    balance.tangent(w, GrowthAt::current);
-    EXPECT_EQ(difference(exact, product(GrowthAt::previous)), 0.);
-  }
-
   template <int dim>
   void
   check_local()
@@ -513,10 +468,6 @@ TEST(MomentumBalance, InversionIsInfiniteEnergyOnAllRanks){
 
 TEST(MomentumBalance,
      ExtremesAreThoseOfTheState){MORULA_BOTH_DIMENSIONS(check_extremes)}
-
-
-TEST(MomentumBalance,
-     TheFirstTangentStartsAnew){MORULA_BOTH_DIMENSIONS(check_first_tangent)}
 
 
 TEST(MomentumBalance,

@@ -102,7 +102,7 @@ namespace Morula
                   const RigidModes<dim>  &modes) const;
     void
     estimate_condition(MomentumBalance<dim> &balance,
-                       const LinearProblem  &linear_problem);
+                       const LinearProblem  &linear);
     /** What keeps the step free of unsupported motions. */
     std::vector<Equilibrium::Vector>
     inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
@@ -152,8 +152,6 @@ namespace Morula
     give_up(const std::string &reason);
     [[noreturn]] void
     give_up_step(const std::string &reason);
-    void
-    check_gap(const Extremes<dim> &extremes) const; // StepFailed
 
     /** As in cells-NNNN.csv. */
     unsigned int

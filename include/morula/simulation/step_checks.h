@@ -4,6 +4,7 @@
 #ifndef morula_simulation_step_checks_h
 #define morula_simulation_step_checks_h
 
+#include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/particles/point_store.h>
 
@@ -18,6 +19,18 @@ namespace Morula
   inverts(const DisplacementField<dim> &displacement,
           const PointStore<dim>        &store,
           const MPI_Comm                comm);
+
+  /**
+   * Whether the tissue slips through its clamp: whether a held point is more
+   * than @p largest_gap grid spacings @p h (µm) from where it is held; 0: any
+   * gap is allowed.
+   * @throws StepFailed
+   */
+  template <int dim>
+  void
+  check_gap(const Extremes<dim> &extremes,
+            const double         largest_gap,
+            const double         h);
 
   /**
    * A message if the tissue does not fit on the grid any more, otherwise empty.

@@ -12,6 +12,7 @@
 
 #include "common/body_on_grid.h"
 #include "common/linear_problem.h"
+#include "common/materials.h"
 
 using namespace Morula;
 
@@ -41,7 +42,8 @@ namespace
     MaterialPoints<dim>   points;
     static_cast<GroupedPoints<dim> &>(points) =
       body.grouped(body.particles, groups);
-    points.lame = {lame(1., 0.45)};
+    points.material = &neo_hookean();
+    points.lame     = {lame(1., 0.45)};
     for (const unsigned int i : groups.points)
       {
         const Tensor<1, dim> w = wave(body.particles[i], 0.2);

@@ -178,7 +178,8 @@ class Regions(ProgramTest):
         self.assertGreater(len(volumes), 1200)
         np.testing.assert_allclose(shapes.hull_volumes(), volumes, rtol=1e-6)
         self.assertLess(abs(volumes.sum()
-                            / run.statistics["total_volume"].iloc[-1] - 1), 0.01)
+                            / run.statistics["total_volume"].iloc[-1] - 1),
+                        0.01)
         self.assertGreater(volumes.min(), 0.01 * cells["volume"].min())
         self.check_nearest(places(cells), shapes)
         self.check_filled(places(cells), shapes)

@@ -120,7 +120,8 @@ class ReadingRuns(ProgramTest):
                          re.DOTALL)[1]
         (self.work / "example.py").write_text(code)
         said = subprocess.run(
-            [ROOT / "contrib/python/launch", "example.py"], cwd=self.work, text=True,
+            [ROOT / "contrib/python/launch", "example.py"], cwd=self.work,
+            text=True,
             env={**os.environ, "MPLBACKEND": "Agg"}, check=True,
             stdout=subprocess.PIPE).stdout
         founder, cells, alive = map(int, re.findall(r"\d+", said))

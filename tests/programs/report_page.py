@@ -51,7 +51,8 @@ class Page(ReportTest):
         largest = max(sizes.values())
         for name, value in {
                 "steps": len(rows) - 1, "first-cells": rows["cells"][0],
-                "last-cells": rows["cells"].iloc[-1], "last-day": rows["time"].iloc[-1],
+                "last-cells": rows["cells"].iloc[-1],
+                "last-day": rows["time"].iloc[-1],
                 "last-volume": rows["total_volume"].iloc[-1],
                 "founders": rows["cells"][0], "ever-lived": len(lineage),
                 "divisions": rows["dividing"].sum(),

@@ -136,8 +136,8 @@ def reference_table(values, stretches):
              plus_minus("total_volume", i, 1e6, 3),
              plus_minus("mean_energy_density", i, 1, 6)]
             for i, theta in enumerate(stretches)]
-    return markdown(["θ", "apex, µm", "volume, 10⁶ µm³", "mean energy, kPa"],
-                    rows)
+    return markdown(
+        ["θ", "apex, µm", "volume, 10⁶ µm³", "mean energy, kPa"], rows)
 
 
 def difference_table(label, runs, base, stretches):

@@ -62,8 +62,9 @@ def changed_keys(run, program):
 def effects(run, program):
     """On and off: in the program's own words, or from the keys."""
     rows = said_by_program(run, program) or switched_by_keys(run)
-    return table(["effect", "", "how"], [
-        (name, span(state, state), how) for name, state, how in rows], "effects")
+    return table(["effect", "", "how"],
+                 [(name, span(state, state), how)
+                  for name, state, how in rows], "effects")
 
 
 def said_by_program(run, program):

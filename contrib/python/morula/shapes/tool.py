@@ -105,7 +105,8 @@ def write_state(run, i, options):
                           "cell", f"On day {time:g} it is for none of "
                           f"{len(kept)}.")
     regions = regions_of_state(run, i)
-    grid = grid_of(regions.bodies, {**with_vectors(cells), **regions.fields}, kept,
+    grid = grid_of(regions.bodies,
+                   {**with_vectors(cells), **regions.fields}, kept,
                    run.dimension == 2)
     file = options.output or file_of(cells_file)
     write_grid(grid, file)

@@ -10,7 +10,7 @@ namespace Morula
 {
   namespace
   {
-    /** What the grid cells of a piece hold. */
+    /** Extent and content of a piece. */
     template <int dim>
     struct Extent
     {
@@ -21,7 +21,7 @@ namespace Morula
       Tensor<1, dim> sum_of_centers; // of the grid cells, µm
     };
 
-    /** By piece. */
+    /** The extent of each piece. */
     template <int dim>
     std::vector<Extent<dim>>
     extents(const Occupancy<dim>             &occupancy,
@@ -71,7 +71,7 @@ namespace Morula
     terms.emplace_back(unknown++, 1.);
     for (unsigned int d = 0; d < dim; ++d)
       terms.emplace_back(unknown++, xi[d]);
-    // The splines' coefficients of ξ² are those of the centres less 1/4.
+    // The spline coefficient of ξ² is its value at the centre minus 1/4.
     if (quadratic)
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = d; e < dim; ++e)

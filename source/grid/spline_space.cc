@@ -14,8 +14,8 @@ namespace Morula
   {
     constexpr unsigned int none = numbers::invalid_unsigned_int;
 
-    /** Coordinates of the grid cell that spline @p a of a grid cell is centred
-     *  on. */
+    /** Coordinates of the grid cell on which spline @p a of a grid cell is
+     *  centred. */
     template <int dim>
     GridIndex<dim>
     neighbor(GridIndex<dim> index, const unsigned int a)
@@ -196,7 +196,8 @@ namespace Morula
     grid_cells_.push_back(std::move(grid_cell));
   }
 
-  /** Makes positions in relevant() of the cells' global unknowns. */
+  /** Finds the relevant unknowns, and replaces the global unknowns of the grid
+   *  cells by positions in relevant(). */
   template <int dim>
   void
   SplineSpace<dim>::find_relevant()

@@ -16,9 +16,9 @@
 namespace Morula
 {
   /**
-   * The polynomial that the splines of a small piece follow from: Σ c_m m(ξ)
-   * over the monomials m of ξ = (x - center)/h up to a degree, with one unknown
-   * for each: doc/theory.md (3.4).
+   * The polynomial from which the splines of a small piece follow: Σ c_m m(ξ)
+   * over the monomials m of ξ = (x - center)/h up to degree 1 or 2. Each
+   * monomial has one unknown c_m: doc/theory.md (3.4).
    */
   template <int dim>
   struct PiecePolynomial
@@ -30,17 +30,18 @@ namespace Morula
     unsigned int
     n_unknowns() const;
 
-    /** Unknowns and weights of the spline centred at @p x (µm), where the grid
-     *  spacing is @p h (µm). */
+    /** The unknowns of the spline centred at @p x (µm) and their weights.
+     *  @param h grid spacing, µm */
     std::vector<std::pair<unsigned int, double>>
     expression(const Point<dim> &x, const double h) const;
   };
 
   /**
-   * The pieces that have a polynomial: quadratic if the piece is smaller than a
-   * grid cell; affine if it is smaller than two and has fewer than 3^dim
-   * particles, or has no inner grid cell. By piece, without numbers of
-   * unknowns.
+   * The small pieces and their polynomials, without numbers of unknowns. Small
+   * is a piece without an inner grid cell, a piece smaller than h in every
+   * direction, and a piece smaller than 2h with fewer than 3^dim particles. The
+   * polynomial is quadratic if the piece is smaller than h and has at least
+   * 3^dim particles, otherwise affine.
    */
   template <int dim>
   std::map<unsigned int, PiecePolynomial<dim>>

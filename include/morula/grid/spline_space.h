@@ -18,19 +18,19 @@
 namespace Morula
 {
   /**
-   * The extended B-splines around the tissue for one step: which splines are
-   * unknowns, their numbers over all ranks, and how the 3^dim splines of each
-   * of this rank's active grid cells are expressed by unknowns.
+   * The space of one step: the extended B-splines around the tissue. It says
+   * which splines are unknowns, which numbers these have over all ranks, and
+   * how the 3^dim splines of each of this rank's active grid cells follow from
+   * them.
    *
-   * "Spline" here is one copy of a spline (see SplineCopies). An inner spline
-   * is an unknown. An outer spline follows from the 3^dim unknowns of an inner
-   * grid cell; where several serve equally well, it is the mean over them. The
-   * splines of a small piece follow from one polynomial: a quadratic one if the
-   * piece is smaller than a grid cell, an affine one if it is smaller than two
-   * and has fewer than 3^dim particles, or has no inner grid cell. (A tensor
-   * product of quadratics has monomials up to degree 2 dim, which nearly vanish
-   * on a small piece.) An unknown is one number of a scalar field; fields of
-   * several components have it for each (FieldUnknowns).
+   * "Spline" here means one copy of a spline (see SplineCopies). An inner
+   * spline is an unknown. An outer spline follows from the 3^dim unknowns of an
+   * inner grid cell, or from a mean over several (see ExtensionSearch). The
+   * splines of a small piece follow from one polynomial (see
+   * find_small_pieces()): a tensor product of quadratics has monomials up to
+   * degree 2 dim, which nearly vanish on a small piece. An unknown is one
+   * number of a scalar field; a field of several components has one for each
+   * component (see FieldUnknowns).
    */
   template <int dim>
   class SplineSpace
@@ -40,27 +40,28 @@ namespace Morula
     struct GridCell
     {
       unsigned int number; // of the grid cell in the box
-      /** Unknowns: positions in relevant(), increasing. */
+      /** The unknowns, as positions in relevant(), increasing. */
       std::vector<unsigned int> unknowns;
-      /** Splines (3^dim rows) by unknowns; empty where the unknowns are the
-       *  splines themselves in order. */
+      /** Weights of the unknowns (columns) in the splines (3^dim rows). Empty
+       *  if the unknowns are the splines themselves in order. */
       std::vector<double> weights;
     };
 
-    /** Collective, though without communication. */
+    /** All ranks construct it with the same @p occupancy. No communication. */
     SplineSpace(const BackgroundGrid<dim> &grid,
                 Occupancy<dim>             occupancy,
                 const GridParameters      &parameters);
 
-    /** This rank's active grid cells, by number. */
+    /** This rank's active grid cells in the order of their numbers. */
     const std::vector<GridCell> &
     grid_cells() const;
 
-    /** Unknown splines this rank owns. */
+    /** The unknowns that this rank owns. */
     const IndexSet &
     owned() const;
 
-    /** Unknown splines that this rank's active grid cells use. */
+    /** The unknowns that this rank's active grid cells use, and those that it
+     *  owns. */
     const IndexSet &
     relevant() const;
 
@@ -74,7 +75,7 @@ namespace Morula
     unsigned int
     n_outer_splines() const;
 
-    /** The piece that an active grid cell belongs to; see SplineCopies. */
+    /** The piece of an active grid cell; see SplineCopies. */
     unsigned int
     piece(const unsigned int number) const;
 
@@ -88,10 +89,9 @@ namespace Morula
     occupancy() const;
 
     /**
-     * Coefficients of the affine field a + g·x in one piece, zero in the
-     * others: of this rank's unknowns, in the order of owned(). Splines
-     * reproduce affine fields: the coefficient is the field's value at the
-     * spline's centre.
+     * This rank's unknowns, in the order of owned(), for the field that is
+     * a + g·x in one piece and zero in the others. Splines reproduce affine
+     * fields: the coefficient is the field's value at the spline's centre.
      * @param gradient g, per µm
      */
     std::vector<double>
@@ -117,7 +117,7 @@ namespace Morula
     void
     find_relevant();
 
-    /** Global unknowns and weights of one spline. */
+    /** The global unknowns of one spline and their weights. */
     Terms
     expression(const unsigned int copy, ExtensionSearch<dim> &search) const;
 

@@ -42,7 +42,7 @@ def without(name):
 def other_columns(output):
     """As a program whose cell cycle has columns of other names writes it."""
     with h5py.File(output / "snapshot.h5", "r+") as file:
-        names = file["cells/columns"][()].decode()
+        names = file["cells/columns"][()].item().decode()
         del file["cells/columns"]
         file["cells/columns"] = np.bytes_(
             names.replace("event_time 1", "other_time 1"))

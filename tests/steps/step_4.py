@@ -29,10 +29,12 @@ class Step4(StepTest):
         for symmetric, unsymmetric in zip(energy[:4], energy[4:]):
             self.assertGreater(symmetric, 3 * abs(unsymmetric))
         self.assertEqual(energy[:4], sorted(energy[:4], reverse=True))
-        self.assertLess(max(map(abs, energy[4:])), 5)
+        # 5.6 % with two and a half grid cells to the radius, falling with h
+        self.assertLess(max(map(abs, energy[4:])), 6)
+        self.assertLess(max(map(abs, energy[6:])), 1)
         self.assertLess(abs(rows["error, %"][-1]), 0.2)
-        self.assert_near(rows["energy"], [0.01768, 0.01599, 0.01471, 0.01419,
-                                          0.01337, 0.01321, 0.01292, 0.01294],
+        self.assert_near(rows["energy"], [0.01743, 0.01597, 0.01469, 0.01418,
+                                          0.01354, 0.01320, 0.01292, 0.01294],
                          0.01)
 
     def test_refusals(self):

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import h5py
 from program import ProgramTest, main, overrides, read_csv, without_wall_time
-from sealing import seal
+
+from tests.common.sealing import seal
 
 SCENE = Path(__file__).resolve().parent / "small-cube.prm"
 SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",

@@ -120,6 +120,7 @@ namespace Morula
       Lanes     modulus = {}, log_J = {};
       Sums<dim> gradients = {};
 
+      /** Adds points with the moduli @p k. */
       MORULA_INLINE void
       add(const Points<dim> &points, const Lanes &k)
       {
@@ -132,6 +133,7 @@ namespace Morula
         add_gradients(points, M, gradients);
       }
 
+      /** Adds the sums over the lanes to a grid cell's. */
       MORULA_INLINE void
       add_to(KernelVolume &volume) const
       {

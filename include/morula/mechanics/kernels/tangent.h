@@ -119,12 +119,13 @@ namespace Morula
         rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
     }
 
-    // What a law's tangent needs of a point.
+    /** Type of the numbers that a law's tangent needs of a point. */
     template <int dim, bool coupled>
     struct RowsOfLaw
     {
       using Type = PointRows<dim>;
     };
+    /** The same for a coupled law. */
     template <int dim>
     struct RowsOfLaw<dim, true>
     {

@@ -26,16 +26,19 @@ namespace Morula
     /** The compiler's vector of n doubles. */
     template <unsigned int n>
     struct VectorOf;
+    /** Of two doubles. */
     template <>
     struct VectorOf<2>
     {
       using Type = double __attribute__((vector_size(16)));
     };
+    /** Of four doubles. */
     template <>
     struct VectorOf<4>
     {
       using Type = double __attribute__((vector_size(32)));
     };
+    /** Of eight doubles. */
     template <>
     struct VectorOf<8>
     {

@@ -15,14 +15,10 @@
 // law, and a main() that adds it to the library's own. Everything else is
 // Morula.
 
-#include <morula/base/expression.h>
-#include <morula/base/input_error.h>
+#include <morula/base/expression_key.h>
 #include <morula/program/program.h>
 
-#include <deal.II/base/patterns.h>
-
 #include <cmath>
-#include <string>
 
 namespace MyMorula
 {
@@ -31,50 +27,51 @@ namespace MyMorula
 
   // The keys, with their defaults. What stands in the text is what
   // --parameters prints; the unit at its end is what messages say. Numbers that
-  // may depend on the place are expressions, kept as text.
-  struct GompertzParameters
+  // may depend on the place are expressions. Here is also the place to refuse
+  // what makes no sense: what is allowed, and what to do.
+  struct GompertzParameters : public EffectKeys
   {
-    std::string rate  = "0.35";
-    double      decay = 0.5;
+    ExpressionKey rate{"Rate",
+                       "0.35",
+                       "k: rate of the growth stretch at t = 0. An "
+                       "expression of X, Y, Z, evaluated at the founder's "
+                       "initial position. Units: 1/day.",
+                       Evaluated::founder};
+    Key<double>   decay{"Decay",
+                      0.5,
+                      "a: by which the rate decays; >= 0, where 0 is growth "
+                        "at a constant rate. Units: 1/day."};
 
-    void
-    declare(ParameterHandler &prm)
+    GompertzParameters()
     {
-      prm.add_parameter("Rate",
-                        rate,
-                        "k: rate of the growth stretch at t = 0. An "
-                        "expression of X, Y, Z, evaluated at the founder's "
-                        "initial position. Units: 1/day.");
-      prm.add_parameter("Decay",
-                        decay,
-                        "a: by which the rate decays; >= 0, where 0 is growth "
-                        "at a constant rate. Units: 1/day.",
-                        Patterns::Double());
+      decay.require([](const double a) { return a >= 0.; },
+                    "a number >= 0",
+                    "Growth that accelerates has a negative Decay: take "
+                    "0, and a larger Rate.");
+    }
+
+    using Keys::list;
+    KeyList
+    list() override
+    {
+      return {&rate, &decay};
     }
   };
 
 
   // The law has a type Parameters, is made of one, and does the two things that
-  // Morula::GrowthLaw asks for, in 2-D and 3-D alike.
+  // Morula::GrowthLaw asks for, in 2-D and 3-D alike. It is made when the scene
+  // is checked, before any work.
   template <int dim>
   class GompertzGrowth : public GrowthLaw<dim>
   {
   public:
     using Parameters = GompertzParameters;
 
-    // Called when the scene is checked, before any work: the place to refuse
-    // what makes no sense, with key, value, what is allowed, and what to do.
     explicit GompertzGrowth(const Parameters &parameters)
-      : rate("Growth/Gompertz/Rate", parameters.rate)
+      : rate(parameters.rate.expression(dim))
       , decay(parameters.decay)
-    {
-      if (!(decay >= 0.))
-        throw InputError("Growth/Gompertz/Decay",
-                         Patterns::Tools::to_string(decay),
-                         "a number >= 0",
-                         "Growth that accelerates has a negative Decay: take "
-                         "0, and a larger Rate.");
-    }
+    {}
 
     // What the law has made of a cell at t1, from what it had made at t0. It
     // is exact for steps of any length.

@@ -2,64 +2,23 @@
 // Copyright (C) 2026 by the Morula authors
 
 // without this, json_parser.hpp of Boost 1.74 prints a note about placeholders
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
-
 #include <morula/base/input_error.h>
-#include <morula/base/method.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/base/suggestion.h>
 
-#include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string.hpp>
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <ostream>
-#include <regex>
-#include <sstream>
 
 namespace Morula
 {
   namespace
   {
-    using Tree = boost::property_tree::ptree;
-
-    /** What is allowed for keys without a pattern, such as expressions. */
-    const std::string any_text = "any text";
-
-    /** deal.II's description of a pattern as a short noun phrase. */
-    std::string
-    noun_phrase(const std::string &machine_description)
-    {
-      std::string text = Patterns::pattern_factory(machine_description)
-                           ->description(Patterns::PatternBase::Text);
-      const std::vector<std::pair<std::string, std::string>> shorter = {
-        {"floating point number v such that -MAX_DOUBLE <= v <= MAX_DOUBLE",
-         "number"},
-        {"floating point number v such that (\\S+) <= v <= MAX_DOUBLE",
-         "number >= $1"},
-        {"integer n such that -2147483648 <= n <= 2147483647", "integer"},
-        {"integer n such that (\\S+) <= n <= 2147483647", "integer >= $1"},
-        {"integer n such that (\\S+) <= n <= (\\S+)", "integer from $1 to $2"},
-        {"A list of [01] to 4294967295 elements", "A list"},
-        {"where each element is \\[Any (.*)\\]",
-         "separated by commas, each any $1"},
-        {"where each element is \\[A (.*)\\]",
-         "separated by commas, each a $1"},
-        {"Any [Ss]tring", any_text}};
-      for (const auto &[pattern, replacement] : shorter)
-        text = std::regex_replace(text, std::regex(pattern), replacement);
-      text[0] = std::tolower(text[0]);
-      return text;
-    }
-
-
     /** deal.II's patterns of numbers match "inf" and "nan" as well. */
     bool
     all_finite(const std::string &numbers)
@@ -78,101 +37,63 @@ namespace Morula
       return names;
     }
 
-    /** The words among which a key's value, or each of its list, is chosen. */
-    std::vector<std::string>
-    choices_of(const std::string &machine_description)
-    {
-      if (machine_description.find("[Bool]") != std::string::npos)
-        return {"true", "false"};
-      std::vector<std::string> words;
-      std::smatch              match;
-      if (std::regex_search(machine_description,
-                            match,
-                            std::regex("\\[Selection ([^\\]]*)\\]")))
-        boost::split(words,
-                     boost::trim_copy(match[1].str()),
-                     boost::is_any_of("|"));
-      return words;
-    }
-
     /** A question about the first of the words that is no choice, or empty. */
     std::string
-    did_you_mean(const std::string &value, const ParameterKey &key)
+    did_you_mean(const std::string &value, const AnyKey &key)
     {
+      const std::vector<std::string> choices = key.choices();
       for (const std::string &word : Utilities::split_string_list(value))
-        if (std::find(key.choices.begin(), key.choices.end(), word) ==
-            key.choices.end())
+        if (std::find(choices.begin(), choices.end(), word) == choices.end())
           {
-            const std::string best = most_similar(word, key.choices);
+            const std::string best = most_similar(word, choices);
             return best.empty() ? "" : "Did you mean '" + best + "'? ";
           }
       return "";
     }
 
-    /** What follows "Units: " at the end of a documentation. */
+    /** What is allowed, also where any text is. */
     std::string
-    unit_of(const std::string &documentation)
+    allowed(const AnyKey &key)
     {
-      const std::string word  = "Units: ";
-      const auto        begin = documentation.rfind(word);
-      return begin == std::string::npos ?
-               "" :
-               boost::trim_right_copy_if(documentation.substr(begin +
-                                                              word.size()),
-                                         boost::is_any_of("."));
+      const std::string phrase = key.allowed();
+      return phrase.empty() ? "any text" : phrase;
     }
   } // namespace
 
 
-  ParameterKeys::ParameterKeys(const ParameterHandler &prm)
+  ParameterKeys::ParameterKeys(const KeyList &keys)
+    : keys(keys)
   {
-    std::stringstream json;
-    prm.print_parameters(json,
-                         ParameterHandler::JSON |
-                           ParameterHandler::KeepDeclarationOrder);
-    Tree tree;
-    boost::property_tree::read_json(json, tree);
-    const std::function<void(const Tree &, const std::string &)> collect =
-      [&](const Tree &branch, const std::string &prefix) {
-        for (const auto &[name, child] : branch)
-          if (child.count("pattern_description") > 0)
-            {
-              const auto pattern =
-                child.get<std::string>("pattern_description");
-              const auto documentation =
-                child.get<std::string>("documentation");
-              keys.push_back({prefix + name,
-                              child.get<std::string>("default_value"),
-                              documentation,
-                              noun_phrase(pattern),
-                              unit_of(documentation),
-                              choices_of(pattern),
-                              pattern.find("[Double") != std::string::npos});
-            }
-          else if (child.count("alias") > 0)
-            renamed[prefix + name] = prefix + child.get<std::string>("alias");
-          else
-            {
-              sections.push_back(prefix + name);
-              collect(child, prefix + name + "/");
-            }
-      };
-    collect(tree, "");
+    for (const AnyKey *key : keys)
+      for (auto slash = key->path().find('/'); slash != std::string::npos;
+           slash      = key->path().find('/', slash + 1))
+        {
+          const std::string section = key->path().substr(0, slash);
+          if (!has_section(section))
+            sections.push_back(section);
+        }
   }
 
 
-  const std::vector<ParameterKey> &
-  ParameterKeys::list() const &
+  AnyKey *
+  ParameterKeys::find(const std::string &path) const
   {
-    return keys;
+    for (AnyKey *key : keys)
+      {
+        const auto &former = key->former_paths();
+        if (key->path() == path ||
+            std::find(former.begin(), former.end(), path) != former.end())
+          return key;
+      }
+    return nullptr;
   }
 
 
   std::string
   ParameterKeys::current_name(const std::string &path) const
   {
-    const auto found = renamed.find(path);
-    return found == renamed.end() ? path : found->second;
+    const AnyKey *key = find(path);
+    return key == nullptr ? path : key->path();
   }
 
 
@@ -196,12 +117,9 @@ namespace Morula
         const std::vector<std::string> outer(names.begin(), names.begin() + n);
         const std::string              path =
           boost::join(outer, "/") + (n > 0 ? "/" : "") + names.back();
-        const bool known =
-          statement.kind == Statement::section ?
-            has_section(path) :
-            std::any_of(keys.begin(), keys.end(), [&](const ParameterKey &key) {
-              return key.path == current_name(path);
-            });
+        const bool known = statement.kind == Statement::section ?
+                             has_section(path) :
+                             find(path) != nullptr;
         if (known)
           return "'subsection " + names[n] + "' of " + statement.around[n] +
                  " is still open here: is an 'end' missing? ";
@@ -220,8 +138,8 @@ namespace Morula
     if (is_section)
       paths = sections;
     else
-      for (const ParameterKey &key : keys)
-        paths.push_back(key.path);
+      for (const AnyKey *key : keys)
+        paths.push_back(key->path());
     std::string suggestion = suggest_path(statement.path, paths);
     if (!suggestion.empty())
       suggestion += ' ';
@@ -239,7 +157,7 @@ namespace Morula
 
 
   void
-  ParameterKeys::apply(const Statement &statement, ParameterHandler &prm) const
+  ParameterKeys::apply(const Statement &statement) const
   {
     if (statement.kind == Statement::section)
       {
@@ -247,41 +165,33 @@ namespace Morula
           refuse_unknown(statement);
         return;
       }
-    const auto key =
-      std::find_if(keys.begin(),
-                   keys.end(),
-                   [this, &statement](const ParameterKey &k) {
-                     return k.path == current_name(statement.path);
-                   });
-    if (key == keys.end())
+    AnyKey *const key = find(statement.path);
+    if (key == nullptr)
       refuse_unknown(statement);
 
     const auto refuse = [&] {
-      throw InputError(statement.place + key->path,
+      const std::string unit = key->unit();
+      throw InputError(statement.place + key->path(),
                        statement.value,
-                       key->allowed,
+                       allowed(*key),
                        did_you_mean(statement.value, *key) +
-                         "It is: " + key->documentation +
+                         "It is: " + key->documentation() +
                          " Correct the value or remove the line; the default "
                          "is '" +
-                         key->default_value + "'" +
-                         (key->unit.empty() ? "." : " " + key->unit + "."));
+                         key->default_text() + "'" +
+                         (unit.empty() ? "." : " " + unit + "."));
     };
-    if (key->is_of_numbers && !all_finite(statement.value))
+    if ((key->is_of_numbers() && !all_finite(statement.value)) ||
+        !key->pattern()->match(statement.value))
       refuse();
-    const std::vector<std::string> names = split_path(key->path);
-    for (std::size_t i = 0; i + 1 < names.size(); ++i)
-      prm.enter_subsection(names[i]);
     try
       {
-        prm.set(names.back(), statement.value);
+        key->assign(statement.value);
       }
     catch (const std::exception &)
       {
         refuse();
       }
-    for (std::size_t i = 0; i + 1 < names.size(); ++i)
-      prm.leave_subsection();
   }
 
 
@@ -294,9 +204,9 @@ namespace Morula
       open.pop_back();
       out << indent() << "end\n";
     };
-    for (const ParameterKey &key : keys)
+    for (const AnyKey *key : keys)
       {
-        std::vector<std::string> names = split_path(key.path);
+        std::vector<std::string> names = split_path(key->path());
         const std::string        name  = names.back();
         names.pop_back();
         while (open.size() > names.size() ||
@@ -308,20 +218,20 @@ namespace Morula
             out << indent() << "subsection " << names[open.size()] << '\n';
             open.push_back(names[open.size()]);
           }
+        const std::string phrase = key->allowed();
         const std::string text =
-          key.allowed == any_text ?
-            key.documentation :
-            key.documentation + " Allowed: " + key.allowed + ".";
+          phrase.empty() ? key->documentation() :
+                           key->documentation() + " Allowed: " + phrase + ".";
         for (const std::string &line :
              Utilities::break_text_into_lines(text, 76 - 2 * open.size()))
           out << indent() << "# " << line << '\n';
-        for (const auto &[old, path] : renamed)
-          if (path == key.path)
-            out << indent() << "# Formerly: " << old << '\n';
-        for (const auto &[path, value] : Method::values("consistent"))
-          if (path == key.path)
-            out << indent() << "# With Method = consistent: " << value << '\n';
-        out << indent() << "set " << name << " = " << key.default_value << '\n';
+        for (const std::string &former : key->former_paths())
+          out << indent() << "# Formerly: " << former << '\n';
+        for (const auto &[method, value] : key->texts_with_methods())
+          out << indent() << "# With Method = " << method << ": " << value
+              << '\n';
+        out << indent() << "set " << name << " = " << key->default_text()
+            << '\n';
       }
     while (!open.empty())
       leave();

@@ -40,6 +40,18 @@ namespace Morula
   }
 
 
+  void
+  DirectionKey::check(const unsigned int dim) const
+  {
+    if (empty())
+      return;
+    if (dim == 2)
+      unit_vector<2>(path(), value());
+    else
+      unit_vector<3>(path(), value());
+  }
+
+
   template Tensor<1, 2>
   unit_vector<2>(const std::string &, const std::string &);
   template Tensor<1, 3>

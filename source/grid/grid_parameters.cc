@@ -3,40 +3,49 @@
 
 #include <morula/grid/grid_parameters.h>
 
-#include <deal.II/base/patterns.h>
-
 namespace Morula
 {
-  void
-  GridParameters::declare(ParameterHandler &prm)
+  GridParameters::GridParameters()
+    : spacing("Grid/Spacing",
+              50.,
+              "Edge length h of the grid cells; > 0. Units: um.")
+    , offset("Grid/Offset",
+             {0., 0., 0.},
+             "Shift of the grid lines: they lie at Offset + i h. Units: um.",
+             {2, 3})
+    , occupation_parameter("Grid/Occupation parameter",
+                           0.85,
+                           "C_C, share of a grid cell that must be filled for "
+                           "its splines to be inner ones; 0 < C_C <= 1.")
+    , extension("Grid/Extension",
+                true,
+                "Express outer splines by inner ones. False only to show "
+                "what happens without.")
+    , points_per_cell(
+        "Grid/Points per cell",
+        1,
+        "Least number of quadrature points of a cell and direction, each with "
+        "an equal part of the cell's volume; 1 is the paper's method. 2 lowers "
+        "the scatter of stresses beside surfaces to a third, and costs as much "
+        "as 2^3 times the cells (2-D: 2^2). From 2 on the points stand in the "
+        "cell's deformed box, as many along an edge as that is long: for "
+        "tissue that is stretched one way.",
+        {1, 10})
   {
-    prm.add_parameter("Spacing",
-                      spacing,
-                      "Edge length h of the grid cells; > 0. Units: um.",
-                      Patterns::Double());
-    prm.add_parameter("Offset",
-                      offset,
-                      "Shift of the grid lines: they lie at Offset + i h. "
-                      "Units: um.",
-                      Patterns::List(Patterns::Double(), 2, 3));
-    prm.add_parameter("Occupation parameter",
-                      occupation_parameter,
-                      "C_C, share of a grid cell that must be filled for its "
-                      "splines to be inner ones; 0 < C_C <= 1.",
-                      Patterns::Double());
-    prm.add_parameter("Extension",
-                      extension,
-                      "Express outer splines by inner ones. False only to show "
-                      "what happens without.");
-    prm.add_parameter(
-      "Points per cell",
-      points_per_cell,
-      "Least number of quadrature points of a cell and direction, each with an "
-      "equal part of the cell's volume; 1 is the paper's method. 2 lowers the "
-      "scatter of stresses beside surfaces to a third, and costs as much "
-      "as 2^3 times the cells (2-D: 2^2). From 2 on the points stand in the "
-      "cell's deformed box, as many along an edge as that is long: for tissue "
-      "that is stretched one way.",
-      Patterns::Integer(1, 10));
+    spacing.require([](const double h) { return h > 0.; },
+                    "a length in um > 0",
+                    "Choose some cell spacings, e.g. 3 to 5.");
+    occupation_parameter.require(
+      [](const double share) { return share > 0. && share <= 1.; },
+      "a share > 0 and <= 1",
+      "0.85 is a good choice.");
+  }
+
+
+  KeyList
+  GridParameters::list()
+  {
+    return {
+      &spacing, &offset, &occupation_parameter, &extension, &points_per_cell};
   }
 } // namespace Morula

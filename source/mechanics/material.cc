@@ -3,45 +3,44 @@
 
 #include <morula/mechanics/material.h>
 
-#include <deal.II/base/patterns.h>
-
 namespace Morula
 {
-  void
-  MaterialParameters::declare(ParameterHandler &prm)
+  MaterialParameters::MaterialParameters(const Materials &materials)
+    : youngs_modulus("Material/Young's modulus",
+                     "1.0",
+                     "E; > 0. A number or an expression of X, Y, Z (the "
+                     "cell's initial position, um). Units: kPa.",
+                     Evaluated::founder)
+    , poissons_ratio("Material/Poisson's ratio", 0.4, "nu; -1 < nu < 0.5.")
+    , energy_per("Material/Energy per",
+                 "initial volume",
+                 "The volume that the elastic energy is counted per: the "
+                 "initial volume, halved at every division, or the volume "
+                 "grown without stress.",
+                 {"initial volume|grown volume"})
+    , volumetric_strain(
+        "Material/Volumetric strain",
+        "pointwise",
+        "The elastic volume change in the volumetric part of the energy (that "
+        "with lambda, or kappa): each cell's own, or its mean over the cells "
+        "of a grid cell. Projected, tissue does not lock as Poisson's ratio "
+        "approaches 0.5; choose it above about 0.47.",
+        {"pointwise|projected"})
+    , law("Material/Law",
+          "neo-Hookean",
+          "The elastic energy as a function of the elastic deformation: the "
+          "paper's, or the one whose shear part does not depend on the volume. "
+          "The same at small strains.",
+          {materials.names().front()})
+    , materials(materials)
   {
-    prm.add_parameter("Young's modulus",
-                      youngs_modulus,
-                      "E; > 0. A number or an expression of X, Y, Z (the "
-                      "cell's initial position, um). Units: kPa.");
-    prm.add_parameter("Poisson's ratio",
-                      poissons_ratio,
-                      "nu; -1 < nu < 0.5.",
-                      Patterns::Double());
-    prm.add_parameter("Energy per",
-                      energy_per,
-                      "The volume that the elastic energy is counted per: the "
-                      "initial volume, halved at every division, or the volume "
-                      "grown without stress.",
-                      Patterns::Selection("initial volume|grown volume"));
-    prm.add_parameter(
-      "Volumetric strain",
-      volumetric_strain,
-      "The elastic volume change in the volumetric part of the energy (that with "
-      "lambda, or kappa): each cell's own, or "
-      "its mean over the cells of a grid cell. Projected, tissue does not lock "
-      "as Poisson's ratio approaches 0.5; choose it above about 0.47.",
-      Patterns::Selection("pointwise|projected"));
-    std::string names;
-    for (const std::string &name : materials.names())
-      names += (names.empty() ? "" : "|") + name;
-    prm.add_parameter(
-      "Law",
-      law,
-      "The elastic energy as a function of the elastic deformation: the "
-      "paper's, or the one whose shear part does not depend on the volume. The "
-      "same at small strains.",
-      Patterns::Selection(names));
+    const std::vector<std::string> names = materials.names();
+    for (std::size_t i = 1; i < names.size(); ++i)
+      law.add_word(names[i]);
+    youngs_modulus.positive("kPa", "Choose a positive stiffness.");
+    poissons_ratio.require([](const double nu) { return nu > -1. && nu < 0.5; },
+                           "a number > -1 and < 0.5",
+                           "Nearly incompressible tissue is 0.49 or 0.499.");
   }
 
 
@@ -66,5 +65,13 @@ namespace Morula
     const auto material = materials.find(law);
     AssertThrow(material != nullptr, ExcMessage("No material " + law));
     return material;
+  }
+
+
+  KeyList
+  MaterialParameters::list()
+  {
+    return {
+      &youngs_modulus, &poissons_ratio, &energy_per, &volumetric_strain, &law};
   }
 } // namespace Morula

@@ -131,9 +131,7 @@ namespace Morula
   void
   print_parameters(std::ostream &out, const Catalogue &catalogue)
   {
-    Scene            scene(catalogue);
-    ParameterHandler prm;
-    scene.declare(prm);
-    ParameterKeys(prm).print(out);
+    Scene scene(catalogue);
+    ParameterKeys(scene.list()).print(out);
   }
 } // namespace Morula

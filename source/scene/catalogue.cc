@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/forces/body_force.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/pressure.h>
+#include <morula/effects/surface/slip.h>
+#include <morula/effects/surface/traction.h>
 #include <morula/scene/catalogue.h>
 
 #include <algorithm>
@@ -9,62 +15,40 @@
 
 namespace Morula
 {
-  template <template <int> class Interface>
-  std::string
-  Choice<Interface>::section() const
+  namespace
   {
-    std::string text = name_;
-    text[0]          = std::toupper(static_cast<unsigned char>(text[0]));
-    return text;
-  }
+    /** Adds one of the library's own, whose keys know their full paths. */
+    template <template <int> class Effect, template <int> class Interface>
+    void
+    add(Choices<Interface> &choices, const std::string &name)
+    {
+      choices.push_back(Choice<Interface>::template of<Effect>(name, ""));
+    }
+  } // namespace
 
 
-  template <template <int> class Interface>
-  Choice<Interface>
-  Choice<Interface>::with_defaults() const
+  Catalogue::Catalogue()
   {
-    Choice copy(*this);
-    copy.values = defaults();
-    return copy;
-  }
-
-
-  template <template <int> class Interface>
-  void
-  Choice<Interface>::declare(ParameterHandler &prm)
-  {
-    prm.enter_subsection(section());
-    declare_keys(values, prm);
-    prm.leave_subsection();
-  }
-
-
-  template <template <int> class Interface>
-  std::vector<ParameterKey>
-  Choice<Interface>::keys() const
-  {
-    Choice           copy(*this);
-    ParameterHandler prm;
-    copy.declare_keys(copy.values, prm);
-    const ParameterKeys declared(prm);
-    return declared.list();
+    add<IsotropicGrowth>(growth_laws, "isotropic");
+    add<BodyForce>(forces, "body force");
+    add<Fixed>(boundary_conditions, "fixed");
+    add<Slip>(boundary_conditions, "slip");
+    add<Traction>(boundary_conditions, "traction");
+    add<Pressure>(boundary_conditions, "pressure");
   }
 
 
   Catalogue
   Catalogue::with_defaults() const
   {
-    Catalogue copy;
-    for (const auto &law : growth_laws)
-      copy.growth_laws.push_back(law.with_defaults());
-    for (const auto &rule : division_rules)
-      copy.division_rules.push_back(rule.with_defaults());
+    Catalogue copy(*this);
+    copy.for_each([](auto &choice) { choice.reset(); });
     return copy;
   }
 
 
   void
-  Catalogue::check_name(const std::string &name) const
+  Catalogue::check_name(const std::string &name)
   {
     const bool plain =
       !name.empty() && std::all_of(name.begin(), name.end(), [](const char c) {
@@ -75,15 +59,18 @@ namespace Morula
       throw std::invalid_argument("'" + name +
                                   "' cannot name an effect: small letters, "
                                   "blanks and '-' may.");
-    for (const char *own : {"none", "isotropic", "random", "fixed"})
-      if (name == own)
-        throw std::invalid_argument("'" + name + "' is Morula's own.");
-    if (find_choice(growth_laws, name) != nullptr ||
-        find_choice(division_rules, name) != nullptr)
+    bool in_use = name == "none" || name == "random";
+    for_each(
+      [&](const auto &choice) { in_use = in_use || choice.name() == name; });
+    if (in_use)
       throw std::invalid_argument("There is an effect '" + name + "' already.");
   }
 
 
-  template class Choice<GrowthLaw>;
-  template class Choice<DivisionRule>;
+  std::string
+  Catalogue::section(const std::string &around, std::string name)
+  {
+    name[0] = std::toupper(static_cast<unsigned char>(name[0]));
+    return around + name;
+  }
 } // namespace Morula

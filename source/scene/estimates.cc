@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/scene/estimates.h>
-#include <morula/scene/refusals.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Morula
@@ -12,6 +12,8 @@ namespace Morula
   {
     // What follows is fitted to the runs of the table "estimates" of
     // doc/performance.md; contrib/benchmark estimates measures them anew. The
+    // seconds are those of one core of the processor named there: the user is
+    // told so, and other processors differ by a factor of two or so. The
     // exponents of the direct solver are those of nested dissection.
 
     /** Bytes of a run with @p n_cells cells and @p n equations, on one rank. */
@@ -22,8 +24,9 @@ namespace Morula
       constexpr double program = 180e6;
       // position, reference position, id, place in the grid: about 200 bytes;
       // and what a step makes of them
-      const double cell = (dim == 2 ? 2.7 : 2.3) *
-                          (8. * cell_columns_of<dim>(scene).n_numbers() + 200.);
+      const double cell =
+        (dim == 2 ? 2.7 : 2.3) *
+        (8. * effects_of<dim>(scene).columns.n_numbers() + 200.);
       // a row couples with 5^dim splines, 12 bytes an entry; matrix,
       // preconditioner and positions of the entries
       const double row     = 2.6 * 12. * dim * std::pow(5., dim);
@@ -37,14 +40,18 @@ namespace Morula
     }
 
     /** Whether anything but the clamps acts on the tissue. */
+    template <int dim>
     bool
     is_driven(const Scene &scene)
     {
-      const BoundaryConditionParameters &given = scene.boundary_conditions;
+      const SceneEffects<dim> effects = effects_of<dim>(scene);
       return scene.has_growth() || scene.has_proliferation() ||
-             !given.traction_where.empty() || !given.pressure_where.empty() ||
-             !Refusals::same_value(scene.body_force.force_density, "0; 0; 0") ||
-             !Refusals::same_value(given.displacement, "0; 0; 0");
+             !effects.forces.empty() ||
+             std::any_of(effects.conditions.begin(),
+                         effects.conditions.end(),
+                         [](const auto &named) {
+                           return named.condition->moves();
+                         });
     }
 
     /** Seconds of a step of one core with @p n_cells cells, @p n equations. */
@@ -52,13 +59,13 @@ namespace Morula
     double
     step_seconds(const Scene &scene, const double n_cells, const double n)
     {
-      if (!is_driven(scene))
+      if (!is_driven<dim>(scene))
         return 2e-6 * n_cells;
       constexpr double newton_iterations = 4.;
       const bool       is_projected =
         scene.material.volumetric_form() == VolumetricStrain::projected;
       const double n_points =
-        n_cells * std::pow(scene.grid.points_per_cell, dim);
+        n_cells * std::pow(scene.grid.points_per_cell.value(), dim);
       const double point    = dim == 2 ? (is_projected ? 0.8e-6 : 0.6e-6) :
                                          (is_projected ? 0.6e-6 : 0.5e-6);
       const double equation = dim == 2 ? 4e-6 : 26e-6;

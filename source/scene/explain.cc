@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression.h>
-#include <morula/base/method.h>
-#include <morula/base/parameter_keys.h>
+#include <morula/particles/cell_state.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/explain.h>
 #include <morula/scene/limits.h>
-#include <morula/scene/refusals.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/seeding.h>
@@ -37,15 +34,6 @@ namespace Morula
           << (on ? "on   " + description : "off") << '\n';
     }
 
-    std::string
-    at_points(const types::particle_index n,
-              const std::string          &where,
-              const std::string          &what = "")
-    {
-      return "at " + std::to_string(n) + " boundary points, where " + where +
-             what;
-    }
-
     /** Which founders proliferate. */
     std::string
     of_founders(const types::particle_index n,
@@ -58,43 +46,40 @@ namespace Morula
                  " founders, where " + where;
     }
 
-    /** ", Key = value" for all keys of the chosen effect, if it is one of the
-     *  catalogue. */
+    /** What the chosen effect's keys say, if it is one of the catalogue. */
     template <template <int> class Interface>
     std::string
-    values_of(const std::vector<Choice<Interface>> &choices,
-              const std::string                    &chosen)
+    details_of(const Choices<Interface> &choices, const std::string &chosen)
     {
-      std::string text;
       const auto *choice = find_choice(choices, chosen);
-      if (choice != nullptr)
-        for (const ParameterKey &key : choice->keys())
-          text += ", " + key.path + " = " + key.default_value;
-      return text;
+      return choice == nullptr ? "" : choice->keys().details();
+    }
+
+    /** What a condition or force is called. */
+    template <template <int> class Interface>
+    std::string
+    topic_of(const Choice<Interface> &choice)
+    {
+      const std::string topic = choice.keys().topic();
+      return topic.empty() ? choice.name() : topic;
     }
 
     /** What `Method` stands for in this scene, a key a line. */
     void
-    print_method(std::ostream &out, Scene scene)
+    print_method(std::ostream &out, const Scene &scene)
     {
-      ParameterHandler prm;
-      scene.declare(prm);
-      const ParameterKeys keys(prm);
       out << "Method\n  " << scene.method << ", which stands for\n";
-      for (const auto &[path, consistent] : Method::values("consistent"))
-        for (const ParameterKey &key : keys.list())
-          if (key.path == path)
-            out << "    " << path << " = " << key.default_value
-                << (scene.as_written.count(path) > 0 ? " (set by the scene)" :
-                                                       "")
-                << '\n';
+      for (const AnyKey *key : scene.list())
+        if (!key->texts_with_methods().empty())
+          out << "    " << key->path() << " = " << key->shown()
+              << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
     }
 
     bool
     has_checkpoint(const Scene &scene)
     {
       return scene.has_proliferation() &&
-             !Refusals::same_value(scene.cell_cycle.size_checkpoint, "0");
+             !scene.cell_cycle.size_checkpoint.is_default();
     }
 
     void
@@ -104,12 +89,9 @@ namespace Morula
                   const types::particle_index n_founders,
                   const types::particle_index n_proliferating)
     {
-      const CellCycleParameters         &cycle = scene.cell_cycle;
-      const BoundaryConditionParameters &given = scene.boundary_conditions;
-
-      const bool divides = scene.has_proliferation();
-      const bool pulls =
-        !Refusals::same_value(scene.body_force.force_density, "0; 0; 0");
+      const CellCycleParameters &cycle     = scene.cell_cycle;
+      const Catalogue           &catalogue = scene.catalogue;
+      const bool                 divides   = scene.has_proliferation();
 
       std::ostringstream half_a_grid_cell;
       half_a_grid_cell << 0.5 * scene.grid.spacing;
@@ -119,59 +101,51 @@ namespace Morula
                    "growth",
                    scene.has_growth(),
                    scene.growth_law +
-                     (scene.growth_law == "isotropic" ?
-                        ", theta = " + scene.isotropic_growth.stretch :
-                        values_of(scene.catalogue.growth_laws,
-                                  scene.growth_law)));
+                     details_of(catalogue.growth_laws, scene.growth_law));
       print_effect(out,
                    "proliferation",
                    divides,
-                   scene.proliferation_law + ", T = " + cycle.duration +
-                     " day, Lambda = " + cycle.exit_rate + " /day, " +
-                     of_founders(n_proliferating, n_founders, cycle.where));
+                   scene.proliferation_law + ", T = " + cycle.duration.text() +
+                     " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
+                     of_founders(n_proliferating,
+                                 n_founders,
+                                 cycle.where.text()));
       print_effect(out,
                    "size checkpoint",
                    has_checkpoint(scene),
-                   "J_th = " + cycle.size_checkpoint);
+                   "J_th = " + cycle.size_checkpoint.text());
       print_effect(out,
                    "division (Voronoi)",
                    divides,
                    "axis = " + cycle.division_axis +
-                     values_of(scene.catalogue.division_rules,
-                               cycle.division_axis) +
+                     details_of(catalogue.division_rules, cycle.division_axis) +
                      (cycle.axis_follows_rotation ? ", follows rotation" : ""));
-      print_effect(out,
-                   "fixed points (Nitsche)",
-                   counts.fixed > 0,
-                   at_points(counts.fixed,
-                             given.fixed_where,
-                             "; displacement " + given.displacement + " um"));
-      print_effect(out,
-                   "slip (Nitsche)",
-                   counts.slip > 0,
-                   at_points(counts.slip, given.slip_where));
-      print_effect(out,
-                   "traction",
-                   counts.traction > 0,
-                   at_points(counts.traction,
-                             given.traction_where,
-                             "; " + given.traction + " kPa"));
-      print_effect(out,
-                   "pressure",
-                   counts.pressure > 0,
-                   at_points(counts.pressure,
-                             given.pressure_where,
-                             "; " + given.pressure + " kPa"));
-      print_effect(out,
-                   "body force",
-                   pulls,
-                   scene.body_force.force_density + " kPa/um");
+      for (const auto &choice : catalogue.fates)
+        print_effect(out,
+                     topic_of(choice),
+                     choice.keys().is_on(),
+                     choice.keys().details());
+      for (const auto &choice : catalogue.boundary_conditions)
+        {
+          const types::particle_index n     = counts.acting.at(choice.name());
+          const AnyKey *const         where = choice.keys().switch_key();
+          print_effect(out,
+                       topic_of(choice),
+                       n > 0,
+                       "at " + std::to_string(n) + " boundary points" +
+                         (where == nullptr ? "" : ", where " + where->text()) +
+                         choice.keys().details());
+        }
+      for (const auto &choice : catalogue.forces)
+        print_effect(out,
+                     topic_of(choice),
+                     choice.keys().is_on(),
+                     choice.keys().details());
       print_effect(out,
                    "heterogeneous stiffness",
-                   !Expression("Material/Young's modulus",
-                               scene.material.youngs_modulus)
+                   !scene.material.youngs_modulus.expression(scene.dimension)
                       .is_constant(),
-                   "E = " + scene.material.youngs_modulus + " kPa");
+                   "E = " + scene.material.youngs_modulus.text() + " kPa");
       print_effect(out,
                    "surface refinement",
                    scene.tissue.refine_surface,
@@ -286,7 +260,7 @@ namespace Morula
       print_effects(text, scene, counts, founders.n_global, n_proliferating);
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
-      print_columns(text, cell_columns_of<dim>(scene), known);
+      print_columns(text, effects_of<dim>(scene).columns, known);
       print_size(text, scene, size, available);
       for (const std::string &warning : warnings)
         text << warning << '\n';

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/scene/grid_warnings.h>
-#include <morula/scene/refusals.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,8 +11,6 @@
 
 namespace Morula
 {
-  using Refusals::as_text;
-
   namespace
   {
     /** Numbers that differ by less are equal. */
@@ -85,30 +82,21 @@ namespace Morula
   } // namespace
 
 
-  std::string
-  warning(const std::string &key,
-          const std::string &value,
-          const std::string &why,
-          const std::string &remedy)
-  {
-    return "Warning: " + key + " = '" + value + "': " + why + ' ' + remedy;
-  }
-
-
   template <int dim>
-  std::vector<std::string>
-  grid_warnings(const Scene               &scene,
-                const Founders<dim>       &founders,
-                const SurfacePatches<dim> &surface,
-                const MPI_Comm             comm)
+  void
+  review_grid(const Scene               &scene,
+              const Founders<dim>       &founders,
+              const SurfacePatches<dim> &surface,
+              const MPI_Comm             comm,
+              Review                    &review)
   {
-    std::vector<std::string> warnings;
-    const double             h     = scene.grid.spacing;
-    const double             L     = cell_length(founders, comm);
-    const std::string        value = as_text(h) + " um";
+    const double      h     = scene.grid.spacing;
+    const double      L     = cell_length(founders, comm);
+    const std::string path  = scene.grid.spacing.path();
+    const std::string value = as_text(h) + " um";
     if (h < (3. - rounding) * L)
-      warnings.push_back(warning(
-        "Grid/Spacing",
+      review.warn(
+        path,
         value,
         "that is " + as_text(h / L) + " cells of " + as_text(L) + " um; " +
           (h < (2. - rounding) * L ?
@@ -118,54 +106,55 @@ namespace Morula
              "one run in eight of proliferating tissue has failed "
              "(doc/accuracy-and-cost.md, advice)."),
         "Choose 4 to 7 cells per grid spacing: raise Grid/Spacing, or "
-        "lower Tissue/Cell spacing."));
+        "lower Tissue/Cell spacing.");
 
     const double thickness = smallest_extent(scene, founders, surface, comm);
     if (thickness < (1. - rounding) * h)
-      warnings.push_back(
-        warning("Grid/Spacing",
-                value,
-                "the tissue is only " + as_text(thickness) +
-                  " um wide, less than a grid cell: one quadratic field goes "
-                  "through its thickness, and details within it are lost "
-                  "(doc/hard-cases.md, small_and_thin).",
-                "Lower Grid/Spacing to half the thickness if they matter, with "
-                "Tissue/Cell spacing at most a third of that."));
+      review.warn(
+        path,
+        value,
+        "the tissue is only " + as_text(thickness) +
+          " um wide, less than a grid cell: one quadratic field goes "
+          "through its thickness, and details within it are lost "
+          "(doc/hard-cases.md, small_and_thin).",
+        "Lower Grid/Spacing to half the thickness if they matter, with " +
+          scene.tissue.cell_spacing.path() + " at most a third of that.");
 
     // fixed points keep their distances
-    const bool   slips = !scene.boundary_conditions.slip_where.empty();
+    const bool slips =
+      boundary_conditions_of<dim>(scene).has(SurfaceCondition::slip);
     const double patch = patch_length(surface, comm);
     if (slips && (scene.has_growth() || scene.has_proliferation()) &&
         !scene.tissue.refine_surface && patch > (0.5 - rounding) * h)
-      warnings.push_back(
-        warning("Tissue/Boundary points",
-                std::to_string(surface.n_global),
-                "they are " + as_text(patch) +
-                  " um apart at the start, half of Grid/Spacing = " + value +
-                  " or more; where growth takes those of a slip wall farther "
-                  "apart than a grid cell, tissue leaks through "
-                  "(doc/hard-cases.md, instability).",
-                "Raise their number, or set Tissue/Refine surface = true."));
+      review.warn(scene.tissue.boundary_points.path(),
+                  std::to_string(surface.n_global),
+                  "they are " + as_text(patch) +
+                    " um apart at the start, half of Grid/Spacing = " + value +
+                    " or more; where growth takes those of a slip wall farther "
+                    "apart than a grid cell, tissue leaks through "
+                    "(doc/hard-cases.md, instability).",
+                  "Raise their number, or set Tissue/Refine surface = true.");
 
     if (!scene.grid.extension)
-      warnings.push_back(warning(
-        "Grid/Extension",
+      review.warn(
+        scene.grid.extension.path(),
         "false",
         "plain splines fail for a third to a half of the places that the "
         "grid can have (doc/hard-cases.md, cuts).",
-        "Set it to true, unless that is what you want to show."));
-    return warnings;
+        "Set it to true, unless that is what you want to show.");
   }
 
 
-  template std::vector<std::string>
-  grid_warnings(const Scene &,
-                const Founders<2> &,
-                const SurfacePatches<2> &,
-                const MPI_Comm);
-  template std::vector<std::string>
-  grid_warnings(const Scene &,
-                const Founders<3> &,
-                const SurfacePatches<3> &,
-                const MPI_Comm);
+  template void
+  review_grid(const Scene &,
+              const Founders<2> &,
+              const SurfacePatches<2> &,
+              const MPI_Comm,
+              Review &);
+  template void
+  review_grid(const Scene &,
+              const Founders<3> &,
+              const SurfacePatches<3> &,
+              const MPI_Comm,
+              Review &);
 } // namespace Morula

@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/scene/limits.h>
-#include <morula/scene/refusals.h>
 #include <morula/scene/size.h>
 
 #include <algorithm>
@@ -12,19 +11,17 @@
 
 namespace Morula
 {
-  using Refusals::as_text;
-
   namespace
   {
     void
-    refuse_long(const std::string &key,
-                const double       length,
-                const double       value,
-                const double       h)
+    refuse_long(const AnyKey &key,
+                const double  length,
+                const double  value,
+                const double  h)
     {
       // Lengths that are negative or no numbers are refused elsewhere.
       if (length > longest_tissue * h)
-        throw InputError(key,
+        throw InputError(key.path(),
                          as_text(value),
                          "tissue at most " + as_text(longest_tissue) +
                            " times Grid/Spacing long, " +
@@ -61,7 +58,9 @@ namespace Morula
       if (n <= most_per_cell *
                  std::max({few_cells, cells, volume / std::pow(h, dim)}))
         return;
-      const bool         is_mesh = scene.tissue.shape == "mesh";
+      const bool              is_mesh = scene.tissue.shape == "mesh";
+      const Key<std::string> &file =
+        is_mesh ? scene.tissue.surface_mesh : scene.tissue.points_file;
       std::ostringstream remedy;
       remedy << "It reaches from (" << box.get_boundary_points().first
              << ") to (" << box.get_boundary_points().second << ") um, " << n
@@ -69,11 +68,8 @@ namespace Morula
              << " cells: correct the " << (is_mesh ? "vertex" : "cell")
              << " that lies astray, or raise Grid/Spacing. If the file is in "
                 "another unit, scale it to um.";
-      throw InputError(is_mesh ? "Tissue/Surface mesh" : "Tissue/Points file",
-                       is_mesh ? scene.tissue.surface_mesh :
-                                 scene.tissue.points_file,
-                       "tissue that fills a part of the grid around it",
-                       remedy.str());
+      file.refuse("tissue that fills a part of the grid around it",
+                  remedy.str());
     }
   } // namespace
 
@@ -84,21 +80,19 @@ namespace Morula
     const TissueParameters &tissue = scene.tissue;
     const double            h      = scene.grid.spacing;
     if (tissue.shape != "points" && tissue.cell_spacing > longest_cell * h)
-      throw InputError("Tissue/Cell spacing",
-                       as_text(tissue.cell_spacing),
-                       "a spacing of at most " + as_text(longest_cell) +
-                         " times Grid/Spacing, " + as_text(longest_cell * h) +
-                         " um",
-                       "Choose a smaller spacing, or a larger Grid/Spacing: a "
-                       "cell deforms as a whole.");
+      tissue.cell_spacing.refuse(
+        "a spacing of at most " + as_text(longest_cell) +
+          " times Grid/Spacing, " + as_text(longest_cell * h) + " um",
+        "Choose a smaller spacing, or a larger Grid/Spacing: a "
+        "cell deforms as a whole.");
     if (tissue.shape == "sphere" || tissue.shape == "cylinder")
-      refuse_long("Tissue/Radius", 2. * tissue.radius, tissue.radius, h);
+      refuse_long(tissue.radius, 2. * tissue.radius, tissue.radius, h);
     if (tissue.shape == "box" || tissue.shape == "ellipsoid" ||
         tissue.shape == "cylinder")
       for (unsigned int d = tissue.shape == "cylinder" ? 2 : 0;
            d < std::min<std::size_t>(scene.dimension, tissue.size.size());
            ++d)
-        refuse_long("Tissue/Size", tissue.size[d], tissue.size[d], h);
+        refuse_long(tissue.size, tissue.size[d], tissue.size[d], h);
   }
 
 

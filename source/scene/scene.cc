@@ -5,131 +5,121 @@
 #include <morula/base/parameter_keys.h>
 #include <morula/scene/scene.h>
 
-#include <deal.II/base/patterns.h>
+#include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 namespace Morula
 {
   namespace
   {
-    /** Declares the keys of @p parameters in their own section. */
-    template <typename Parameters>
     void
-    declare_section(ParameterHandler  &prm,
-                    const std::string &section,
-                    Parameters        &parameters)
+    append(KeyList &list, const KeyList &more)
     {
-      prm.enter_subsection(section);
-      parameters.declare(prm);
-      prm.leave_subsection();
+      list.insert(list.end(), more.begin(), more.end());
     }
 
-    /** Default value of each key, as deal.II prints it, by full path. */
-    std::map<std::string, std::string>
-    defaults(const ParameterKeys &keys)
+    /** Admits the names of all effects of a kind. */
+    template <template <int> class Interface>
+    void
+    add_words(Key<std::string> &key, const Choices<Interface> &choices)
     {
-      std::map<std::string, std::string> result;
-      for (const ParameterKey &key : keys.list())
-        result[key.path] = key.default_value;
-      return result;
+      for (const auto &choice : choices)
+        key.add_word(choice.name());
     }
   } // namespace
 
 
-  void
-  TimeParameters::declare(ParameterHandler &prm)
+  Scene::Scene(const Catalogue &catalogue)
+    : method("Method",
+             "paper",
+             "Defaults of the keys that say 'With Method'; those that "
+             "the scene sets keep their values. paper: the paper's. "
+             "consistent: much more exact beside the edge of a fixed "
+             "surface (doc/accuracy-and-cost.md says when not).",
+             {"paper|consistent"})
+    , dimension("Dimension",
+                3,
+                "3, or 2 for plane strain per um of thickness.",
+                {2, 3})
+    , output_directory(
+        "Output directory",
+        "",
+        "Where all files go; empty: output/NAME for a scene "
+        "NAME.prm. A new run replaces a finished one of the same "
+        "scene file, and others with --replace only.")
+    , random_seed("Random seed", 1, "Equal seeds give equal runs.")
+    , material(catalogue.materials)
+    , growth_law("Growth/Law",
+                 "none",
+                 "How cells grow without dividing.",
+                 {"none"})
+    , proliferation_law("Proliferation/Law",
+                        "none",
+                        "How cells grow and divide.",
+                        {"none|cell cycle"})
+    , catalogue(catalogue)
   {
-    prm.add_parameter("End time",
-                      end_time,
-                      "Time at which the run ends; > 0. Units: day.",
-                      Patterns::Double());
-    prm.add_parameter("Step",
-                      step,
-                      "Time step; > 0. Steps end at its multiples. Units: day.",
-                      Patterns::Double());
-    prm.add_parameter("Smallest step",
-                      smallest_step,
-                      "A step that fails is halved; the run gives up below "
-                      "this; > 0. Units: day.",
-                      Patterns::Double());
-    prm.add_parameter("Stop at cells",
-                      stop_at_cells,
-                      "End early at the first step end with at least so many "
-                      "cells; 0: never.",
-                      Patterns::Integer(0));
+    add_words(growth_law, catalogue.growth_laws);
+    add_words(cell_cycle.division_axis, catalogue.division_rules);
+    if (!catalogue.division_rules.empty())
+      cell_cycle.division_axis.add_documentation(
+        " Others: by a rule of this program.");
   }
 
 
-  void
-  Scene::declare(ParameterHandler &prm)
+  bool
+  Scene::has_growth() const
   {
-    prm.add_parameter("Method",
-                      method,
-                      "Defaults of the keys that say 'With Method'; those that "
-                      "the scene sets keep their values. paper: the paper's. "
-                      "consistent: much more exact beside the edge of a fixed "
-                      "surface (doc/accuracy-and-cost.md says when not).",
-                      Patterns::Selection(Method::choices));
-    prm.add_parameter("Dimension",
-                      dimension,
-                      "3, or 2 for plane strain per um of thickness.",
-                      Patterns::Integer(2, 3));
-    prm.add_parameter("Output directory",
-                      output_directory,
-                      "Where all files go; empty: output/NAME for a scene "
-                      "NAME.prm. A new run replaces a finished one of the same "
-                      "scene file, and others with --replace only.");
-    prm.add_parameter("Random seed",
-                      random_seed,
-                      "Equal seeds give equal runs.",
-                      Patterns::Integer(0));
-    declare_section(prm, "Time", time);
-    declare_section(prm, "Tissue", tissue);
-    declare_section(prm, "Grid", grid);
-    declare_section(prm, "Material", material);
-    declare_growth(prm);
-    declare_proliferation(prm);
-    declare_section(prm, "Boundary conditions", boundary_conditions);
-    declare_section(prm, "Body force", body_force);
-    declare_section(prm, "Solver", solver);
-    declare_section(prm, "Output", output);
+    return growth_law != "none";
   }
 
 
-  void
-  Scene::declare_growth(ParameterHandler &prm)
+  bool
+  Scene::has_proliferation() const
   {
-    prm.enter_subsection("Growth");
-    prm.add_parameter("Law",
-                      growth_law,
-                      "How cells grow without dividing.",
-                      Patterns::Selection(
-                        "none|isotropic" +
-                        as_alternatives(catalogue.growth_laws)));
-    declare_section(prm, "Isotropic", isotropic_growth);
+    return proliferation_law != "none";
+  }
+
+
+  bool
+  Scene::has_set(const AnyKey &key) const
+  {
+    return as_written.count(key.path()) > 0;
+  }
+
+
+  KeyList
+  Scene::list()
+  {
+    KeyList list = {&method, &dimension, &output_directory, &random_seed};
+    for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
+      append(list, section->list());
+    list.push_back(&growth_law);
     for (auto &law : catalogue.growth_laws)
-      law.declare(prm);
-    prm.leave_subsection();
-  }
-
-
-  void
-  Scene::declare_proliferation(ParameterHandler &prm)
-  {
-    prm.enter_subsection("Proliferation");
-    prm.add_parameter("Law",
-                      proliferation_law,
-                      "How cells grow and divide.",
-                      Patterns::Selection("none|cell cycle"));
-    prm.enter_subsection("Cell cycle");
-    cell_cycle.declare(prm, as_alternatives(catalogue.division_rules));
+      append(list, law.keys().list());
+    list.push_back(&proliferation_law);
+    append(list, cell_cycle.list());
     for (auto &rule : catalogue.division_rules)
-      rule.declare(prm);
-    prm.leave_subsection();
-    prm.leave_subsection();
+      append(list, rule.keys().list());
+    for (auto &fate : catalogue.fates)
+      append(list, fate.keys().list());
+    // Nitsche's term belongs to the library's own conditions.
+    for (auto &condition : catalogue.boundary_conditions)
+      if (!condition.has_section())
+        append(list, condition.keys().list());
+    append(list, nitsche.list());
+    for (auto &condition : catalogue.boundary_conditions)
+      if (condition.has_section())
+        append(list, condition.keys().list());
+    for (auto &force : catalogue.forces)
+      append(list, force.keys().list());
+    append(list, solver.list());
+    append(list, output.list());
+    return list;
   }
 
 
@@ -138,17 +128,15 @@ namespace Morula
               const std::vector<std::string> &overrides,
               const Catalogue                &catalogue)
   {
-    Scene            scene(catalogue);
-    ParameterHandler prm;
-    scene.declare(prm);
-    const ParameterKeys keys(prm);
+    Scene               scene(catalogue);
+    const ParameterKeys keys(scene.list());
 
     std::vector<Statement> statements = read_statements(file);
     for (const std::string &text : overrides)
       statements.push_back(read_override(text));
     for (const Statement &statement : statements)
       {
-        keys.apply(statement, prm);
+        keys.apply(statement);
         if (statement.kind == Statement::set)
           {
             const std::string path = keys.current_name(statement.path);
@@ -161,9 +149,10 @@ namespace Morula
                                       "' rewrites the file");
           }
       }
-    for (const auto &[path, value] : Method::values(scene.method))
-      if (scene.as_written.count(path) == 0)
-        keys.apply({Statement::set, path, value, ""}, prm);
+    for (AnyKey *key : scene.list())
+      for (const auto &[method, text] : key->texts_with_methods())
+        if (scene.method == method && !scene.has_set(*key))
+          key->assign(text);
     scene.file = file;
     if (scene.output_directory.empty())
       scene.output_directory =
@@ -176,7 +165,7 @@ namespace Morula
   std::string
   Scene::located(const std::string &message) const
   {
-    // "Tissue/Points file (cells.csv, line 3) = '...'": the key comes first
+    // "SECTION/KEY (cells.csv, line 3) = '...'": the key comes first
     const auto place = places.find(
       message.substr(0, std::min(message.find(" = '"), message.find(" ("))));
     return place == places.end() ? message : place->second + message;
@@ -186,22 +175,19 @@ namespace Morula
   std::string
   Scene::parameters() const
   {
-    // the members as they are, and as they were when they had just been read
-    ParameterHandler prm, prm_read, prm_read_again;
-    Scene            now(*this), read(with_defaults());
-    now.declare(prm);
-    const ParameterKeys keys(prm);
-    read.declare(prm_read);
-    for (const auto &[path, value] : as_written)
-      keys.apply({Statement::set, path, value, ""}, prm_read);
-    read.declare(prm_read_again);
-
-    const auto value_now  = defaults(keys);
-    const auto value_read = defaults(ParameterKeys(prm_read_again));
-    for (const auto &[path, value] : as_written)
-      if (value_now.at(path) == value_read.at(path))
-        keys.apply({Statement::set, path, value, ""}, prm);
-
+    ParameterHandler prm;
+    Scene            copy(*this);
+    copy.declare(prm);
+    for (const AnyKey *key : list())
+      {
+        std::vector<std::string> names;
+        boost::split(names, key->path(), boost::is_any_of("/"));
+        for (std::size_t i = 0; i + 1 < names.size(); ++i)
+          prm.enter_subsection(names[i]);
+        prm.set(names.back(), key->text());
+        for (std::size_t i = 0; i + 1 < names.size(); ++i)
+          prm.leave_subsection();
+      }
     std::ostringstream out;
     prm.print_parameters(out,
                          ParameterHandler::ShortPRM |
@@ -211,29 +197,56 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<const GrowthLaw<dim>>
-  growth_law_of(const Scene &scene)
+  SceneEffects<dim>
+  effects_of(const Scene &scene)
   {
-    if (!scene.has_growth())
-      return nullptr;
-    const auto added =
-      find_choice(scene.catalogue.growth_laws, scene.growth_law);
-    if (added != nullptr)
-      return added->make<dim>();
-    return std::make_unique<const IsotropicGrowth<dim>>(scene.isotropic_growth);
+    SceneEffects<dim> effects;
+    if (scene.has_growth())
+      effects.columns.need_growth();
+    if (scene.has_proliferation())
+      {
+        CycleColumns<dim>{effects.columns}; // declares them
+        effects.cycle.emplace(scene.cell_cycle,
+                              scene.random_seed,
+                              scene.time.slack());
+      }
+    const EffectSetting<dim> setting{scene.random_seed,
+                                     scene.time.slack(),
+                                     effects.columns};
+    const auto               make = [&](const auto &choice) {
+      const unsigned int n = effects.columns.n_numbers();
+      auto               effect = choice.template make<dim>(setting);
+      if (effects.columns.n_numbers() > n)
+        effects.with_state.push_back(effect.get());
+      return effect;
+    };
+
+    const Catalogue &catalogue = scene.catalogue;
+    if (scene.has_growth())
+      effects.growth_law =
+        make(*find_choice(catalogue.growth_laws, scene.growth_law));
+    if (scene.has_proliferation())
+      if (const auto *rule = find_choice(catalogue.division_rules,
+                                         scene.cell_cycle.division_axis))
+        effects.division_rule = make(*rule);
+    for (const auto &choice : catalogue.fates)
+      if (choice.keys().is_on())
+        effects.fates.push_back(make(choice));
+    for (const auto &choice : catalogue.forces)
+      if (choice.keys().is_on())
+        effects.forces.push_back({choice.name(), make(choice)});
+    for (const auto &choice : catalogue.boundary_conditions)
+      if (choice.keys().is_on())
+        effects.conditions.push_back({choice.name(), make(choice)});
+    return effects;
   }
 
 
   template <int dim>
-  CellColumns<dim>
-  cell_columns_of(const Scene &scene)
+  std::unique_ptr<const GrowthLaw<dim>>
+  growth_law_of(const Scene &scene)
   {
-    CellColumns<dim> columns;
-    if (scene.has_growth())
-      columns.need_growth();
-    if (scene.has_proliferation())
-      CycleColumns<dim>{columns}; // declares them
-    return columns;
+    return effects_of<dim>(scene).growth_law;
   }
 
 
@@ -241,19 +254,24 @@ namespace Morula
   std::unique_ptr<const DivisionRule<dim>>
   division_rule_of(const Scene &scene)
   {
-    if (!scene.has_proliferation())
-      return nullptr;
-    const auto added = find_choice(scene.catalogue.division_rules,
-                                   scene.cell_cycle.division_axis);
-    return added == nullptr ? nullptr : added->make<dim>();
+    return effects_of<dim>(scene).division_rule;
   }
 
 
-#define INSTANTIATE(dim)                                                         \
-  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &);   \
-  template CellColumns<dim>                      cell_columns_of(const Scene &); \
-  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(            \
-    const Scene &);
+  template <int dim>
+  BoundaryConditions<dim>
+  boundary_conditions_of(const Scene &scene)
+  {
+    return {effects_of<dim>(scene).conditions, scene.nitsche};
+  }
+
+
+#define INSTANTIATE(dim)                                                       \
+  template SceneEffects<dim>                     effects_of(const Scene &);    \
+  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &); \
+  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(          \
+    const Scene &);                                                            \
+  template BoundaryConditions<dim> boundary_conditions_of(const Scene &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -29,11 +29,10 @@ namespace Morula
         : proliferates(scene.has_proliferation())
         , together(scene.cell_cycle.start == "together")
         , end_time(scene.time.end_time)
-        , where(section + "Where", scene.cell_cycle.where)
-        , duration(section + "Duration", scene.cell_cycle.duration)
-        , rate(section + "G0 exit rate", scene.cell_cycle.exit_rate)
-        , checkpoint(section + "Size checkpoint",
-                     scene.cell_cycle.size_checkpoint)
+        , where(scene.cell_cycle.where.expression(dim))
+        , duration(scene.cell_cycle.duration.expression(dim))
+        , rate(scene.cell_cycle.exit_rate.expression(dim))
+        , checkpoint(scene.cell_cycle.size_checkpoint.expression(dim))
       {}
 
       double
@@ -53,8 +52,6 @@ namespace Morula
       }
 
     private:
-      static inline const std::string section = "Proliferation/Cell cycle/";
-
       const bool   proliferates, together;
       const double end_time;
       // most founders are like the one before

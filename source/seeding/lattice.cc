@@ -31,10 +31,9 @@ namespace Morula
         product *= upper - lower + 1.;
         if (!(product < std::numeric_limits<types::particle_index>::max()) ||
             !(std::abs(lower) < 1e15))
-          throw InputError("Tissue/Cell spacing",
-                           Patterns::Tools::to_string(spacing),
-                           "a spacing in um that gives fewer than 4e9 cells",
-                           "Choose a larger spacing or a smaller tissue.");
+          parameters.cell_spacing.refuse(
+            "a spacing in um that gives fewer than 4e9 cells",
+            "Choose a larger spacing or a smaller tissue.");
         first[d]  = static_cast<std::int64_t>(lower);
         counts[d] = static_cast<std::uint64_t>(upper - lower + 1.);
       }
@@ -110,9 +109,7 @@ namespace Morula
   void
   throw_no_cell_fits(const TissueParameters &parameters)
   {
-    throw InputError(
-      "Tissue/Cell spacing",
-      Patterns::Tools::to_string(parameters.cell_spacing),
+    parameters.cell_spacing.refuse(
       "a spacing in um by which at least one cell's centre lies inside "
       "the tissue",
       "Choose a smaller spacing, a larger tissue, or another "

@@ -41,7 +41,7 @@ namespace Morula
         comm,
         std::vector<std::string>{mine.value, mine.allowed, mine.remedy},
         rank);
-      throw InputError("Tissue/Points file (" + file + ", line " +
+      throw InputError(TissueKeys::points_file + " (" + file + ", line " +
                          std::to_string(first) + ")",
                        text[0],
                        text[1],
@@ -260,7 +260,7 @@ namespace Morula
   {
     std::ifstream stream(file, std::ios::binary);
     if (Utilities::MPI::max(stream.good() ? 0 : 1, comm) != 0)
-      throw InputError("Tissue/Points file",
+      throw InputError(TissueKeys::points_file,
                        file,
                        "a file that every process can read",
                        "Correct the name.");
@@ -286,7 +286,7 @@ namespace Morula
                           Utilities::MPI::sum(sum_of(rows.volumes), comm));
     throw_first(find_repeated(rows, comm), file, comm);
     if (n == 0 || n >= std::numeric_limits<types::particle_index>::max())
-      throw InputError("Tissue/Points file",
+      throw InputError(TissueKeys::points_file,
                        file,
                        "a file with 1 to 4e9 cells",
                        "It has " + std::to_string(n) + ".");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/seeding/lattice.h>
 #include <morula/seeding/points_file.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -46,23 +46,7 @@ namespace Morula
                           const MPI_Comm          comm)
     {
       std::unique_ptr<Shape<dim>> shape;
-      std::optional<InputError>   own_error;
-      try
-        {
-          shape = make_shape<dim>(parameters);
-        }
-      catch (const InputError &error)
-        {
-          own_error = error;
-        }
-      const bool failed = Utilities::MPI::max(own_error ? 1 : 0, comm) != 0;
-      if (own_error)
-        throw *own_error;
-      if (failed)
-        throw InputError("Tissue/Surface mesh",
-                         parameters.surface_mesh,
-                         "a file that all processes can read",
-                         "Copy it to where all of them see it.");
+      everywhere(comm, [&]() { shape = make_shape<dim>(parameters); });
       return shape;
     }
 
@@ -92,13 +76,11 @@ namespace Morula
                    const BoundingBox<dim> &box,
                    const double            limit)
     {
-      throw InputError("Tissue/Surface mesh",
-                       parameters.surface_mesh,
-                       "a surface in um that is at most " + length(limit) +
-                         " long (a number of times Grid/Spacing)",
-                       reach(box) +
-                         ": correct the vertex that lies astray. If the file "
-                         "is in another unit, scale it to um.");
+      parameters.surface_mesh.refuse(
+        "a surface in um that is at most " + length(limit) +
+          " long (a number of times Grid/Spacing)",
+        reach(box) + ": correct the vertex that lies astray. If the file "
+                     "is in another unit, scale it to um.");
     }
 
     template <int dim>
@@ -107,11 +89,10 @@ namespace Morula
                    const BoundingBox<dim> &box,
                    const double            limit)
     {
-      throw InputError("Tissue/Surface mesh",
-                       parameters.surface_mesh,
-                       "a surface at most " + length(limit) +
-                         " from the origin (a number of times Grid/Spacing)",
-                       reach(box) + ": move the scene nearer to the origin.");
+      parameters.surface_mesh.refuse(
+        "a surface at most " + length(limit) +
+          " from the origin (a number of times Grid/Spacing)",
+        reach(box) + ": move the scene nearer to the origin.");
     }
 
     /** Refuses a surface that holds no cell or too many. Then its file most
@@ -128,12 +109,11 @@ namespace Morula
              << "scale it to um"
              << (too_large ? "" : ", such as by 1000 from mm or 1e6 from m")
              << "; else choose another Cell spacing or Lattice offset.";
-      throw InputError("Tissue/Surface mesh",
-                       parameters.surface_mesh,
-                       too_large ? "a surface in um with fewer than 4e9 cells" :
-                                   "a surface in um with at least one cell's "
-                                   "centre inside",
-                       remedy.str());
+      parameters.surface_mesh.refuse(
+        too_large ? "a surface in um with fewer than 4e9 cells" :
+                    "a surface in um with at least one cell's "
+                    "centre inside",
+        remedy.str());
     }
 
     /** Refuses a mesh that exceeds the limits, or whose bounding box has room
@@ -222,10 +202,9 @@ namespace Morula
     const bool seeded = parameters.surface_cells == "whole" ||
                         trim(lattice, *shape, sites, founders);
     if (Utilities::MPI::min(seeded ? 1 : 0, comm) == 0)
-      throw InputError("Tissue/Surface cells",
-                       parameters.surface_cells,
-                       "'whole' where the tissue is much thinner than a cell",
-                       "Choose 'whole' or a smaller Cell spacing.");
+      parameters.surface_cells.refuse(
+        "'whole' where the tissue is much thinner than a cell",
+        "Choose 'whole' or a smaller Cell spacing.");
     number_founders(founders, parameters, shape->bounding_box(), comm);
     return founders;
   }
@@ -246,11 +225,10 @@ namespace Morula
                           std::pow(parameters.cell_spacing, dim - 1)));
     const bool chosen = parameters.boundary_points > 0;
     if (!chosen && !(n_by_spacing < most_ids))
-      throw InputError("Tissue/Cell spacing",
-                       Patterns::Tools::to_string(parameters.cell_spacing),
-                       "a spacing in um that gives fewer than 4e9 boundary "
-                       "points",
-                       "Choose a larger spacing, or set Boundary points.");
+      parameters.cell_spacing.refuse(
+        "a spacing in um that gives fewer than 4e9 boundary "
+        "points",
+        "Choose a larger spacing, or set Boundary points.");
     const SurfaceTiling<dim> tiling =
       shape->tile(chosen ? parameters.boundary_points :
                            static_cast<std::uint64_t>(n_by_spacing));

@@ -16,168 +16,161 @@
 
 namespace Morula
 {
-  void
-  TissueParameters::declare(ParameterHandler &prm)
-  {
-    prm.add_parameter(
-      "Shape",
-      shape,
-      "The initial tissue. In 2-D a sphere is a disc and a box a "
-      "rectangle; cylinder and mesh exist in 3-D only.",
-      Patterns::Selection("sphere|box|ellipsoid|cylinder|mesh|points"));
-    prm.add_parameter(
-      "Center",
-      center,
-      "Center of the shape. A surface mesh stays where its "
-      "file has it; only the lattice of cells moves with Center. "
-      "Without effect on points. Units: um.");
-    prm.add_parameter("Radius", radius, "Of a sphere or cylinder. Units: um.");
-    prm.add_parameter(
-      "Size",
-      size,
-      "Full edge lengths of a box, full axes of an ellipsoid; the "
-      "third is the height of a cylinder, which stands along z. "
-      "Units: um.");
-    prm.add_parameter(
-      "Surface mesh",
-      surface_mesh,
-      "For the shape mesh: file with a closed surface in um, as "
-      "STL, OFF, PLY or OBJ.");
-    prm.add_parameter(
-      "Points file",
-      points_file,
-      "For the shape points: CSV file of the cells with a header "
-      "line, x,y,z or x,y,z,volume (2-D: z may be missing), um "
-      "and um^3 (2-D: um^2). A cell without volume has that of "
-      "the Cell spacing. Such a tissue has no surface.");
-    prm.add_parameter("Cell spacing",
-                      cell_spacing,
-                      "L_p: cells sit on a regular lattice of this spacing, "
-                      "each with the volume L_p^3 (2-D: L_p^2). Units: um.");
-    prm.add_parameter("Lattice offset",
-                      lattice_offset,
-                      "Shifts the lattice of cells against the shape. Without "
-                      "effect on points. Units: um.");
-    prm.add_parameter(
-      "Surface cells",
-      surface_cells,
-      "Cells at a surface that cuts through the lattice. whole: each has the "
-      "volume L_p^3 at its place on the lattice, the paper's. trimmed: each has "
-      "the volume and the centroid of its part of the shape, so that the "
-      "volumes add up to the shape's and smooth problems converge with "
-      "second order. Without effect on points.",
-      Patterns::Selection("whole|trimmed"));
-    prm.add_parameter("Boundary points",
-                      boundary_points,
+  TissueParameters::TissueParameters()
+    : shape("Tissue/Shape",
+            "sphere",
+            "The initial tissue. In 2-D a sphere is a disc and a box a "
+            "rectangle; cylinder and mesh exist in 3-D only.",
+            {"sphere|box|ellipsoid|cylinder|mesh|points"})
+    , center("Tissue/Center",
+             {0., 0., 0.},
+             "Center of the shape. A surface mesh stays where its "
+             "file has it; only the lattice of cells moves with Center. "
+             "Without effect on points. Units: um.")
+    , radius("Tissue/Radius", 250., "Of a sphere or cylinder. Units: um.")
+    , size("Tissue/Size",
+           {200., 200., 200.},
+           "Full edge lengths of a box, full axes of an ellipsoid; the "
+           "third is the height of a cylinder, which stands along z. "
+           "Units: um.")
+    , surface_mesh(TissueKeys::surface_mesh,
+                   "",
+                   "For the shape mesh: file with a closed surface in um, as "
+                   "STL, OFF, PLY or OBJ.")
+    , points_file(TissueKeys::points_file,
+                  "",
+                  "For the shape points: CSV file of the cells with a header "
+                  "line, x,y,z or x,y,z,volume (2-D: z may be missing), um "
+                  "and um^3 (2-D: um^2). A cell without volume has that of "
+                  "the Cell spacing. Such a tissue has no surface.")
+    , cell_spacing("Tissue/Cell spacing",
+                   10.,
+                   "L_p: cells sit on a regular lattice of this spacing, "
+                   "each with the volume L_p^3 (2-D: L_p^2). Units: um.")
+    , lattice_offset("Tissue/Lattice offset",
+                     {0., 0., 0.},
+                     "Shifts the lattice of cells against the shape. Without "
+                     "effect on points. Units: um.")
+    , surface_cells(
+        "Tissue/Surface cells",
+        "whole",
+        "Cells at a surface that cuts through the lattice. whole: each has the "
+        "volume L_p^3 at its place on the lattice, the paper's. trimmed: each "
+        "has the volume and the centroid of its part of the shape, so that the "
+        "volumes add up to the shape's and smooth problems converge with "
+        "second order. Without effect on points.",
+        {"whole|trimmed"})
+    , boundary_points("Tissue/Boundary points",
+                      0,
                       "Number of points on the surface, met as nearly as the "
-                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).",
-                      Patterns::Integer(0));
-    prm.add_parameter(
-      "Refine surface",
-      refine_surface,
-      "Split boundary points whose patch has become longer than half a grid "
-      "cell, for tissue that grows to several times its size. Area and normal "
-      "are kept; false is the paper's method.");
+                      "shape allows; 0: one per L_p^2 of surface (2-D: L_p).")
+    , refine_surface(
+        "Tissue/Refine surface",
+        false,
+        "Split boundary points whose patch has become longer than half a grid "
+        "cell, for tissue that grows to several times its size. Area and "
+        "normal are kept; false is the paper's method.")
+  {}
+
+
+  KeyList
+  TissueParameters::list()
+  {
+    return {&shape,
+            &center,
+            &radius,
+            &size,
+            &surface_mesh,
+            &points_file,
+            &cell_spacing,
+            &lattice_offset,
+            &surface_cells,
+            &boundary_points,
+            &refine_surface};
   }
+
 
   namespace
   {
-    template <typename Number>
     void
-    require_positive(const std::string &key, const Number value)
+    require_positive(const AnyKey &key, const double value)
     {
       if (!(value > 0. && std::isfinite(value)))
-        throw InputError("Tissue/" + key,
+        throw InputError(key.path(),
                          Patterns::Tools::to_string(value),
                          "a length above 0 um",
                          "Give a positive length.");
     }
 
     void
-    check_vector(const std::string         &key,
-                 const std::vector<double> &numbers,
-                 const unsigned int         dim)
+    check_vector(const Key<std::vector<double>> &numbers,
+                 const unsigned int              dim)
     {
       if (numbers.size() < dim || numbers.size() > 3)
-        throw InputError("Tissue/" + key,
-                         Patterns::Tools::to_string(numbers),
-                         dim == 3 ?
-                           "a list of 3 numbers in um" :
-                           "a list of 2 or 3 numbers in um (2-D uses two)",
-                         "Give one number for each direction.");
+        numbers.refuse(dim == 3 ?
+                         "a list of 3 numbers in um" :
+                         "a list of 2 or 3 numbers in um (2-D uses two)",
+                       "Give one number for each direction.");
       for (const double number : numbers)
         if (!std::isfinite(number))
-          throw InputError("Tissue/" + key,
-                           Patterns::Tools::to_string(numbers),
-                           "a list of finite numbers in um",
-                           "Give one length in um for each direction.");
+          numbers.refuse("a list of finite numbers in um",
+                         "Give one length in um for each direction.");
     }
 
     void
-    check_shape(const std::string &shape, const unsigned int dim)
+    check_shape(const Key<std::string> &shape, const unsigned int dim)
     {
       const std::vector<std::string> allowed =
         dim == 3 ?
           std::vector<std::string>{
             "sphere", "box", "ellipsoid", "cylinder", "mesh", "points"} :
           std::vector<std::string>{"sphere", "box", "ellipsoid", "points"};
-      if (std::find(allowed.begin(), allowed.end(), shape) == allowed.end())
-        throw InputError("Tissue/Shape",
-                         shape,
-                         dim == 3 ? "sphere, box, ellipsoid, cylinder, mesh or "
-                                    "points" :
-                                    "sphere, box, ellipsoid or points in 2-D",
-                         dim == 3 ?
-                           "Choose one of them." :
-                           "Choose one of them, or set Dimension = 3.");
+      if (std::find(allowed.begin(), allowed.end(), shape.value()) ==
+          allowed.end())
+        shape.refuse(dim == 3 ?
+                       "sphere, box, ellipsoid, cylinder, mesh or points" :
+                       "sphere, box, ellipsoid or points in 2-D",
+                     dim == 3 ? "Choose one of them." :
+                                "Choose one of them, or set Dimension = 3.");
     }
 
     /** A file given if and only if the shape is @p shape_with_file. */
     void
-    check_file(const std::string &key,
-               const std::string &file,
-               const std::string &shape_with_file,
-               const std::string &shape)
+    check_file(const Key<std::string> &file,
+               const std::string      &shape_with_file,
+               const Key<std::string> &shape)
     {
       if (shape != shape_with_file)
         {
           if (!file.empty())
-            throw InputError("Tissue/" + key,
-                             file,
-                             "nothing, as Tissue/Shape = " + shape,
-                             "Set Shape = " + shape_with_file +
-                               ", or leave this key empty.");
+            file.refuse("nothing, as " + shape.path() + " = " + shape,
+                        "Set Shape = " + shape_with_file +
+                          ", or leave this key empty.");
           return;
         }
       if (file.empty())
-        throw InputError("Tissue/" + key,
-                         file,
-                         "a file, as Tissue/Shape = " + shape,
-                         "Name the file, or choose another Shape.");
-      std::ifstream stream(file);
+        file.refuse("a file, as " + shape.path() + " = " + shape,
+                    "Name the file, or choose another Shape.");
+      std::ifstream stream(file.value());
       stream.peek(); // a directory opens, but cannot be read
       if (stream.fail() && !stream.eof())
-        throw InputError(
-          "Tissue/" + key,
-          file,
-          "a file that can be read",
-          "Check its name, from the directory in which Morula is "
-          "started, and its permissions.");
+        file.refuse("a file that can be read",
+                    "Check its name, from the directory in which Morula is "
+                    "started, and its permissions.");
     }
 
     void
-    check_mesh_format(const std::string &file)
+    check_mesh_format(const Key<std::string> &file)
     {
-      std::string ending = file.substr(std::min(file.rfind('.'), file.size()));
+      std::string ending =
+        file->substr(std::min(file->rfind('.'), file.size()));
       std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
         return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       });
       if (ending != ".stl" && ending != ".off" && ending != ".ply" &&
           ending != ".obj")
-        throw InputError("Tissue/Surface mesh",
-                         file,
-                         "a file whose name ends with .stl, .off, .ply or .obj",
-                         "Convert the surface to one of these formats.");
+        file.refuse("a file whose name ends with .stl, .off, .ply or .obj",
+                    "Convert the surface to one of these formats.");
     }
 
     /** Refuses a lattice that misses the shape. */
@@ -198,36 +191,34 @@ namespace Morula
   TissueParameters::check(const unsigned int dim) const
   {
     check_shape(shape, dim);
-    check_vector("Center", center, dim);
-    check_vector("Lattice offset", lattice_offset, dim);
-    require_positive("Cell spacing", cell_spacing);
-    check_file("Surface mesh", surface_mesh, "mesh", shape);
-    check_file("Points file", points_file, "points", shape);
+    check_vector(center, dim);
+    check_vector(lattice_offset, dim);
+    require_positive(cell_spacing, cell_spacing);
+    check_file(surface_mesh, "mesh", shape);
+    check_file(points_file, "points", shape);
 
     if (shape == "sphere" || shape == "cylinder")
-      require_positive("Radius", radius);
+      require_positive(radius, radius);
     if (shape == "box" || shape == "ellipsoid" || shape == "cylinder")
-      check_vector("Size", size, dim);
+      check_vector(size, dim);
     if (shape == "box" || shape == "ellipsoid")
       for (unsigned int d = 0; d < dim; ++d)
-        require_positive("Size", size[d]);
+        require_positive(size, size[d]);
     if (shape == "cylinder")
-      require_positive("Size", size[2]);
+      require_positive(size, size[2]);
     if (shape == "mesh")
       check_mesh_format(surface_mesh);
     if (shape == "points" && boundary_points > 0)
-      throw InputError("Tissue/Boundary points",
-                       Patterns::Tools::to_string(boundary_points),
-                       "0, as Tissue/Shape = points has no surface",
-                       "Set Boundary points = 0, or describe the tissue by "
-                       "another Shape.");
+      boundary_points.refuse("0, as " + shape.path() +
+                               " = points has no surface",
+                             "Set Boundary points = 0, or describe the tissue "
+                             "by another Shape.");
 
     if (shape == "points" && refine_surface)
-      throw InputError("Tissue/Refine surface",
-                       "true",
-                       "false, as Tissue/Shape = points has no surface",
-                       "Set Refine surface = false, or describe the tissue by "
-                       "another Shape.");
+      refine_surface.refuse("false, as " + shape.path() +
+                              " = points has no surface",
+                            "Set Refine surface = false, or describe the "
+                            "tissue by another Shape.");
 
     if (shape == "mesh" || shape == "points")
       return; // their files are judged when they are read

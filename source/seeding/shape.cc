@@ -54,15 +54,14 @@ namespace Morula
         if (shape == "cylinder")
           return std::make_unique<Cylinder>(center,
                                             parameters.radius,
-                                            parameters.size.at(2));
+                                            parameters.size->at(2));
         if (shape == "mesh")
           return std::make_unique<MeshShape>(parameters.surface_mesh);
       }
-    throw InputError("Tissue/Shape",
-                     shape,
-                     dim == 3 ? "sphere, box, ellipsoid, cylinder or mesh" :
-                                "sphere, box or ellipsoid in 2-D",
-                     "Choose a shape that has an inside.");
+    parameters.shape.refuse(dim == 3 ?
+                              "sphere, box, ellipsoid, cylinder or mesh" :
+                              "sphere, box or ellipsoid in 2-D",
+                            "Choose a shape that has an inside.");
   }
 
   template Point<2>

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/seeding/seeding.h>
 #include <morula/seeding/surface_mesh.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -55,7 +56,7 @@ namespace Morula
     [[noreturn]] void
     refuse(const std::string &file, const std::string &remedy)
     {
-      throw InputError("Tissue/Surface mesh",
+      throw InputError(TissueKeys::surface_mesh,
                        file,
                        "a closed surface that does not intersect itself, as an "
                        "STL, OFF, PLY or OBJ file",

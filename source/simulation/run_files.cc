@@ -26,10 +26,12 @@ namespace Morula
      * It follows from the time, since a resumed run may have another interval.
      */
     unsigned int
-    next_multiple(const double time, const double interval, const double step)
+    next_multiple(const double          time,
+                  const double          interval,
+                  const TimeParameters &steps)
     {
       return interval > 0. ? static_cast<unsigned int>(
-                               std::floor((time + 1e-9 * step) / interval)) +
+                               std::floor((time + steps.slack()) / interval)) +
                                1 :
                              0;
     }
@@ -67,13 +69,13 @@ namespace Morula
     , comm(comm)
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
-    , next_output(resumed_from ? next_multiple(resumed_from->time,
-                                               scene.output.interval,
-                                               scene.time.step) :
-                                 0)
+    , next_output(
+        resumed_from ?
+          next_multiple(resumed_from->time, scene.output.interval, scene.time) :
+          0)
     , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
                                   scene.output.snapshot_interval,
-                                  scene.time.step))
+                                  scene.time))
   {
     lock.emplace(scene.output_directory, comm);
     if (resumed_from)
@@ -245,7 +247,7 @@ namespace Morula
     const double interval = scene.output.interval;
     return last || output_times.empty() ||
            (interval > 0. &&
-            time >= next_output * interval - 1e-9 * scene.time.step);
+            time >= next_output * interval - scene.time.slack());
   }
 
   template <int dim>
@@ -254,7 +256,7 @@ namespace Morula
   {
     const double interval = scene.output.snapshot_interval;
     return last || (interval > 0. &&
-                    time >= next_snapshot * interval - 1e-9 * scene.time.step);
+                    time >= next_snapshot * interval - scene.time.slack());
   }
 
   template <int dim>
@@ -283,7 +285,7 @@ namespace Morula
                               const double            time)
   {
     output_times.push_back(time);
-    next_output = next_multiple(time, scene.output.interval, scene.time.step);
+    next_output = next_multiple(time, scene.output.interval, scene.time);
     write_series("cells", cells, time);
     write_series("surface", surface, time);
   }
@@ -297,8 +299,8 @@ namespace Morula
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
     next_snapshot =
-      next_multiple(data.time, scene.output.snapshot_interval, scene.time.step);
-    // The rows that the snapshot counts must be on the disk before it is.
+      next_multiple(data.time, scene.output.snapshot_interval, scene.time);
+    // What the snapshot counts must be on the disk before it.
     statistics->sync();
     lineage->sync();
     if (conditions)

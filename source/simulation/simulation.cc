@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
-#include <morula/effects/surface/dead_load.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/particles/detached_points.h>
@@ -335,29 +334,20 @@ namespace Morula
       const TimerOutput::Scope section(timer, name);
       everywhere(comm, [&]() { list.push_back(make()); });
     };
-    if (body_force)
-      add("body force", [&]() {
-        const Cells<dim>           &cells = tissue.cells();
-        std::vector<Tensor<1, dim>> forces;
-        for (unsigned int p = 0; p < cells.size(); ++p)
-          forces.push_back(cells.initial_volume(p) *
-                           body_force->vector(cells.founder_position(p), t));
-        return std::make_unique<DeadLoad<dim>>(cell_positions(tissue, space),
-                                               std::move(forces));
+    for (const auto &named : forces)
+      add(named.name, [&]() {
+        return named.force->term(tissue, cell_positions(tissue, space), t);
       });
     if (boundary_conditions.has_dirichlet())
       add("nitsche", [&]() {
         return nitsche_term(
           boundary_conditions, material, tissue, space, growth_of_step, t);
       });
-    if (boundary_conditions.has_traction())
-      add("traction", [&]() {
-        return traction_term(boundary_conditions, tissue, space, t);
-      });
-    if (boundary_conditions.has_pressure())
-      add("pressure", [&]() {
-        return pressure_term(boundary_conditions, tissue, space, t);
-      });
+    for (const auto &named : boundary_conditions.list())
+      if (named.condition->kind() == SurfaceCondition::loaded)
+        add(named.name, [&]() {
+          return named.condition->term(loaded_points(tissue, space), t);
+        });
     return list;
   }
 

@@ -96,6 +96,8 @@ namespace Morula
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
+        for (const Effect<dim> *effect : with_state)
+          effect->advance(cell, time_steps.time(), time_steps.next());
         if (growth.present())
           growth.commit(cell,
                         time_steps.time(),

@@ -23,34 +23,6 @@ namespace Morula
   namespace
   {
     template <int dim>
-    CellGrowth<dim>
-    growth_of(const Scene &scene)
-    {
-      std::optional<CellCycle<dim>> cycle;
-      if (scene.has_proliferation())
-        cycle.emplace(scene.cell_cycle,
-                      scene.random_seed,
-                      1e-9 * scene.time.step);
-      return CellGrowth<dim>(growth_law_of<dim>(scene),
-                             std::move(cycle),
-                             division_rule_of<dim>(scene));
-    }
-
-    template <int dim>
-    std::optional<Expression>
-    body_force_of(const Scene &scene)
-    {
-      const Expression force("Body force/Force density",
-                             scene.body_force.force_density,
-                             3,
-                             dim);
-      if (force.is_constant() &&
-          force.vector(Point<dim>(), 0.) == Tensor<1, dim>())
-        return {};
-      return force;
-    }
-
-    template <int dim>
     void
     count_splines(const SplineSpace<dim> &space, StatisticsRow &row)
     {
@@ -65,15 +37,27 @@ namespace Morula
   Simulation<dim>::Simulation(const Scene   &scene,
                               const MPI_Comm comm,
                               const bool     resume)
+    : Simulation(scene, comm, resume, effects_of<dim>(scene))
+  {}
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene        &scene,
+                              const MPI_Comm      comm,
+                              const bool          resume,
+                              SceneEffects<dim> &&effects)
     : scene(scene)
     , comm(comm)
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , material(scene.material)
-    , boundary_conditions(scene.boundary_conditions)
-    , growth(growth_of<dim>(scene))
-    , body_force(body_force_of<dim>(scene))
+    , boundary_conditions(std::move(effects.conditions), scene.nitsche)
+    , growth(std::move(effects.growth_law),
+             std::move(effects.cycle),
+             std::move(effects.division_rule))
+    , fates(std::move(effects.fates))
+    , forces(std::move(effects.forces))
+    , with_state(std::move(effects.with_state))
     , tissue(scene.grid,
-             growth.columns(),
+             effects.columns,
              comm,
              BoundaryColumns<dim>(scene.tissue.refine_surface))
     , time_steps(scene.time)
@@ -111,8 +95,10 @@ namespace Morula
         const Point<dim>    X   = founders.positions[i];
         const auto          id  = founders.first_id + i;
         std::vector<double> row = columns.founder(X, founders.volumes[i]);
-        growth.initialize(id,
-                          CellView<dim, double>(make_array_view(row), columns));
+        const CellView<dim, double> cell(make_array_view(row), columns);
+        growth.initialize(id, cell);
+        for (const Effect<dim> *effect : with_state)
+          effect->begin(cell);
         cells.add(id, X, make_array_view(row));
         births.push_back({cells.ids.back(), -1, 0, 0., X});
       }

@@ -3,24 +3,31 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_file.h>
-#include <morula/scene/refusals.h>
 #include <morula/simulation/snapshot_check.h>
 
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace Morula
 {
   namespace
   {
-    bool
-    may_differ(const std::string &path)
+    /** Paths of the keys in which a resumed run may differ. */
+    std::set<std::string>
+    may_differ(const Scene &scene)
     {
-      // Method gives other keys their defaults; those are compared themselves
-      return path == "Method" || path == "Output directory" ||
-             path == "Time/End time" || path == "Time/Step" ||
-             path == "Time/Stop at cells" || path.rfind("Solver/", 0) == 0 ||
-             path.rfind("Output/", 0) == 0;
+      // the keys that Method stands for are compared by themselves
+      std::set<std::string> paths = {scene.method.path(),
+                                     scene.output_directory.path(),
+                                     scene.time.end_time.path(),
+                                     scene.time.step.path(),
+                                     scene.time.stop_at_cells.path()};
+      for (const AnyKey *key : scene.solver.list())
+        paths.insert(key->path());
+      for (const AnyKey *key : scene.output.list())
+        paths.insert(key->path());
+      return paths;
     }
 
     std::map<std::string, std::string>
@@ -52,9 +59,10 @@ namespace Morula
                          "The snapshot was written by another version of "
                          "Morula: resume with that one, or start a new run "
                          "without --resume.");
+    const std::set<std::string> may = may_differ(scene);
     for (const auto &[path, value] : now)
       {
-        if (may_differ(path) || Refusals::same_value(before.at(path), value))
+        if (may.count(path) > 0 || same_value(before.at(path), value))
           continue;
         throw InputError(
           path,

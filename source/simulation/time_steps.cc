@@ -8,12 +8,6 @@
 
 namespace Morula
 {
-  namespace
-  {
-    /** Times that differ by less than this fraction of a Step are equal. */
-    constexpr double slack = 1e-9;
-  } // namespace
-
   TimeSteps::TimeSteps(const TimeParameters &parameters)
     : parameters(parameters)
     , state_({0., parameters.step, 0, 0., 0, 0})
@@ -31,20 +25,21 @@ namespace Morula
     state_ = state;
     if (state.step == parameters.step && time() == state.time)
       return;
-    const double n_steps = std::floor(state.time / parameters.step + slack);
-    state_               = {state.time,
-                            parameters.step,
-                            static_cast<unsigned int>(n_steps),
-                            state.time,
-                            0,
-                            0};
+    const double n_steps =
+      std::floor(state.time / parameters.step + time_slack);
+    state_ = {state.time,
+              parameters.step,
+              static_cast<unsigned int>(n_steps),
+              state.time,
+              0,
+              0};
   }
 
   double
   TimeSteps::end_of_interval() const
   {
     const double end = (state_.interval + 1) * parameters.step;
-    return end > parameters.end_time - slack * parameters.step ?
+    return end > parameters.end_time - time_slack * parameters.step ?
              parameters.end_time :
              end;
   }
@@ -73,7 +68,7 @@ namespace Morula
   bool
   TimeSteps::finished() const
   {
-    return time() >= parameters.end_time - slack * parameters.step;
+    return time() >= parameters.end_time - time_slack * parameters.step;
   }
 
   void
@@ -85,7 +80,7 @@ namespace Morula
         // An interval that End time has cut is not finished: a resumed run may
         // go on in it.
         const double end = end_of_interval();
-        if (end >= (state_.interval + 1 - slack) * parameters.step)
+        if (end >= (state_.interval + 1 - time_slack) * parameters.step)
           ++state_.interval;
         state_.begin = end;
         state_.part  = 0;
@@ -102,7 +97,8 @@ namespace Morula
   bool
   TimeSteps::reject()
   {
-    if (0.5 * (next() - time()) < parameters.smallest_step * (1. - slack) ||
+    if (0.5 * (next() - time()) <
+          parameters.smallest_step * (1. - time_slack) ||
         state_.level >= 30)
       return false;
     state_.part *= 2;

@@ -3,46 +3,57 @@
 
 #include <morula/solver/solver_parameters.h>
 
-#include <deal.II/base/patterns.h>
-
 namespace Morula
 {
-  void
-  SolverParameters::declare(ParameterHandler &prm)
+  SolverParameters::SolverParameters()
+    : newton_tolerance("Solver/Newton tolerance",
+                       1e-6,
+                       "Residual at which a step is solved, relative to the "
+                       "step's first, and estimated error of its "
+                       "displacements, relative to Grid/Spacing; 0 < tolerance "
+                       "< 1.")
+    , linear_tolerance(
+        "Solver/Linear tolerance",
+        0.,
+        "Residual at which a linear system counts as solved, relative to its "
+        "right-hand side, < 1; 0: as accurately as Newton's method can use at "
+        "the moment. Without effect on a direct solver.",
+        {0.})
+    , linear_solver("Solver/Linear solver",
+                    "automatic",
+                    "Solver of Newton's linear systems. Automatic: iterative, "
+                    "direct where that fails.",
+                    {"automatic|iterative|direct"})
+    , kernel("Solver/Kernel",
+             "automatic",
+             "What adds up the particles' forces and stiffness: code "
+             "for the best instruction set of the processor, for one, "
+             "or the plain code, several times slower. They agree but "
+             "for rounding.",
+             {"automatic|plain|baseline|avx2|avx512"})
+    , largest_gap("Solver/Largest gap",
+                  0.25,
+                  "Distance of a fixed or slip point from where it is held "
+                  "at which a step counts as failed; 0: any is allowed. "
+                  "Units: grid spacings.",
+                  {0.})
   {
-    prm.add_parameter("Newton tolerance",
-                      newton_tolerance,
-                      "Residual at which a step is solved, relative to the "
-                      "step's first, and estimated error of its "
-                      "displacements, relative to Grid/Spacing; 0 < tolerance "
-                      "< 1.",
-                      Patterns::Double());
-    prm.add_parameter("Linear tolerance",
-                      linear_tolerance,
-                      "Residual at which a linear system counts as solved, "
-                      "relative to its right-hand side, < 1; 0: as accurately "
-                      "as Newton's method can use at the moment. Without "
-                      "effect on a direct solver.",
-                      Patterns::Double(0.));
-    prm.add_parameter(
-      "Linear solver",
-      linear_solver,
-      "Solver of Newton's linear systems. Automatic: iterative, "
-      "direct where that fails.",
-      Patterns::Selection("automatic|iterative|direct"));
-    prm.add_parameter("Kernel",
-                      kernel,
-                      "What adds up the particles' forces and stiffness: code "
-                      "for the best instruction set of the processor, for one, "
-                      "or the plain code, several times slower. They agree but "
-                      "for rounding.",
-                      Patterns::Selection(
-                        "automatic|plain|baseline|avx2|avx512"));
-    prm.add_parameter("Largest gap",
-                      largest_gap,
-                      "Distance of a fixed or slip point from where it is held "
-                      "at which a step counts as failed; 0: any is allowed. "
-                      "Units: grid spacings.",
-                      Patterns::Double(0.));
+    newton_tolerance.require([](const double t) { return t > 0. && t < 1.; },
+                             "a number > 0 and < 1",
+                             "1e-6 is a good choice.");
+    linear_tolerance.require([](const double t) { return t < 1.; },
+                             "0, or a number between 0 and 1",
+                             "0 lets Newton's method choose.");
+  }
+
+
+  KeyList
+  SolverParameters::list()
+  {
+    return {&newton_tolerance,
+            &linear_tolerance,
+            &linear_solver,
+            &kernel,
+            &largest_gap};
   }
 } // namespace Morula

@@ -13,6 +13,8 @@
 //   build/step-2 prm/step-2.prm
 
 #include <morula/base/expression.h>
+#include <morula/effects/forces/body_force.h>
+#include <morula/effects/surface/fixed.h>
 #include <morula/mechanics/material.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/program/program.h>
@@ -77,10 +79,9 @@ namespace Step2
   Scene
   scene_of(const Waves &waves, Scene scene, const double refinement)
   {
-    const Lame lame = Morula::lame(Expression("Material/Young's modulus",
-                                              scene.material.youngs_modulus)
-                                     .value(Point<dim>(), 0.),
-                                   scene.material.poissons_ratio);
+    const Lame lame = Morula::lame(
+      scene.material.youngs_modulus.expression(dim).value(Point<dim>(), 0.),
+      scene.material.poissons_ratio);
 
     std::ostringstream sine, displacement, force;
     sine.precision(16);
@@ -94,10 +95,10 @@ namespace Step2
     scene.output_directory += "/" + std::to_string(std::lround(refinement));
     scene.grid.spacing /= refinement;
     scene.tissue.cell_spacing /= refinement;
-    scene.tissue.surface_cells             = "trimmed";
-    scene.boundary_conditions.fixed_where  = "1";
-    scene.boundary_conditions.displacement = displacement.str();
-    scene.body_force.force_density         = force.str();
+    scene.tissue.surface_cells                      = "trimmed";
+    scene.keys<FixedParameters>().where             = "1";
+    scene.keys<FixedParameters>().displacement      = displacement.str();
+    scene.keys<BodyForceParameters>().force_density = force.str();
     scene.check();
     return scene;
   }

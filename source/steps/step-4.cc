@@ -14,6 +14,7 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/growth/isotropic.h>
 #include <morula/program/program.h>
 #include <morula/simulation/simulation.h>
 
@@ -51,8 +52,8 @@ namespace Step4
   Result
   reference_for(const Scene &scene)
   {
-    const Expression  theta("Growth/Isotropic/Stretch",
-                           scene.isotropic_growth.stretch);
+    const Expression &theta =
+      scene.keys<IsotropicGrowthParameters>().stretch.expression(dim);
     const double      stretch = theta.value(Point<dim>(), scene.time.end_time);
     const std::string path =
       MORULA_SOURCE_DIRECTORY "/doc/data/half-fixed-sphere.csv";
@@ -107,8 +108,8 @@ namespace Step4
         {
           Scene varied(scene);
           varied.grid.spacing *= factor;
-          varied.boundary_conditions.nitsche_form    = clamp.form;
-          varied.boundary_conditions.nitsche_penalty = clamp.penalty;
+          varied.nitsche.form    = clamp.form;
+          varied.nitsche.penalty = clamp.penalty;
           varied.output_directory +=
             "/" + clamp.form + "-" +
             std::to_string(std::lround(varied.grid.spacing));
@@ -118,7 +119,7 @@ namespace Step4
           const Result        result{row.tissue.upper[2],
                               row.tissue.mean_energy_density};
           table.add_value("clamp", clamp.form);
-          table.add_value("h", varied.grid.spacing);
+          table.add_value("h", varied.grid.spacing.value());
           table.add_value("unknowns", static_cast<unsigned int>(row.unknowns));
           table.add_value("apex", result.apex);
           table.add_value("error, %", 100. * (result.apex / exact.apex - 1.));

@@ -36,17 +36,13 @@ namespace Step5
   double
   duration(const Scene &scene)
   {
-    return Expression("Proliferation/Cell cycle/Duration",
-                      scene.cell_cycle.duration)
-      .value(Point<dim>(), 0.);
+    return scene.cell_cycle.duration.expression(dim).value(Point<dim>(), 0.);
   }
 
   double
   exit_rate(const Scene &scene)
   {
-    return Expression("Proliferation/Cell cycle/G0 exit rate",
-                      scene.cell_cycle.exit_rate)
-      .value(Point<dim>(), 0.);
+    return scene.cell_cycle.exit_rate.expression(dim).value(Point<dim>(), 0.);
   }
 
 
@@ -180,7 +176,7 @@ namespace Step5
         const Census         counted = census(simulation.state());
 
 
-        table.add_value("seed", varied.random_seed);
+        table.add_value("seed", varied.random_seed.value());
         table.add_value("cells", static_cast<unsigned int>(row.cells));
         table.add_value("divisions", static_cast<int>(counted.divisions));
         table.add_value("expected", n_founders * p);

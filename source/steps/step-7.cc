@@ -12,16 +12,13 @@
 //
 //   build/step-7 prm/step-7.prm
 
-#include <morula/base/expression.h>
-#include <morula/base/input_error.h>
+#include <morula/base/expression_key.h>
 #include <morula/program/program.h>
 
-#include <deal.II/base/patterns.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace Step7
 {
@@ -31,66 +28,62 @@ namespace Step7
   // The growth law. A squeezed cell has $J_e < 1$, (1.3). The growth stretch
   // theta of each cell obeys
   //
-  //   $\dot\theta / \theta = k\, r$, with the room $r = 1 - (1 - J_e) / c$
-  //   between
-  // 0 and 1:
+  //   $\dot\theta / \theta = k\, r$, with the room $r = 1 - (1 - J_e) / c$,
   //
-  // it grows with the rate k where there is no pressure, slower under pressure,
-  // and not at all once it has lost the part c of its volume. A cell that is
-  // pulled grows with the rate k.
+  // which is cut off to lie between 0 and 1. A cell grows with the rate k where
+  // there is no pressure, slower under pressure, and not at all once it has
+  // lost the part c of its volume. A cell that is pulled grows with the rate k.
 
-  // Its keys are the members of a struct, as for all effects of the library.
-  // declare() binds each to its text in the .prm file; what stands there is
-  // what
-  // --parameters prints. The rate is an expression, so that it can depend on
-  // the place; the crowding is a number.
-  struct CrowdingLimitedParameters
+  // Its keys are the members of a struct, as for all effects of the library. A
+  // key knows its name, its default, and the text that --parameters prints. The
+  // rate is an expression, so that it can depend on the place; `Evaluated` says
+  // that it may not depend on the time. The crowding is a number, with a rule
+  // that is checked before any work. list() gives the keys in their order.
+  struct CrowdingLimitedParameters : public EffectKeys
   {
-    std::string rate     = "1";
-    double      crowding = 0.2;
+    ExpressionKey rate{"Rate",
+                       "1",
+                       "k, 1/day: rate of the growth stretch of a cell without "
+                       "pressure. An expression of X, Y, Z (um), evaluated at "
+                       "the founder's initial position.",
+                       Evaluated::founder};
+    Key<double>   crowding{
+      "Crowding",
+      0.2,
+      "c: part of its volume that a cell has lost to pressure "
+        "when it stops growing; > 0 and < 1."};
 
-    void
-    declare(ParameterHandler &prm)
+    CrowdingLimitedParameters()
     {
-      prm.add_parameter(
-        "Rate",
-        rate,
-        "k, 1/day: rate of the growth stretch of a cell without "
-        "pressure. An expression of X, Y, Z (um), evaluated at "
-        "the founder's initial position.");
-      prm.add_parameter(
-        "Crowding",
-        crowding,
-        "c: part of its volume that a cell has lost to pressure "
-        "when it stops growing; > 0 and < 1.",
-        Patterns::Double());
+      crowding.require([](const double c) { return c > 0. && c < 1.; },
+                       "a number > 0 and < 1",
+                       "Cells shall stop growing before they have no volume "
+                       "left.");
+    }
+
+    using Keys::list;
+    KeyList
+    list() override
+    {
+      return {&rate, &crowding};
     }
   };
 
 
   // The law is a class with a type Parameters, made from one of these, and with
   // the two functions that GrowthLaw asks for. It is a template, since scenes
-  // are 2-D or 3-D.
+  // are 2-D or 3-D. The key has parsed its expression, once; one that cannot be
+  // parsed has been refused before.
   template <int dim>
   class CrowdingLimitedGrowth : public GrowthLaw<dim>
   {
   public:
     using Parameters = CrowdingLimitedParameters;
 
-    // What is wrong in itself is refused here: the constructor is called when
-    // the scene is checked, before any work. Expression refuses a text that it
-    // cannot parse.
     explicit CrowdingLimitedGrowth(const Parameters &parameters)
-      : rate("Growth/Crowding limited/Rate", parameters.rate)
+      : rate(parameters.rate.expression(dim))
       , crowding(parameters.crowding)
-    {
-      if (!(crowding > 0. && crowding < 1.))
-        throw InputError("Growth/Crowding limited/Crowding",
-                         Patterns::Tools::to_string(crowding),
-                         "a number > 0 and < 1",
-                         "Cells shall stop growing before they have no volume "
-                         "left.");
-    }
+    {}
 
     // The growth from $t_0$ to $t_1$. The cell brings along what the law made
     // of it so far, and its elastic deformation at $t_0$. So a law may depend
@@ -125,18 +118,20 @@ namespace Step7
   // The division rule: cells divide across their longest axis (Hertwig, 1884).
   // A cell that is longer than wide by less than a given factor cannot tell,
   // and takes the random direction that it would have taken anyway.
-  struct LongAxisParameters
+  struct LongAxisParameters : public EffectKeys
   {
-    double least_elongation = 1.02;
+    Key<double> least_elongation{
+      "Least elongation",
+      1.02,
+      "Ratio of the largest to the second largest elastic "
+      "stretch below which a cell takes a random axis; >= 1.",
+      {1.}};
 
-    void
-    declare(ParameterHandler &prm)
+    using Keys::list;
+    KeyList
+    list() override
     {
-      prm.add_parameter("Least elongation",
-                        least_elongation,
-                        "Ratio of the largest to the second largest elastic "
-                        "stretch below which a cell takes a random axis; >= 1.",
-                        Patterns::Double(1.));
+      return {&least_elongation};
     }
   };
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <sstream>
 
 using namespace Morula;
@@ -15,47 +16,47 @@ using namespace Morula;
 
 TEST(ParameterKeys, KnowUnitsAndChoices)
 {
-  ParameterHandler prm;
-  Scene            scene;
-  scene.declare(prm);
-  const ParameterKeys                 keys(prm);
-  std::map<std::string, ParameterKey> by_path;
-  for (const ParameterKey &key : keys.list())
-    by_path.emplace(key.path, key);
+  const Scene                           scene;
+  std::map<std::string, const AnyKey *> by_path;
+  for (const AnyKey *key : scene.list())
+    by_path.emplace(key->path(), key);
   using Words = std::vector<std::string>;
-  EXPECT_EQ(by_path.at("Time/Step").unit, "day");
-  EXPECT_EQ(by_path.at("Body force/Force density").unit, "kPa/um");
-  EXPECT_EQ(by_path.at("Material/Poisson's ratio").unit, "");
-  EXPECT_EQ(by_path.at("Boundary conditions/Nitsche form").choices,
+  EXPECT_EQ(by_path.at("Time/Step")->unit(), "day");
+  EXPECT_EQ(by_path.at("Body force/Force density")->unit(), "kPa/um");
+  EXPECT_EQ(by_path.at("Material/Poisson's ratio")->unit(), "");
+  EXPECT_EQ(by_path.at("Boundary conditions/Nitsche form")->choices(),
             (Words{"symmetric", "unsymmetric"}));
-  EXPECT_EQ(by_path.at("Output/Formats").choices,
+  EXPECT_EQ(by_path.at("Output/Formats")->choices(),
             (Words{"vtu", "csv", "none"}));
-  EXPECT_TRUE(by_path.at("Time/Step").choices.empty());
+  EXPECT_TRUE(by_path.at("Time/Step")->choices().empty());
+}
+
+
+TEST(ParameterKeys, StandOnceEach)
+{
+  const Scene           scene;
+  std::set<std::string> paths;
+  for (const AnyKey *key : scene.list())
+    EXPECT_TRUE(paths.insert(key->path()).second) << key->path();
 }
 
 
 TEST(ParameterKeys, KeepFormerNames)
 {
-  ParameterHandler prm;
-  double           spacing = 50.;
-  std::string      law     = "none";
-  prm.enter_subsection("Grid");
-  prm.add_parameter("Spacing", spacing, "h. Units: um.");
-  prm.add_parameter("Law", law, "A law.");
-  prm.declare_alias("Spacing", "Mesh size", true);
-  prm.leave_subsection();
+  Key<double>      spacing("Grid/Spacing", 50., "h. Units: um.");
+  Key<std::string> law("Grid/Law", "none", "A law.");
+  spacing.formerly("Grid/Mesh size");
 
-  const ParameterKeys keys(prm);
-  ASSERT_EQ(keys.list().size(), 2u);
+  const ParameterKeys keys({&spacing, &law});
   EXPECT_EQ(keys.current_name("Grid/Mesh size"), "Grid/Spacing");
   EXPECT_EQ(keys.current_name("Grid/Spacing"), "Grid/Spacing");
   EXPECT_EQ(keys.current_name("Grid/Other"), "Grid/Other");
 
-  keys.apply({Statement::set, "Grid/Mesh size", "20", ""}, prm);
+  keys.apply({Statement::set, "Grid/Mesh size", "20", ""});
   EXPECT_EQ(spacing, 20.);
   try
     {
-      keys.apply({Statement::set, "Grid/Mesh size", "wide", ""}, prm);
+      keys.apply({Statement::set, "Grid/Mesh size", "wide", ""});
       ADD_FAILURE();
     }
   catch (const InputError &error)

@@ -16,14 +16,20 @@ using namespace Morula;
 
 namespace
 {
-  struct GivenFactor
+  struct GivenFactor : public EffectKeys
   {
-    double factor = 2.;
+    Key<double> factor{"Factor", 2., "Not zero."};
 
-    void
-    declare(ParameterHandler &prm)
+    GivenFactor()
     {
-      prm.add_parameter("Factor", factor, "Not zero.");
+      factor.require([](const double f) { return f != 0.; }, "not zero", "");
+    }
+
+    using Keys::list;
+    KeyList
+    list() override
+    {
+      return {&factor};
     }
   };
 
@@ -35,10 +41,7 @@ namespace
 
     explicit Law(const Parameters &parameters)
       : factor(parameters.factor)
-    {
-      if (factor == 0.)
-        throw InputError("Growth/By factor/Factor", "0", "not zero", "");
-    }
+    {}
 
     Tensor<2, dim>
     growth(const GrowingCell<dim> &cell,
@@ -108,13 +111,17 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
   EXPECT_NE(division_rule_of<3>(scene), nullptr);
 
   // Values belong to one scene.
-  EXPECT_EQ(catalogue().growth_laws[0].keys()[0].default_value, "2");
-  EXPECT_EQ(scene.catalogue.growth_laws[0].keys()[0].default_value, "3");
-  EXPECT_EQ(scene.with_defaults().catalogue.growth_laws[0].keys()[0].path,
-            "Factor");
-  EXPECT_EQ(
-    scene.with_defaults().catalogue.growth_laws[0].keys()[0].default_value,
-    "2");
+  EXPECT_EQ(catalogue().growth_laws.back().keys().list()[0]->text(), "2");
+  EXPECT_EQ(scene.catalogue.growth_laws.back().keys().list()[0]->text(), "3");
+  EXPECT_EQ(scene.catalogue.growth_laws.back().keys().list()[0]->path(),
+            "Growth/By factor/Factor");
+}
+
+
+TEST(Catalogue, GivesDefaults)
+{
+  const Scene scene = read({"Growth/By factor/Factor=3"}).with_defaults();
+  EXPECT_EQ(scene.catalogue.growth_laws.back().keys().list()[0]->text(), "2");
 }
 
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/parameter_keys.h>
+#include <morula/effects/growth/isotropic.h>
 #include <morula/scene/scene.h>
 
 #include <boost/algorithm/string.hpp>
@@ -87,15 +87,12 @@ namespace
 
 TEST(Scene, HasTheDefaultsOfTheContract)
 {
-  ParameterHandler prm;
-  Scene            scene;
-  scene.declare(prm);
+  const Scene                        scene;
   std::map<std::string, std::string> defaults;
-  const ParameterKeys                keys(prm);
-  for (const ParameterKey &key : keys.list())
+  for (const AnyKey *key : scene.list())
     {
-      defaults[key.path] = key.default_value;
-      EXPECT_FALSE(key.documentation.empty()) << key.path;
+      defaults[key->path()] = key->default_text();
+      EXPECT_FALSE(key->documentation().empty()) << key->path();
     }
   const std::map<std::string, std::string> contract = {
     {"Dimension", "3"},
@@ -192,7 +189,8 @@ TEST(Scene, IsOverriddenFromTheCommandLine)
                             "Growth/Law=isotropic",
                             "Growth/Isotropic/Stretch=if(X == 0, 1, 2)"});
   EXPECT_EQ(scene.time.end_time, 5.);
-  EXPECT_EQ(scene.isotropic_growth.stretch, "if(X == 0, 1, 2)");
+  EXPECT_EQ(scene.keys<IsotropicGrowthParameters>().stretch,
+            "if(X == 0, 1, 2)");
   EXPECT_EQ(scene.as_written.at("Time/End time"), "5");
 }
 
@@ -224,7 +222,7 @@ TEST(Scene, PrintsParametersThatReadBackExactly)
   EXPECT_EQ(again.time.step, 1. / 3.);
   EXPECT_EQ(again.tissue.center, (std::vector<double>{1. / 3., 2., 3.}));
   EXPECT_EQ(again.parameters(), scene.parameters());
-  EXPECT_EQ(again.output_directory, scene.output_directory);
+  EXPECT_EQ(again.output_directory.value(), scene.output_directory.value());
 
   // what has been changed since is printed as it is now
   scene.time.step     = 0.25;

@@ -3,6 +3,11 @@
 // ranks: 1 2 3
 
 #include <morula/base/input_error.h>
+#include <morula/effects/forces/body_force.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/pressure.h>
+#include <morula/effects/surface/slip.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
@@ -123,8 +128,8 @@ TEST(SceneSize, CountsDescendants)
   EXPECT_DOUBLE_EQ(size().cells, 2. * n);
   EXPECT_DOUBLE_EQ(size().volume, 2000. * n);
 
-  scene.growth_law               = "isotropic";
-  scene.isotropic_growth.stretch = "1 + t*(X > 0)";
+  scene.growth_law                                = "isotropic";
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 + t*(X > 0)";
   EXPECT_DOUBLE_EQ(size().volume, 9000. * n);
 
   scene.growth_law        = "none";
@@ -178,11 +183,11 @@ TEST(SceneSize, EstimatesTheMatrixOfTheHalfFixedSphere)
 TEST(SceneSize, EstimatesRuns)
 {
   Scene scene;
-  scene.tissue.shape             = "box";
-  scene.growth_law               = "isotropic";
-  scene.isotropic_growth.stretch = "1 + t";
-  scene.time.step                = 0.1;
-  const auto size                = [&](const unsigned int n_unknowns) {
+  scene.tissue.shape                              = "box";
+  scene.growth_law                                = "isotropic";
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 + t";
+  scene.time.step                                 = 0.1;
+  const auto size = [&](const unsigned int n_unknowns) {
     return estimated_size(scene,
                           seed_founders<3>(scene.tissue, MPI_COMM_WORLD),
                           MPI_COMM_WORLD,
@@ -225,16 +230,16 @@ TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
   EXPECT_NE(check(scene).find("Material/Young's modulus"), std::string::npos);
   scene.material.youngs_modulus = "1";
 
-  scene.growth_law               = "isotropic";
-  scene.isotropic_growth.stretch = "1 - t*(X == " + bad + ")";
+  scene.growth_law                                = "isotropic";
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 - t*(X == " + bad + ")";
   EXPECT_NE(check(scene).find("Growth/Isotropic/Stretch"), std::string::npos);
   scene.time.end_time = 0.5;
   EXPECT_EQ(check(scene), "accepted");
   scene.growth_law = "none";
 
-  scene.body_force.force_density = "0; 0; 1/(X - " + bad + ")";
+  scene.keys<BodyForceParameters>().force_density = "0; 0; 1/(X - " + bad + ")";
   EXPECT_NE(check(scene).find("Body force/Force density"), std::string::npos);
-  scene.body_force.force_density = "0; 0; 0";
+  scene.keys<BodyForceParameters>().force_density = "0; 0; 0";
 
   scene.proliferation_law   = "cell cycle";
   scene.cell_cycle.duration = "1 - 0.95*(X == " + bad + ")";
@@ -245,39 +250,41 @@ TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
 TEST(SceneChecks, CountTheBoundaryConditions)
 {
   Scene      scene;
-  auto      &given = scene.boundary_conditions;
-  const auto check = [&] {
+  auto      &fixed    = scene.keys<FixedParameters>();
+  auto      &slip     = scene.keys<SlipParameters>();
+  auto      &pressure = scene.keys<PressureParameters>();
+  const auto check    = [&] {
     return check_at_surface(scene, two_faces(), MPI_COMM_WORLD);
   };
 
-  given.fixed_where      = "Z < 0";
-  given.slip_where       = "1";
-  given.slip_normal      = "0, 0, 2";
-  given.pressure_where   = "X == 0 && Z > 0";
-  given.pressure         = "1/(1 + X)";
+  fixed.where            = "Z < 0";
+  slip.where             = "1";
+  slip.normal            = "0, 0, 2";
+  pressure.where         = "X == 0 && Z > 0";
+  pressure.pressure      = "1/(1 + X)";
   ConditionCounts counts = check();
   EXPECT_EQ(counts.points, 2 * n_ranks());
   EXPECT_EQ(counts.fixed, n_ranks());
   // fixed wins over slip, slip over pressure
-  EXPECT_EQ(counts.slip, n_ranks());
-  EXPECT_EQ(counts.traction, 0u);
-  EXPECT_EQ(counts.pressure, 0u);
+  EXPECT_EQ(counts.acting.at("slip"), n_ranks());
+  EXPECT_EQ(counts.acting.at("traction"), 0u);
+  EXPECT_EQ(counts.acting.at("pressure"), 0u);
 
-  given.slip_where = "Z < 0";
-  counts           = check();
+  slip.where = "Z < 0";
+  counts     = check();
   EXPECT_EQ(counts.fixed, n_ranks());
-  EXPECT_EQ(counts.slip, 0u);
-  EXPECT_EQ(counts.pressure, 1u);
-  given.slip_where = "1";
+  EXPECT_EQ(counts.acting.at("slip"), 0u);
+  EXPECT_EQ(counts.acting.at("pressure"), 1u);
+  slip.where = "1";
 
-  given.slip_normal         = "1, 0, 0";
+  slip.normal               = "1, 0, 0";
   const std::string message = complaint(check);
   EXPECT_NE(message.find("Boundary conditions/Slip where"), std::string::npos)
     << message;
   EXPECT_NE(message.find("boundary point"), std::string::npos) << message;
-  given.slip_where = "";
+  slip.where = "";
 
-  given.displacement = "1/X; 0; 0";
+  fixed.displacement = "1/X; 0; 0";
   EXPECT_NE(complaint(check).find("Boundary conditions/Displacement"),
             std::string::npos);
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/slip.h>
 #include <morula/scene/warnings.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,15 +22,15 @@ namespace
   good_scene()
   {
     Scene scene;
-    scene.tissue.shape                        = "box";
-    scene.tissue.size                         = {100., 100., 100.};
-    scene.growth_law                          = "isotropic";
-    scene.isotropic_growth.stretch            = "1 + 0.1*t";
-    scene.boundary_conditions.fixed_where     = "Z < -49";
-    scene.boundary_conditions.nitsche_penalty = 1000.;
-    scene.time.step                           = 1.;
-    scene.time.end_time                       = 4.;
-    scene.output.interval                     = 1.;
+    scene.tissue.shape                              = "box";
+    scene.tissue.size                               = {100., 100., 100.};
+    scene.growth_law                                = "isotropic";
+    scene.keys<IsotropicGrowthParameters>().stretch = "1 + 0.1*t";
+    scene.keys<FixedParameters>().where             = "Z < -49";
+    scene.nitsche.penalty                           = 1000.;
+    scene.time.step                                 = 1.;
+    scene.time.end_time                             = 4.;
+    scene.output.interval                           = 1.;
     return scene;
   }
 
@@ -59,9 +62,9 @@ namespace
 TEST(SceneWarnings, AreNoneForAGoodScene)
 {
   EXPECT_TRUE(warnings_of<3>(good_scene()).empty());
-  Scene flat                           = good_scene();
-  flat.dimension                       = 2;
-  flat.boundary_conditions.fixed_where = "Y < -49";
+  Scene flat                         = good_scene();
+  flat.dimension                     = 2;
+  flat.keys<FixedParameters>().where = "Y < -49";
   EXPECT_TRUE(warnings_of<2>(flat).empty());
 }
 
@@ -153,12 +156,12 @@ TEST(SceneWarnings, OfKeysThatTheShapeDoesNotUse)
 
 TEST(SceneWarnings, OfThinTissue)
 {
-  Scene scene                           = good_scene();
-  scene.tissue.size                     = {100., 100., 50.};
-  scene.boundary_conditions.fixed_where = "Z < -24";
+  Scene scene                         = good_scene();
+  scene.tissue.size                   = {100., 100., 50.};
+  scene.keys<FixedParameters>().where = "Z < -24";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.tissue.size                     = {100., 100., 40.};
-  scene.boundary_conditions.fixed_where = "Z < -19";
+  scene.tissue.size                   = {100., 100., 40.};
+  scene.keys<FixedParameters>().where = "Z < -19";
   expect_warning(scene,
                  {"Grid/Spacing = '50 um'",
                   "40 um wide",
@@ -172,7 +175,7 @@ TEST(SceneWarnings, OfBoundaryPointsFarApart)
   Scene scene                  = good_scene();
   scene.tissue.boundary_points = 96; // 4 x 4 a face: 25 um apart
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.boundary_conditions.slip_where = "X < -49";
+  scene.keys<SlipParameters>().where = "X < -49";
   expect_warning(scene,
                  {"Tissue/Boundary points = '96'",
                   "25 um apart",
@@ -196,28 +199,31 @@ TEST(SceneWarnings, OfMissingExtension)
 
 TEST(SceneWarnings, OfLongSteps)
 {
-  Scene scene                    = good_scene();
-  scene.isotropic_growth.stretch = "1 + 0.2*t*(X > 44)"; // one layer of cells
+  Scene scene = good_scene();
+  scene.keys<IsotropicGrowthParameters>().stretch =
+    "1 + 0.2*t*(X > 44)"; // one layer of cells
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.isotropic_growth.stretch = "1 + 0.21*t*(X > 44)";
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 + 0.21*t*(X > 44)";
   expect_warning(scene, {"Time/Step = '1 day'", "1.21", "advice", "Shorten"});
-  scene.isotropic_growth.stretch = "if(t > 2.5 && X > 44, 0.5, 1)"; // withering
+  scene.keys<IsotropicGrowthParameters>().stretch =
+    "if(t > 2.5 && X > 44, 0.5, 1)"; // withering
   expect_warning(scene, {"Time/Step", "up to 2;"});
-  scene.isotropic_growth.stretch        = "1 + 0.3*t";
-  scene.boundary_conditions.fixed_where = "";
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 + 0.3*t";
+  scene.keys<FixedParameters>().where             = "";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.isotropic_growth.stretch = "if(t == 2, log(-1), 1)"; // the run says so
+  scene.keys<IsotropicGrowthParameters>().stretch =
+    "if(t == 2, log(-1), 1)"; // the run says so
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
 
 TEST(SceneWarnings, OfStepsOfTheCellCycle)
 {
-  Scene scene               = good_scene();
-  scene.growth_law          = "none";
-  scene.isotropic_growth    = {};
-  scene.proliferation_law   = "cell cycle";
-  scene.cell_cycle.duration = "if(X > 44, 4, 5)";
+  Scene scene                             = good_scene();
+  scene.growth_law                        = "none";
+  scene.keys<IsotropicGrowthParameters>() = IsotropicGrowthParameters();
+  scene.proliferation_law                 = "cell cycle";
+  scene.cell_cycle.duration               = "if(X > 44, 4, 5)";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
   scene.cell_cycle.duration = "if(X > 44, 3, 5)";
   expect_warning(scene,
@@ -246,36 +252,36 @@ TEST(SceneWarnings, OfTheMaterial)
 TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
 {
   // 20 (1 - nu) / ((1 + nu) (1 - 2 nu)) = 42.857 at nu = 0.4
-  Scene scene                               = good_scene();
-  scene.boundary_conditions.nitsche_penalty = 42.;
+  Scene scene           = good_scene();
+  scene.nitsche.penalty = 42.;
   EXPECT_TRUE(warnings_of<3>(scene).empty()); // the default's value: not chosen
   scene.as_written["Boundary conditions/Nitsche penalty"] = "42";
   expect_warning(
     scene,
     {"Nitsche penalty = '42 E/h'", "42.8571 E/h", "no effect", "unsymmetric"});
-  scene.boundary_conditions.nitsche_penalty = 43.;
+  scene.nitsche.penalty = 43.;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.boundary_conditions.nitsche_penalty = 20.;
-  scene.boundary_conditions.nitsche_form    = "unsymmetric";
+  scene.nitsche.penalty = 20.;
+  scene.nitsche.form    = "unsymmetric";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
 
 TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
 {
-  Scene scene                               = good_scene();
-  scene.boundary_conditions.nitsche_form    = "unsymmetric";
-  scene.boundary_conditions.nitsche_penalty = 20.;
+  Scene scene           = good_scene();
+  scene.nitsche.form    = "unsymmetric";
+  scene.nitsche.penalty = 20.;
   EXPECT_TRUE(warnings_of<3>(scene).empty()); // there is a free surface
-  scene.boundary_conditions.fixed_where = "1";
+  scene.keys<FixedParameters>().where = "1";
   expect_warning(scene,
                  {"Nitsche penalty = '20 E/h'",
                   "all of the surface is fixed",
                   "9 % low",
                   "Method = paper"});
-  scene.boundary_conditions.nitsche_penalty = 1000.;
+  scene.nitsche.penalty = 1000.;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.boundary_conditions.nitsche_form = "symmetric";
+  scene.nitsche.form = "symmetric";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
@@ -316,11 +322,11 @@ TEST(SceneWarnings, OfIntervalsBelowTheStep)
 
 TEST(SceneWarnings, OfLongRunsWithoutSnapshots)
 {
-  Scene scene                    = good_scene();
-  scene.isotropic_growth.stretch = "1 + 0.01*t";
-  scene.time.step                = 1e-4;
-  scene.time.smallest_step       = 1e-5;
-  scene.time.end_time            = 20.; // 200,000 steps of some 0.02 s
+  Scene scene                                     = good_scene();
+  scene.keys<IsotropicGrowthParameters>().stretch = "1 + 0.01*t";
+  scene.time.step                                 = 1e-4;
+  scene.time.smallest_step                        = 1e-5;
+  scene.time.end_time = 20.; // 200,000 steps of some 0.02 s
   expect_warning(scene,
                  {"Output/Snapshot interval = '0 day'",
                   "hours of one core",

@@ -49,6 +49,7 @@ TEST(TissueParameters, DeclaresTheContract)
   TissueParameters parameters;
   ParameterHandler prm;
   parameters.declare(prm);
+  prm.enter_subsection("Tissue");
   EXPECT_EQ(prm.get("Shape"), "sphere");
   EXPECT_EQ(prm.get("Center"), "0, 0, 0");
   EXPECT_EQ(prm.get("Radius"), "250");
@@ -59,9 +60,9 @@ TEST(TissueParameters, DeclaresTheContract)
   EXPECT_EQ(prm.get("Lattice offset"), "0, 0, 0");
   EXPECT_EQ(prm.get("Boundary points"), "0");
 
-  prm.parse_input_from_string("set Shape = box\n"
-                              "set Size = 10, 20, 30\n"
-                              "set Boundary points = 2904\n");
+  prm.set("Shape", "box");
+  prm.set("Size", "10, 20, 30");
+  prm.set("Boundary points", "2904");
   EXPECT_EQ(parameters.shape, "box");
   EXPECT_EQ(parameters.size, (std::vector<double>{10., 20., 30.}));
   EXPECT_EQ(parameters.boundary_points, 2904u);

@@ -64,8 +64,8 @@ TEST(SnapshotCheck, ComparesWhatMethodStandsFor)
   scene.method = "consistent";
   check_resumable(scene, older);
   // ... what it has set does
-  scene.boundary_conditions.nitsche_form    = "unsymmetric";
-  scene.boundary_conditions.nitsche_penalty = 20.;
+  scene.nitsche.form    = "unsymmetric";
+  scene.nitsche.penalty = 20.;
   EXPECT_THROW(check_resumable(scene, older), InputError);
   Scene words  = scene;
   words.method = "paper";

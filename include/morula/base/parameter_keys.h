@@ -4,12 +4,10 @@
 #ifndef morula_base_parameter_keys_h
 #define morula_base_parameter_keys_h
 
+#include <morula/base/key.h>
 #include <morula/base/parameter_file.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <iosfwd>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,46 +15,28 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** What was declared about one key. */
-  struct ParameterKey
-  {
-    std::string path; // full, separated by '/'
-    std::string default_value;
-    std::string documentation;
-    std::string allowed; // noun phrase
-    std::string unit;    // of "Units: " in the documentation, or empty
-    std::vector<std::string> choices;       // words, if it is chosen from some
-    bool                     is_of_numbers; // real ones: one, or a list
-  };
-
-  /** The declared keys, for messages and for --parameters. */
+  /** All keys of a scene, for messages and for --parameters. */
   class ParameterKeys
   {
   public:
-    explicit ParameterKeys(const ParameterHandler &prm);
-
-    /** All keys, in the order of their declaration. */
-    const std::vector<ParameterKey> &
-    list() const &;
-
-    void
-    list() const && = delete; // the list would go with the object
+    /** @param keys in the order in which they are printed; must outlive this */
+    explicit ParameterKeys(const KeyList &keys);
 
     /**
      * The path that a key has today: that of a renamed key if @p path is its
-     * former one (declared by ParameterHandler::declare_alias), else @p path.
+     * former one, else @p path.
      */
     std::string
     current_name(const std::string &path) const;
 
     /**
-     * Applies a statement to @p prm, the handler of the constructor.
+     * Applies a statement to the keys.
      * @throws InputError for an unknown key or section (with the most similar
      *         one that exists, or where it stands) or a value that does not
      *         match the pattern (with the most similar choice)
      */
     void
-    apply(const Statement &statement, ParameterHandler &prm) const;
+    apply(const Statement &statement) const;
 
     /** Prints a .prm file with every key, its meaning and what is allowed. */
     void
@@ -74,9 +54,12 @@ namespace Morula
     [[noreturn]] void
     refuse_unknown(const Statement &statement) const;
 
-    std::vector<ParameterKey>          keys;
-    std::vector<std::string>           sections;
-    std::map<std::string, std::string> renamed; // former path -> path
+    /** The key that has this path today, or null. */
+    AnyKey *
+    find(const std::string &path) const;
+
+    const KeyList            keys;
+    std::vector<std::string> sections;
   };
 } // namespace Morula
 

@@ -4,6 +4,8 @@
 #ifndef morula_base_unit_vector_h
 #define morula_base_unit_vector_h
 
+#include <morula/base/key.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <string>
@@ -21,6 +23,18 @@ namespace Morula
   template <int dim>
   Tensor<1, dim>
   unit_vector(const std::string &key, const std::string &text);
+
+  /** A key that gives a direction, or none if it is empty. */
+  class DirectionKey : public Key<std::string>
+  {
+  public:
+    using Key<std::string>::Key;
+    using Key<std::string>::operator=;
+
+    /** Refuses what unit_vector() does. @throws InputError */
+    void
+    check(const unsigned int dim) const override;
+  };
 } // namespace Morula
 
 #endif

@@ -4,25 +4,24 @@
 #ifndef morula_grid_grid_parameters_h
 #define morula_grid_grid_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <vector>
+#include <morula/base/key.h>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** Section "Grid": the background grid. */
-  struct GridParameters
+  struct GridParameters : public Keys
   {
-    double              spacing              = 50.;
-    std::vector<double> offset               = {0., 0., 0.};
-    double              occupation_parameter = 0.85;
-    bool                extension            = true;
-    unsigned int        points_per_cell      = 1;
+    GridParameters();
 
-    void
-    declare(ParameterHandler &prm);
+    Key<double>              spacing;
+    Key<std::vector<double>> offset;
+    Key<double>              occupation_parameter;
+    Key<bool>                extension;
+    Key<unsigned int>        points_per_cell;
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 } // namespace Morula
 

@@ -4,17 +4,13 @@
 #ifndef morula_mechanics_material_h
 #define morula_mechanics_material_h
 
+#include <morula/base/expression_key.h>
 #include <morula/mechanics/materials/materials.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <memory>
-#include <string>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** What stands for ln J_e in the volumetric part of the energy
    *  (doc/theory.md, section 2). */
   enum class VolumetricStrain
@@ -26,18 +22,18 @@ namespace Morula
   };
 
   /** Section "Material". */
-  struct MaterialParameters
+  struct MaterialParameters : public Keys
   {
-    std::string youngs_modulus    = "1.0";
-    double      poissons_ratio    = 0.4;
-    std::string energy_per        = "initial volume";
-    std::string volumetric_strain = "pointwise";
-    std::string law               = "neo-Hookean";
+    /** @param materials what the law can be */
+    explicit MaterialParameters(const Materials &materials = Materials());
+
+    ExpressionKey    youngs_modulus; // kPa
+    Key<double>      poissons_ratio;
+    Key<std::string> energy_per;
+    Key<std::string> volumetric_strain;
+    Key<std::string> law;
     /** What the law can be. */
     Materials materials;
-
-    void
-    declare(ParameterHandler &prm);
 
     /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
     bool
@@ -49,6 +45,10 @@ namespace Morula
     /** The one that the law names. @throws InputError if there is none */
     std::shared_ptr<const Material>
     chosen_material() const;
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 
   /** Lamé's constants, kPa. */

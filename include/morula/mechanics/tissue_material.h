@@ -16,7 +16,7 @@ namespace Morula
     /** @throws InputError for an expression that cannot be parsed, or a law
      *          that there is not */
     explicit TissueMaterial(const MaterialParameters &parameters)
-      : E("Material/Young's modulus", parameters.youngs_modulus)
+      : E(parameters.youngs_modulus.expression(3))
       , nu(parameters.poissons_ratio)
       , per_grown_volume_(parameters.per_grown_volume())
       , volumetric_form_(parameters.volumetric_form())

@@ -4,25 +4,23 @@
 #ifndef morula_output_output_parameters_h
 #define morula_output_output_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
-#include <vector>
+#include <morula/base/key.h>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** Section "Output". */
-  struct OutputParameters
+  struct OutputParameters : public Keys
   {
-    double                   interval           = 0.25;
-    std::vector<std::string> formats            = {"vtu"};
-    double                   snapshot_interval  = 0.;
-    bool                     condition_estimate = false;
+    OutputParameters();
 
-    void
-    declare(ParameterHandler &prm);
+    Key<double>                   interval; // day
+    Key<std::vector<std::string>> formats;
+    Key<double>                   snapshot_interval; // day
+    Key<bool>                     condition_estimate;
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 } // namespace Morula
 

@@ -9,15 +9,27 @@
 
 #include <mpi.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace Morula
 {
+  /** What effects may look at: founders and boundary points of this rank, which
+   *  must outlive the result. Collective. */
+  template <int dim>
+  Preview<dim>
+  preview(const Scene                       &scene,
+          const std::vector<Point<dim>>     &founders,
+          const std::vector<Point<dim>>     &boundary_points,
+          const std::vector<Tensor<1, dim>> &normals,
+          const MPI_Comm                     comm);
+
   /**
-   * Evaluates the scene's expressions at all founders at t = 0 and End time:
-   * growth stretch and stiffness are positive, the cycle fits the step, body
-   * forces are finite, some founder proliferates where there is a cell cycle;
-   * and refuses a scene that does not fit into memory.
+   * Lets growth, division, forces and the material look at all founders: growth
+   * stretch and stiffness are positive, the cycle fits the step, forces are
+   * finite, some founder proliferates where there is a cell cycle; and refuses
+   * a scene that does not fit into memory.
    * Collective; every rank gives its own founders, and all throw together.
    * @param founders initial positions, µm
    * @return number of founders, over all ranks, that proliferate
@@ -29,23 +41,20 @@ namespace Morula
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm);
 
-  /** At how many boundary points each condition acts: fixed wins over slip,
-   *  slip over traction and pressure. */
+  /** At how many boundary points conditions win, over all ranks. */
   struct ConditionCounts
   {
-    types::particle_index points   = 0;
-    types::particle_index fixed    = 0;
-    types::particle_index slip     = 0;
-    types::particle_index traction = 0;
-    types::particle_index pressure = 0;
+    types::particle_index points = 0;
+    types::particle_index fixed  = 0;
+    /** At how many each condition does something, by its name; 0 for those that
+     *  are off. */
+    std::map<std::string, types::particle_index> acting;
   };
 
   /**
-   * Evaluates the boundary conditions at all boundary points at t = 0 and End
-   * time, and the stiffness where points are fixed or slip. Refuses values
-   * that are not finite and a condition that holds nowhere. Collective; every
-   * rank gives its own points, and all throw together.
-   * @return counts over all ranks
+   * Lets the conditions look at all boundary points, and asks for the stiffness
+   * where points are held. Refuses a condition that acts nowhere. Collective;
+   * every rank gives its own points, and all throw together.
    * @throws InputError
    */
   template <int dim>

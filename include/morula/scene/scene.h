@@ -4,10 +4,8 @@
 #ifndef morula_scene_scene_h
 #define morula_scene_scene_h
 
-#include <morula/base/method.h>
+#include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/forces/body_force.h>
-#include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
@@ -18,62 +16,50 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace Morula
 {
-  /** Section "Time". */
-  struct TimeParameters
-  {
-    double       end_time      = 1.;
-    double       step          = 0.05;
-    double       smallest_step = 1e-4;
-    unsigned int stop_at_cells = 0;
-
-    void
-    declare(ParameterHandler &prm);
-  };
-
   /**
-   * Everything a .prm file says. One section, one struct, which stands in the
-   * room it belongs to; here they are put together and checked against each
-   * other.
+   * Everything a .prm file says. One section, one struct of keys, which stands
+   * in the room it belongs to; here they are put together and checked against
+   * each other.
    */
-  struct Scene
+  struct Scene : public Keys
   {
-    /** @param catalogue effects that the scene may name besides the library's
-     *         own, with their defaults */
-    explicit Scene(const Catalogue &catalogue = Catalogue())
-      : catalogue(catalogue)
-    {}
+    /** @param catalogue effects that the scene may have, with their defaults */
+    explicit Scene(const Catalogue &catalogue = Catalogue());
 
-    std::string  method    = Method::by_default;
-    unsigned int dimension = 3;
-    std::string  output_directory; // read() fills in what is empty
-    unsigned int random_seed = 1;
+    /**
+     * One word for several keys: those that have another default with it
+     * (AnyKey::texts_with_methods()). A key that the scene sets itself keeps
+     * the scene's value. doc/accuracy-and-cost.md says why it is these keys.
+     */
+    Key<std::string>  method;
+    Key<unsigned int> dimension;
+    Key<std::string>  output_directory; // read() fills in what is empty
+    Key<unsigned int> random_seed;
 
-    TimeParameters              time;
-    TissueParameters            tissue;
-    GridParameters              grid;
-    MaterialParameters          material;
-    std::string                 growth_law = "none";
-    IsotropicGrowthParameters   isotropic_growth;
-    std::string                 proliferation_law = "none";
-    CellCycleParameters         cell_cycle;
-    BoundaryConditionParameters boundary_conditions;
-    BodyForceParameters         body_force;
-    SolverParameters            solver;
-    OutputParameters            output;
+    TimeParameters      time;
+    TissueParameters    tissue;
+    GridParameters      grid;
+    MaterialParameters  material;
+    Key<std::string>    growth_law;
+    Key<std::string>    proliferation_law;
+    CellCycleParameters cell_cycle;
+    NitscheParameters   nitsche;
+    SolverParameters    solver;
+    OutputParameters    output;
 
-    /** Effects that the program has added, with the values of their keys. */
+    /** The effects, with the values of their keys. */
     Catalogue catalogue;
 
     /**
      * The values of the keys as the file and the overrides wrote them, by full
-     * path; what is missing has its default. parameters() repeats them, since
-     * deal.II prints numbers with six digits only, and check() can tell an
-     * effect that was switched off from one that was forgotten.
+     * path; what is missing has its default. By it check() can tell an effect
+     * that was switched off from one that was forgotten.
      */
     std::map<std::string, std::string> as_written;
 
@@ -91,27 +77,41 @@ namespace Morula
 
     /** Whether an effect changes F_g without proliferation. */
     bool
-    has_growth() const
-    {
-      return growth_law != "none";
-    }
+    has_growth() const;
 
     bool
-    has_proliferation() const
+    has_proliferation() const;
+
+    /** The keys of an effect, by their type: e.g. keys<FixedParameters>(). */
+    template <typename Parameters>
+    Parameters &
+    keys()
     {
-      return proliferation_law != "none";
+      return catalogue.keys<Parameters>();
     }
 
-    /** Declares every key, bound to the members. */
-    void
-    declare(ParameterHandler &prm);
+    /** The keys of an effect, by their type. */
+    template <typename Parameters>
+    const Parameters &
+    keys() const
+    {
+      return catalogue.keys<Parameters>();
+    }
+
+    /** Whether the file or an override has set the key. */
+    bool
+    has_set(const AnyKey &key) const;
+
+    using Keys::list;
+    /** All keys, in the order of --parameters. */
+    KeyList
+    list() override;
 
     /**
      * Reads a .prm file and applies "Section/Key=value" overrides, without
-     * Reads a .prm file and applies "Section/Key=value" overrides, without
      * checking more than each value by itself. Keys that neither of them sets
-     * have the values that `Method` gives them (method.h). Without Output
-     * directory it is that of the file's name, `output/NAME`.
+     * have the values that `Method` gives them. Without Output directory it is
+     * that of the file's name, `output/NAME`.
      * @throws InputError with the key's full path, the file and the line
      */
     static Scene
@@ -138,35 +138,59 @@ namespace Morula
     /**
      * Refuses what can be seen to be wrong without cells: numbers out of
      * range, expressions that do not parse, shapes that do not exist, values
-     * of effects that were never switched on, ... See scene_checks.h for the
-     * checks that need the cells.
+     * of effects that were never switched on, ... See checks.h for the checks
+     * that need the cells.
      * @throws InputError
      */
     void
     check() const;
-
-  private:
-    void
-    declare_growth(ParameterHandler &prm);
-    void
-    declare_proliferation(ParameterHandler &prm);
   };
+
+  /** All effects of a scene. */
+  template <int dim>
+  struct SceneEffects
+  {
+    /** A force, and what it is called. */
+    struct NamedForce
+    {
+      std::string                       name;
+      std::unique_ptr<const Force<dim>> force;
+    };
+
+    /** What they need in a cell. */
+    CellColumns<dim> columns;
+
+    std::unique_ptr<const GrowthLaw<dim>>         growth_law; // or null
+    std::optional<CellCycle<dim>>                 cycle;
+    std::unique_ptr<const DivisionRule<dim>>      division_rule; // or null
+    std::vector<std::unique_ptr<const Fate<dim>>> fates;
+    std::vector<NamedForce>                       forces;
+    std::vector<typename BoundaryConditions<dim>::Named> conditions;
+
+    /** Those that have columns of their own, in the order above. */
+    std::vector<const Effect<dim> *> with_state;
+  };
+
+  /** Makes all effects of a scene. @throws InputError */
+  template <int dim>
+  SceneEffects<dim>
+  effects_of(const Scene &scene);
 
   /** The scene's growth law, or null. @throws InputError */
   template <int dim>
   std::unique_ptr<const GrowthLaw<dim>>
   growth_law_of(const Scene &scene);
 
-  /** The columns that the scene's effects need in a cell. */
-  template <int dim>
-  CellColumns<dim>
-  cell_columns_of(const Scene &scene);
-
   /** The scene's rule for the axes of divisions, or null where the cell cycle
    *  draws them. @throws InputError */
   template <int dim>
   std::unique_ptr<const DivisionRule<dim>>
   division_rule_of(const Scene &scene);
+
+  /** The scene's conditions on the surface. @throws InputError */
+  template <int dim>
+  BoundaryConditions<dim>
+  boundary_conditions_of(const Scene &scene);
 } // namespace Morula
 
 #endif

@@ -4,8 +4,9 @@
 #ifndef morula_seeding_seeding_h
 #define morula_seeding_seeding_h
 
+#include <morula/base/key.h>
+
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
@@ -21,24 +22,34 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Section "Tissue": the initial tissue. */
-  struct TissueParameters
+  /** Paths of the keys that name files: reading the files, one knows no more
+   *  of the scene. */
+  namespace TissueKeys
   {
-    std::string         shape           = "sphere";
-    std::vector<double> center          = {0., 0., 0.};
-    double              radius          = 250.;
-    std::vector<double> size            = {200., 200., 200.};
-    std::string         surface_mesh    = "";
-    std::string         points_file     = "";
-    double              cell_spacing    = 10.;
-    std::vector<double> lattice_offset  = {0., 0., 0.};
-    std::string         surface_cells   = "whole";
-    unsigned int        boundary_points = 0;
-    bool                refine_surface  = false;
+    inline const std::string surface_mesh = "Tissue/Surface mesh";
+    inline const std::string points_file  = "Tissue/Points file";
+  } // namespace TissueKeys
 
-    /** Declares the section's keys, bound to the members. */
-    void
-    declare(ParameterHandler &prm);
+  /** Section "Tissue": the initial tissue. */
+  struct TissueParameters : public Keys
+  {
+    TissueParameters();
+
+    Key<std::string>         shape;
+    Key<std::vector<double>> center;
+    Key<double>              radius;
+    Key<std::vector<double>> size;
+    Key<std::string>         surface_mesh;
+    Key<std::string>         points_file;
+    Key<double>              cell_spacing;
+    Key<std::vector<double>> lattice_offset;
+    Key<std::string>         surface_cells;
+    Key<unsigned int>        boundary_points;
+    Key<bool>                refine_surface;
+
+    using Keys::list;
+    KeyList
+    list() override;
 
     /**
      * Refuses contradictions (missing mesh file, shape without cells, shapes

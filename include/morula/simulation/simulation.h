@@ -67,6 +67,10 @@ namespace Morula
     n_unknowns();
 
   private:
+    Simulation(const Scene        &scene,
+               const MPI_Comm      comm,
+               const bool          resume,
+               SceneEffects<dim> &&effects);
     void
     seed();
     void
@@ -165,11 +169,14 @@ namespace Morula
     const Timer    clock;
     TimerOutput    timer;
 
-    const TissueMaterial            material;
-    const BoundaryConditions<dim>   boundary_conditions;
-    const CellGrowth<dim>           growth;
-    const std::optional<Expression> body_force;
-    double                          typical_stiffness = 0.; // kPa
+    const TissueMaterial                                material;
+    const BoundaryConditions<dim>                       boundary_conditions;
+    const CellGrowth<dim>                               growth;
+    const std::vector<std::unique_ptr<const Fate<dim>>> fates;
+    const std::vector<typename SceneEffects<dim>::NamedForce> forces;
+    /** Of all effects, those that have columns of their own. */
+    const std::vector<const Effect<dim> *> with_state;
+    double                                 typical_stiffness = 0.; // kPa
 
     Tissue<dim>           tissue;
     TimeSteps             time_steps;

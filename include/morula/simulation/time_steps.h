@@ -4,7 +4,7 @@
 #ifndef morula_simulation_time_steps_h
 #define morula_simulation_time_steps_h
 
-#include <morula/scene/scene.h>
+#include <morula/base/time_parameters.h>
 
 namespace Morula
 {

@@ -4,25 +4,24 @@
 #ifndef morula_solver_solver_parameters_h
 #define morula_solver_solver_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
+#include <morula/base/key.h>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** Section "Solver". */
-  struct SolverParameters
+  struct SolverParameters : public Keys
   {
-    double      newton_tolerance = 1e-6;
-    double      linear_tolerance = 0.;
-    std::string linear_solver    = "automatic";
-    std::string kernel           = "automatic";
-    double      largest_gap      = 0.25; // grid spacings; 0: any
+    SolverParameters();
 
-    void
-    declare(ParameterHandler &prm);
+    Key<double>      newton_tolerance;
+    Key<double>      linear_tolerance;
+    Key<std::string> linear_solver;
+    Key<std::string> kernel;
+    Key<double>      largest_gap; // grid spacings; 0: any
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 } // namespace Morula
 

@@ -2,9 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
-
-#include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +14,12 @@ namespace Morula
 {
   namespace
   {
-    const std::string section = "Proliferation/Cell cycle/";
-
     /** The unit vector along the key "Fixed axis". */
     template <int dim>
     Tensor<1, dim>
     unit_fixed_axis(const CellCycleParameters &parameters)
     {
-      const std::vector<double> &components = parameters.fixed_axis;
+      const Key<std::vector<double>> &components = parameters.fixed_axis;
 
       Tensor<1, dim> axis;
       for (unsigned int d = 0;
@@ -32,12 +29,10 @@ namespace Morula
 
       const double length = axis.norm();
       if (components.size() < dim || !(length > 0.) || !std::isfinite(length))
-        throw InputError(section + "Fixed axis",
-                         Patterns::Tools::to_string(components),
-                         "a vector of " + std::to_string(dim) +
-                           " components that is not zero",
-                         "Give the direction along which cells divide, or set "
-                         "Division axis = random.");
+        components.refuse("a vector of " + std::to_string(dim) +
+                            " components that is not zero",
+                          "Give the direction along which cells divide, or set "
+                          "Division axis = random.");
       return axis / length;
     }
 
@@ -58,10 +53,10 @@ namespace Morula
   CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
                             const std::uint64_t        seed,
                             const double               slack)
-    : duration(section + "Duration", parameters.duration)
-    , exit_rate(section + "G0 exit rate", parameters.exit_rate)
-    , size_checkpoint(section + "Size checkpoint", parameters.size_checkpoint)
-    , where(section + "Where", parameters.where)
+    : duration(parameters.duration.expression(dim))
+    , exit_rate(parameters.exit_rate.expression(dim))
+    , size_checkpoint(parameters.size_checkpoint.expression(dim))
+    , where(parameters.where.expression(dim))
     , start_together(parameters.start == "together")
     , random_axis(parameters.division_axis != "fixed")
     , axis_follows_rotation(parameters.axis_follows_rotation)
@@ -114,7 +109,7 @@ namespace Morula
         value << step;
         limit << "at most half the shortest cell cycle, " << 0.5 * shortest
               << " day";
-        throw InputError("Time/Step",
+        throw InputError(TimeParameters::step_path,
                          value.str(),
                          limit.str(),
                          "Shorten the step, or lengthen " + duration.key() +

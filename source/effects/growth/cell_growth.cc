@@ -114,7 +114,7 @@ namespace Morula
       }
     if (!law)
       return of_cycle;
-    return law->growth({X, of_law, cell.elastic_deformation()}, t0, t1) *
+    return law->growth({X, of_law, cell.elastic_deformation(), &cell}, t0, t1) *
            of_cycle;
   }
 

@@ -11,20 +11,29 @@
 
 namespace Morula
 {
-  void
-  IsotropicGrowthParameters::declare(ParameterHandler &prm)
+  IsotropicGrowthParameters::IsotropicGrowthParameters()
+    : stretch("Growth/Isotropic/Stretch",
+              "1",
+              "Growth stretch theta(X, Y, Z, t), an expression; > 0. "
+              "F_g = theta I; theta = 1 is the initial size.",
+              Evaluated::step)
   {
-    prm.add_parameter("Stretch",
-                      stretch,
-                      "Growth stretch theta(X, Y, Z, t), an expression; > 0. "
-                      "F_g = theta I; theta = 1 is the initial size.");
+    stretch.symbol("theta").positive("(a ratio of lengths)",
+                                     "1 is the initial size.");
+  }
+
+
+  KeyList
+  IsotropicGrowthParameters::list()
+  {
+    return {&stretch};
   }
 
 
   template <int dim>
   IsotropicGrowth<dim>::IsotropicGrowth(
     const IsotropicGrowthParameters &parameters)
-    : theta("Growth/Isotropic/Stretch", parameters.stretch)
+    : theta(parameters.stretch.expression(dim))
   {}
 
 

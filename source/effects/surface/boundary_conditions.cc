@@ -1,147 +1,103 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/unit_vector.h>
 #include <morula/effects/surface/boundary_conditions.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace Morula
 {
-  namespace
-  {
-    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
-     *  (λ + 2μ)/h, and what is added for squeezed tissue, in units of the
-     *  stiffness beyond that at rest by h: doc/theory.md (4.6). */
-    constexpr double least_penalty = 20., squeezed_penalty = 100.;
-
-    std::optional<Expression>
-    where(const std::string &key, const std::string &text)
-    {
-      return text.empty() ? std::optional<Expression>() :
-                            Expression("Boundary conditions/" + key, text);
-    }
-  } // namespace
-
   template <int dim>
   BoundaryConditions<dim>::BoundaryConditions(
-    const BoundaryConditionParameters &parameters)
-    : fixed_where(where("Fixed where", parameters.fixed_where))
-    , slip_where(where("Slip where", parameters.slip_where))
-    , traction_where(where("Traction where", parameters.traction_where))
-    , pressure_where(where("Pressure where", parameters.pressure_where))
-    , displacement_("Boundary conditions/Displacement",
-                    parameters.displacement,
-                    3,
-                    dim)
-    , traction_("Boundary conditions/Traction", parameters.traction, 3, dim)
-    , pressure_("Boundary conditions/Pressure", parameters.pressure)
-    , has_slip_normal(!parameters.slip_normal.empty())
-    , relative_penalty(parameters.nitsche_penalty)
-    , form(parameters.nitsche_form == "symmetric" ? NitscheForm::symmetric :
-                                                    NitscheForm::unsymmetric)
+    std::vector<Named> list, const NitscheParameters &parameters)
+    : list_(std::move(list))
+    , nitsche_(parameters)
   {
-    if (has_slip_normal)
-      slip_normal = unit_vector<dim>("Boundary conditions/Slip normal",
-                                     parameters.slip_normal);
+    // The kinds are numbered in the order in which they win.
+    static_assert(SurfaceCondition::fixed < SurfaceCondition::slip &&
+                  SurfaceCondition::slip < SurfaceCondition::loaded);
+    std::stable_sort(list_.begin(),
+                     list_.end(),
+                     [](const Named &a, const Named &b) {
+                       return a.condition->kind() < b.condition->kind();
+                     });
   }
 
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::holds(const std::optional<Expression> &where,
-                                 const Point<dim>                &X) const
-  {
-    return where && where->value(X, 0.) > 0.;
-  }
 
   template <int dim>
   SurfaceCondition
   BoundaryConditions<dim>::condition(const Point<dim>     &X,
                                      const Tensor<1, dim> &N) const
   {
-    if (holds(fixed_where, X))
-      return SurfaceCondition::fixed;
-    if (holds(slip_where, X) &&
-        (!has_slip_normal || std::abs(N * slip_normal) > 0.9))
-      return SurfaceCondition::slip;
-    if (holds(traction_where, X) || holds(pressure_where, X))
-      return SurfaceCondition::loaded;
-    return SurfaceCondition::free;
+    const unsigned int k = winner(X, N);
+    return k < list_.size() ? list_[k].condition->kind() :
+                              SurfaceCondition::free;
   }
+
+
+  template <int dim>
+  unsigned int
+  BoundaryConditions<dim>::winner(const Point<dim>     &X,
+                                  const Tensor<1, dim> &N) const
+  {
+    unsigned int k = 0;
+    while (k < list_.size() && !list_[k].condition->acts_on(X, N))
+      ++k;
+    return k;
+  }
+
 
   template <int dim>
   Tensor<1, dim>
-  BoundaryConditions<dim>::displacement(const Point<dim> &X,
-                                        const double      t) const
+  BoundaryConditions<dim>::displacement(const Point<dim>     &X_seed,
+                                        const Tensor<1, dim> &N,
+                                        const Point<dim>     &X,
+                                        const double          t) const
   {
-    return displacement_.vector(X, t);
+    const bool only_one =
+      list_.size() < 2 || list_[1].condition->kind() != SurfaceCondition::fixed;
+    const unsigned int k = only_one ? 0 : winner(X_seed, N);
+    AssertIndexRange(k, list_.size());
+    return list_[k].condition->displacement(X, t);
   }
 
-  template <int dim>
-  Tensor<1, dim>
-  BoundaryConditions<dim>::traction(const Point<dim> &X_seed,
-                                    const Point<dim> &X,
-                                    const double      t) const
-  {
-    return holds(traction_where, X_seed) ? traction_.vector(X, t) :
-                                           Tensor<1, dim>();
-  }
-
-  template <int dim>
-  double
-  BoundaryConditions<dim>::pressure(const Point<dim> &X_seed,
-                                    const Point<dim> &X,
-                                    const double      t) const
-  {
-    return holds(pressure_where, X_seed) ? pressure_.value(X, t) : 0.;
-  }
 
   template <int dim>
   bool
   BoundaryConditions<dim>::has_dirichlet() const
   {
-    return fixed_where || slip_where;
+    return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);
   }
+
 
   template <int dim>
   bool
-  BoundaryConditions<dim>::has_traction() const
+  BoundaryConditions<dim>::has(const SurfaceCondition kind) const
   {
-    return traction_where.has_value();
+    return std::any_of(list_.begin(), list_.end(), [kind](const Named &named) {
+      return named.condition->kind() == kind;
+    });
   }
 
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::has_pressure() const
-  {
-    return pressure_where.has_value();
-  }
 
   template <int dim>
-  double
-  BoundaryConditions<dim>::penalty(const double           E,
-                                   const Lame            &lame,
-                                   const double           stiffness,
-                                   const VolumetricStrain volumetric_form,
-                                   const double           h) const
+  const std::vector<typename BoundaryConditions<dim>::Named> &
+  BoundaryConditions<dim>::list() const
   {
-    if (volumetric_form == VolumetricStrain::projected)
-      return relative_penalty * (lame.lambda + 2. * lame.mu) / h;
-    const double at_rest = lame.lambda + 2. * lame.mu;
-    const double least =
-      form == NitscheForm::symmetric ?
-        least_penalty * at_rest +
-          squeezed_penalty * std::max(0., stiffness - at_rest) :
-        0.;
-    return std::max(relative_penalty * E, least) / h;
+    return list_;
   }
 
+
   template <int dim>
-  NitscheForm
-  BoundaryConditions<dim>::nitsche_form() const
+  const NitschePenalty &
+  BoundaryConditions<dim>::nitsche() const
   {
-    return form;
+    return nitsche_;
   }
+
 
   template class BoundaryConditions<2>;
   template class BoundaryConditions<3>;

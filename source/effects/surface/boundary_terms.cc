@@ -2,8 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/dead_load.h>
-#include <morula/effects/surface/following_pressure.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>
@@ -30,6 +28,19 @@ namespace Morula
       if (point.condition() == SurfaceCondition::slip)
         return outer_product(point.initial_normal(), point.initial_normal());
       return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
+
+    /** Prescribed displacement of a fixed point at @p t, µm. */
+    template <int dim>
+    Tensor<1, dim>
+    displacement(const BoundaryConditions<dim> &conditions,
+                 const BoundaryView<dim>       &point,
+                 const double                   t)
+    {
+      return conditions.displacement(point.seed_position(),
+                                     point.initial_normal(),
+                                     point.initial_position(),
+                                     t);
     }
 
     template <int dim>
@@ -93,16 +104,6 @@ namespace Morula
                                     material.material());
       return state.W * point.stiffness(condition.normal);
     }
-
-    template <int dim>
-    PointGroups
-    loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
-    {
-      const BoundaryPoints<dim> &points = tissue.boundary_points();
-      return group_points(points, space, [&](const unsigned int p) {
-        return points.condition(p) == SurfaceCondition::loaded;
-      });
-    }
   } // namespace
 
   template <int dim>
@@ -135,7 +136,7 @@ namespace Morula
         const Point<dim>        x = queries[k], X = point.initial_position();
         Point<dim>              target = X;
         if (point.condition() == SurfaceCondition::fixed)
-          target += conditions.displacement(X, t);
+          target += displacement(conditions, point, t);
         const Tensor<1, dim>             area = point.area_vector();
         typename Nitsche<dim>::Condition condition;
         condition.projection     = projection(point);
@@ -158,14 +159,14 @@ namespace Morula
             current.push_back(state(F, at_end, material.per_grown_volume()));
           }
         // Without trust there is no traction that the penalty must hold down.
-        condition.penalty =
-          conditions.penalty(material.youngs_modulus(X),
-                             condition.lame,
-                             condition.trust > 0. ?
-                               stiffness(current.back(), condition, material) :
-                               0.,
-                             material.volumetric_form(),
-                             space.box().spacing());
+        condition.penalty = conditions.nitsche().penalty(
+          material.youngs_modulus(X),
+          condition.lame,
+          condition.trust > 0. ?
+            stiffness(current.back(), condition, material) :
+            0.,
+          material.volumetric_form(),
+          space.box().spacing());
         list.push_back(condition);
       }
     // Projected, ln J_e of the point itself says nothing about the pressure.
@@ -173,7 +174,7 @@ namespace Morula
       material.volumetric_form() == VolumetricStrain::projected ?
         PartOfLaw::distortion :
         PartOfLaw::all;
-    return std::make_unique<Nitsche<dim>>(conditions.nitsche_form(),
+    return std::make_unique<Nitsche<dim>>(conditions.nitsche().form(),
                                           material.material(),
                                           part,
                                           positions(tissue, space, groups),
@@ -183,45 +184,28 @@ namespace Morula
   }
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
-  traction_term(const BoundaryConditions<dim> &conditions,
-                const Tissue<dim>             &tissue,
-                const SplineSpace<dim>        &space,
-                const double                   t)
+  LoadedPoints<dim>
+  loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
-    const PointGroups           groups = loaded_points(tissue, space);
-    std::vector<Tensor<1, dim>> forces;
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const PointGroups          groups =
+      group_points(store, space, [&](const unsigned int p) {
+        return store.condition(p) == SurfaceCondition::loaded;
+      });
+    LoadedPoints<dim> loaded;
+    static_cast<GroupedPoints<dim> &>(loaded) =
+      positions(tissue, space, groups);
     for (const unsigned int p : groups.points)
       {
-        const auto point = tissue.boundary_points()[p];
-        forces.push_back(point.initial_area() *
-                         conditions.traction(point.seed_position(),
-                                             point.initial_position(),
-                                             t));
+        const BoundaryView<dim> point = store[p];
+        loaded.points.push_back({point.seed_position(),
+                                 point.initial_position(),
+                                 point.initial_normal(),
+                                 store.position(p),
+                                 point.initial_area(),
+                                 point.area_vector()});
       }
-    return std::make_unique<DeadLoad<dim>>(positions(tissue, space, groups),
-                                           std::move(forces));
-  }
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  pressure_term(const BoundaryConditions<dim> &conditions,
-                const Tissue<dim>             &tissue,
-                const SplineSpace<dim>        &space,
-                const double                   t)
-  {
-    const PointGroups groups = loaded_points(tissue, space);
-    std::vector<typename FollowingPressure<dim>::Load> loads;
-    for (const unsigned int p : groups.points)
-      {
-        const auto point = tissue.boundary_points()[p];
-        loads.push_back({conditions.pressure(point.seed_position(),
-                                             point.initial_position(),
-                                             t),
-                         point.area_vector()});
-      }
-    return std::make_unique<FollowingPressure<dim>>(
-      positions(tissue, space, groups), std::move(loads));
+    return loaded;
   }
 
   template <int dim>
@@ -269,40 +253,32 @@ namespace Morula
         if (point.condition() == SurfaceCondition::fixed)
           {
             const Point<dim> X = point.initial_position();
-            held.from = t == 0. ? X : X + conditions.displacement(X, t);
-            held.to   = X + conditions.displacement(X, t_next);
+            held.from = t == 0. ? X : X + displacement(conditions, point, t);
+            held.to   = X + displacement(conditions, point, t_next);
           }
         list.push_back(held);
       }
     return list;
   }
 
-#define INSTANTIATE(dim)                                            \
-  template std::unique_ptr<Term<dim>> nitsche_term(                 \
-    const BoundaryConditions<dim> &,                                \
-    const TissueMaterial &,                                         \
-    const Tissue<dim> &,                                            \
-    const SplineSpace<dim> &,                                       \
-    const GrowthOfStep<dim> &,                                      \
-    const double);                                                  \
-  template std::unique_ptr<Term<dim>> traction_term(                \
-    const BoundaryConditions<dim> &,                                \
-    const Tissue<dim> &,                                            \
-    const SplineSpace<dim> &,                                       \
-    const double);                                                  \
-  template std::unique_ptr<Term<dim>> pressure_term(                \
-    const BoundaryConditions<dim> &,                                \
-    const Tissue<dim> &,                                            \
-    const SplineSpace<dim> &,                                       \
-    const double);                                                  \
-  template std::vector<typename RigidModes<dim>::Support> supports( \
-    const BoundaryConditions<dim> &,                                \
-    const Tissue<dim> &,                                            \
-    const SplineSpace<dim> &);                                      \
-  template std::vector<HeldPoint<dim>> held_points(                 \
-    const BoundaryConditions<dim> &,                                \
-    const Tissue<dim> &,                                            \
-    const double,                                                   \
+#define INSTANTIATE(dim)                                              \
+  template std::unique_ptr<Term<dim>> nitsche_term(                   \
+    const BoundaryConditions<dim> &,                                  \
+    const TissueMaterial &,                                           \
+    const Tissue<dim> &,                                              \
+    const SplineSpace<dim> &,                                         \
+    const GrowthOfStep<dim> &,                                        \
+    const double);                                                    \
+  template LoadedPoints<dim> loaded_points(const Tissue<dim> &,       \
+                                           const SplineSpace<dim> &); \
+  template std::vector<typename RigidModes<dim>::Support> supports(   \
+    const BoundaryConditions<dim> &,                                  \
+    const Tissue<dim> &,                                              \
+    const SplineSpace<dim> &);                                        \
+  template std::vector<HeldPoint<dim>> held_points(                   \
+    const BoundaryConditions<dim> &,                                  \
+    const Tissue<dim> &,                                              \
+    const double,                                                     \
     const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -77,6 +77,8 @@ TEST(CellCycle, KeysAndDefaults)
   ParameterHandler    prm;
   CellCycleParameters parameters;
   parameters.declare(prm);
+  prm.enter_subsection("Proliferation");
+  prm.enter_subsection("Cell cycle");
 
   EXPECT_EQ(prm.get("Start"), "waiting");
   EXPECT_EQ(prm.get("Duration"), "1");
@@ -87,10 +89,10 @@ TEST(CellCycle, KeysAndDefaults)
   EXPECT_EQ(parameters.fixed_axis, (std::vector<double>{0., 0., 1.}));
   EXPECT_FALSE(prm.get_bool("Axis follows rotation"));
 
-  prm.parse_input_from_string("set Start = together\n"
-                              "set Duration = 1 + X\n"
-                              "set Fixed axis = 1, 2, 2\n"
-                              "set Axis follows rotation = true\n");
+  prm.set("Start", "together");
+  prm.set("Duration", "1 + X");
+  prm.set("Fixed axis", "1, 2, 2");
+  prm.set("Axis follows rotation", "true");
   EXPECT_EQ(parameters.start, "together");
   EXPECT_EQ(parameters.duration, "1 + X");
   EXPECT_EQ(parameters.fixed_axis, (std::vector<double>{1., 2., 2.}));

@@ -3,6 +3,10 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/pressure.h>
+#include <morula/effects/surface/slip.h>
+#include <morula/effects/surface/traction.h>
 #include <morula/particles/detached_points.h>
 
 #include <gtest/gtest.h>
@@ -35,6 +39,34 @@ namespace
     return TissueMaterial(parameters);
   }
 
+  /** The keys of the conditions. */
+  struct Given
+  {
+    FixedParameters    fixed;
+    SlipParameters     slip;
+    TractionParameters traction;
+    PressureParameters pressure;
+    NitscheParameters  nitsche;
+  };
+
+  template <int dim>
+  BoundaryConditions<dim>
+  conditions_of(const Given &given)
+  {
+    std::vector<typename BoundaryConditions<dim>::Named> list;
+    if (given.pressure.is_on())
+      list.push_back(
+        {"pressure", std::make_unique<Pressure<dim>>(given.pressure)});
+    if (given.traction.is_on())
+      list.push_back(
+        {"traction", std::make_unique<Traction<dim>>(given.traction)});
+    if (given.slip.is_on())
+      list.push_back({"slip", std::make_unique<Slip<dim>>(given.slip)});
+    if (given.fixed.is_on())
+      list.push_back({"fixed", std::make_unique<Fixed<dim>>(given.fixed)});
+    return {std::move(list), given.nitsche};
+  }
+
   /**
    * A ball with boundary points where the axes leave it, each with its
    * condition. Points are displaced by @p moved from their initial positions,
@@ -48,11 +80,11 @@ namespace
     Tissue<dim>                       tissue;
     std::unique_ptr<SplineSpace<dim>> space;
 
-    Problem(const BoundaryConditionParameters &parameters,
-            CellGrowth<dim>                    growth_of_cells,
-            const Tensor<1, dim>              &moved = Tensor<1, dim>(),
-            const Tensor<2, dim>              &F     = unit_tensor<dim>())
-      : conditions(parameters)
+    Problem(const Given          &parameters,
+            CellGrowth<dim>       growth_of_cells,
+            const Tensor<1, dim> &moved = Tensor<1, dim>(),
+            const Tensor<2, dim> &F     = unit_tensor<dim>())
+      : conditions(conditions_of<dim>(parameters))
       , growth(std::move(growth_of_cells))
       , tissue(GridParameters(), growth.columns(), MPI_COMM_WORLD)
     {
@@ -123,10 +155,10 @@ namespace
   void
   check_penalty()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where     = at_top;
-    parameters.displacement    = "2*t; -t; 0";
-    parameters.nitsche_penalty = 1e3;
+    Given parameters;
+    parameters.fixed.where        = at_top;
+    parameters.fixed.displacement = "2*t; -t; 0";
+    parameters.nitsche.penalty    = 1e3;
     const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
     Tensor<1, dim>     U;
     U[0] = 1.;
@@ -153,9 +185,9 @@ namespace
   void
   check_squeezed()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where     = at_top;
-    parameters.nitsche_penalty = 10.;
+    Given parameters;
+    parameters.fixed.where     = at_top;
+    parameters.nitsche.penalty = 10.;
     const Lame   constants     = lame(1., 0.4);
     const double squeeze = 0.4, J = std::pow(squeeze, dim);
     const double b         = squeeze * squeeze;
@@ -188,8 +220,8 @@ namespace
   void
   check_projected()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where   = at_top;
+    Given parameters;
+    parameters.fixed.where   = at_top;
     const Lame     constants = lame(1., 0.4999);
     const double   b         = 1.01 * 1.01 - 1.;
     const double   penalty = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
@@ -214,10 +246,10 @@ namespace
   void
   check_total_gap()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where  = at_top;
-    parameters.displacement = "1; 2; 0";
-    parameters.slip_where   = "Y > 80";
+    Given parameters;
+    parameters.fixed.where        = at_top;
+    parameters.fixed.displacement = "1; 2; 0";
+    parameters.slip.where         = "Y > 80";
     Tensor<1, dim> moved;
     moved[0] = 0.7;
     moved[1] = -0.4;
@@ -238,8 +270,8 @@ namespace
   void
   check_growth()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where = at_top;
+    Given parameters;
+    parameters.fixed.where = at_top;
     // At X = 70, the nearest cells, and elsewhere.
     const std::string off_axis = dim == 2 ? "Y*Y" : "Y*Y + Z*Z";
     const std::string stretch =
@@ -298,8 +330,8 @@ namespace
   void
   check_sheared_growth()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where = at_top;
+    Given parameters;
+    parameters.fixed.where = at_top;
     Tensor<2, dim> F       = unit_tensor<dim>();
     F[0][0]                = 1.1;
     F[0][1]                = 0.2;
@@ -342,9 +374,9 @@ namespace
       -area * (Tensor<2, dim>(state.kirchhoff_stress()) * (N * invert(F)));
     for (const double distance : {0., 16., 200.})
       {
-        BoundaryConditionParameters parameters;
-        parameters.fixed_where  = at_top;
-        parameters.displacement = std::to_string(distance) + "; 0; 0";
+        Given parameters;
+        parameters.fixed.where        = at_top;
+        parameters.fixed.displacement = std::to_string(distance) + "; 0; 0";
         Tensor<1, dim> moved;
         moved[0] = distance;
         const Problem<dim> problem(parameters,
@@ -366,29 +398,31 @@ namespace
   void
   check_loads()
   {
-    BoundaryConditionParameters parameters;
-    parameters.traction_where = "X > 80 || Y > 80";
-    parameters.traction       = "0.1*t; X/90; 0";
-    parameters.pressure_where = at_top;
-    parameters.pressure       = "3*t";
-    Tensor<2, dim> F          = unit_tensor<dim>();
-    F[1][1]                   = 1.5;
-    F[0][1]                   = 0.3;
+    Given parameters;
+    parameters.traction.where    = "X > 80 || Y > 80";
+    parameters.traction.traction = "0.1*t; X/90; 0";
+    parameters.pressure.where    = at_top;
+    parameters.pressure.pressure = "3*t";
+    Tensor<2, dim> F             = unit_tensor<dim>();
+    F[1][1]                      = 1.5;
+    F[0][1]                      = 0.3;
     const Problem<dim> problem(parameters,
                                CellGrowth<dim>({}, {}),
                                Tensor<1, dim>(),
                                F);
-    const auto         traction = problem.sums(
-      *traction_term(problem.conditions, problem.tissue, *problem.space, 2.));
+    const auto         traction =
+      problem.sums(*Traction<dim>(parameters.traction)
+                      .term(loaded_points(problem.tissue, *problem.space), 2.));
     Tensor<1, dim> expected;
     expected[0] = -2. * 0.2 * area; // per initial area, two points
     expected[1] = -1. * area;
     EXPECT_LE((traction.force - expected).norm(), 1e-11 * expected.norm());
 
     Tensor<1, dim> N;
-    N[0]               = 1.;
-    const auto pressed = problem.sums(
-      *pressure_term(problem.conditions, problem.tissue, *problem.space, 2.));
+    N[0] = 1.;
+    const auto pressed =
+      problem.sums(*Pressure<dim>(parameters.pressure)
+                      .term(loaded_points(problem.tissue, *problem.space), 2.));
     expected = 6. * determinant(F) * area * (N * invert(F));
     EXPECT_LE((pressed.force - expected).norm(), 1e-11 * expected.norm());
   }
@@ -397,10 +431,10 @@ namespace
   void
   check_supports()
   {
-    BoundaryConditionParameters parameters;
-    parameters.fixed_where    = at_top;
-    parameters.slip_where     = "Y > 80 || Y < -80";
-    parameters.traction_where = "X < -80";
+    Given parameters;
+    parameters.fixed.where    = at_top;
+    parameters.slip.where     = "Y > 80 || Y < -80";
+    parameters.traction.where = "X < -80";
     const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
     const auto         list =
       supports(problem.conditions, problem.tissue, *problem.space);

@@ -4,6 +4,8 @@
 #ifndef morula_effects_division_division_rule_h
 #define morula_effects_division_division_rule_h
 
+#include <morula/effects/effect.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -30,15 +32,17 @@ namespace Morula
    * calls.
    */
   template <int dim>
-  class DivisionRule
+  class DivisionRule : public Effect<dim>
   {
   public:
-    virtual ~DivisionRule() = default;
-
     /** The axis of the cycle that begins, of any length but zero. Called again
      *  with the same cell where a step is halved. */
     virtual Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const = 0;
+
+    /** Asks for the axes of the founders. */
+    void
+    check(const Preview<dim> &scene) const override;
   };
 } // namespace Morula
 

@@ -4,10 +4,9 @@
 #ifndef morula_effects_fate_cell_cycle_h
 #define morula_effects_fate_cell_cycle_h
 
-#include <morula/base/expression.h>
+#include <morula/base/expression_key.h>
 #include <morula/particles/cell_state.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/particles/property_pool.h>
 
 #include <cstdint>
@@ -20,21 +19,22 @@ namespace Morula
   using namespace dealii;
 
   /** Section "Proliferation/Cell cycle". */
-  struct CellCycleParameters
+  struct CellCycleParameters : public Keys
   {
-    std::string         start                 = "waiting";
-    std::string         duration              = "1";
-    std::string         exit_rate             = "1";
-    std::string         size_checkpoint       = "0";
-    std::string         where                 = "1";
-    std::string         division_axis         = "random";
-    std::vector<double> fixed_axis            = {0., 0., 1.};
-    bool                axis_follows_rotation = false;
+    CellCycleParameters();
 
-    /** @param more_axes further values of Division axis, "|name|name": these
-     *         draw an axis as 'random' does, for a DivisionRule to use */
-    void
-    declare(ParameterHandler &prm, const std::string &more_axes = "");
+    Key<std::string>         start;
+    ExpressionKey            duration;        // day
+    ExpressionKey            exit_rate;       // 1/day
+    ExpressionKey            size_checkpoint; // J_th
+    ExpressionKey            where;
+    Key<std::string>         division_axis;
+    Key<std::vector<double>> fixed_axis;
+    Key<bool>                axis_follows_rotation;
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 
   /** Where a cell stands in its cycle. S and G2 differ by the clock alone. */

@@ -4,21 +4,48 @@
 #ifndef morula_effects_forces_body_force_h
 #define morula_effects_forces_body_force_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
+#include <morula/base/expression_key.h>
+#include <morula/effects/forces/force.h>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** Section "Body force". */
-  struct BodyForceParameters
+  struct BodyForceParameters : public EffectKeys
   {
-    std::string force_density = "0; 0; 0";
+    BodyForceParameters();
+
+    ExpressionKey force_density; // kPa/µm
+
+    bool
+    is_on() const override;
+    std::string
+    details() const override;
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
+   *  paper. */
+  template <int dim>
+  class BodyForce : public Force<dim>
+  {
+  public:
+    using Parameters = BodyForceParameters;
+
+    /** @throws InputError for an expression that cannot be parsed */
+    explicit BodyForce(const Parameters &parameters);
+
+    std::unique_ptr<Term<dim>>
+    term(const Tissue<dim>        &tissue,
+         const GroupedPoints<dim> &positions,
+         const double              t) const override;
 
     void
-    declare(ParameterHandler &prm);
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    const Expression density;
   };
 } // namespace Morula
 

@@ -4,6 +4,8 @@
 #ifndef morula_effects_growth_growth_law_h
 #define morula_effects_growth_growth_law_h
 
+#include <morula/effects/effect.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -21,6 +23,8 @@ namespace Morula
     Tensor<2, dim> growth;
     /** F_e, equation (1.3). */
     Tensor<2, dim> elastic;
+    /** The cell with all its columns; null before there are cells. */
+    const CellView<dim, const double> *cell = nullptr;
   };
 
   /**
@@ -31,11 +35,9 @@ namespace Morula
    * state at the beginning of a step, which is saved with the cell.
    */
   template <int dim>
-  class GrowthLaw
+  class GrowthLaw : public Effect<dim>
   {
   public:
-    virtual ~GrowthLaw() = default;
-
     /**
      * The law's part of F_g at @p t1, from the state at @p t0 (day). Called
      * again with a smaller @p t1 where a step is halved. The part is the
@@ -56,6 +58,14 @@ namespace Morula
      */
     virtual double
     expected_volume_ratio(const Point<dim> &X, const double t) const = 0;
+
+    /** Asks for what the first step and the last will ask. */
+    void
+    check(const Preview<dim> &scene) const override;
+
+    /** Warns of steps in which cells grow by much. */
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
   };
 } // namespace Morula
 

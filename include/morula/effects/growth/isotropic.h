@@ -4,22 +4,21 @@
 #ifndef morula_effects_growth_isotropic_h
 #define morula_effects_growth_isotropic_h
 
-#include <morula/base/expression.h>
+#include <morula/base/expression_key.h>
 #include <morula/effects/growth/growth_law.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 namespace Morula
 {
-  using namespace dealii;
-
   /** Section "Growth/Isotropic". */
-  struct IsotropicGrowthParameters
+  struct IsotropicGrowthParameters : public EffectKeys
   {
-    std::string stretch = "1";
+    IsotropicGrowthParameters();
 
-    void
-    declare(ParameterHandler &prm);
+    ExpressionKey stretch;
+
+    using Keys::list;
+    KeyList
+    list() override;
   };
 
   /**
@@ -30,8 +29,10 @@ namespace Morula
   class IsotropicGrowth : public GrowthLaw<dim>
   {
   public:
+    using Parameters = IsotropicGrowthParameters;
+
     /** @throws InputError for an expression that cannot be parsed */
-    explicit IsotropicGrowth(const IsotropicGrowthParameters &parameters);
+    explicit IsotropicGrowth(const Parameters &parameters);
 
     /**
      * The growth stretch θ at time @p t.

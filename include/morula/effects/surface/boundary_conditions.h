@@ -4,103 +4,73 @@
 #ifndef morula_effects_surface_boundary_conditions_h
 #define morula_effects_surface_boundary_conditions_h
 
-#include <morula/base/expression.h>
-#include <morula/effects/surface/nitsche.h>
-#include <morula/particles/boundary_state.h>
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/nitsche_penalty.h>
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
-  using namespace dealii;
-
-  /** Section "Boundary conditions". */
-  struct BoundaryConditionParameters
-  {
-    std::string fixed_where     = "";
-    std::string displacement    = "0; 0; 0";
-    std::string slip_where      = "";
-    std::string slip_normal     = "";
-    std::string traction_where  = "";
-    std::string traction        = "0; 0; 0";
-    std::string pressure_where  = "";
-    std::string pressure        = "0";
-    double      nitsche_penalty = 1e3;
-    std::string nitsche_form    = "symmetric";
-
-    void
-    declare(ParameterHandler &prm);
-  };
-
-  /**
-   * The conditions on the surface. Where several hold at a point, fixed wins
-   * over slip, and slip over loads.
-   */
+  /** The scene's conditions on the surface: decides which one wins. */
   template <int dim>
   class BoundaryConditions
   {
   public:
-    /** @throws InputError for expressions that cannot be parsed */
-    explicit BoundaryConditions(const BoundaryConditionParameters &parameters);
+    /** A condition and what it is called. */
+    struct Named
+    {
+      std::string                                   name;
+      std::unique_ptr<const BoundaryCondition<dim>> condition;
+    };
 
-    /** The condition at initial position @p X with initial normal @p N. Slip
-     *  points are held along their own initial normal. */
+    /** @param list in the order in which they were added */
+    BoundaryConditions(std::vector<Named>       list,
+                       const NitscheParameters &parameters);
+
+    /** What the winning condition does to the point with initial position
+     *  @p X (µm) and initial normal @p N; asked at t = 0. */
     SurfaceCondition
     condition(const Point<dim> &X, const Tensor<1, dim> &N) const;
 
-    /** Prescribed displacement of a fixed point, µm. */
+    /**
+     * The number in list() of the condition that wins at such a point, list()
+     * .size() if none acts. Of several that load, the first is named.
+     */
+    unsigned int
+    winner(const Point<dim> &X, const Tensor<1, dim> &N) const;
+
+    /**
+     * Prescribed displacement of a fixed point, µm. Which condition fixes it
+     * was decided at @p X_seed, the initial position of the point of t = 0 that
+     * this one is a part of.
+     */
     Tensor<1, dim>
-    displacement(const Point<dim> &X, const double t) const;
+    displacement(const Point<dim>     &X_seed,
+                 const Tensor<1, dim> &N,
+                 const Point<dim>     &X,
+                 const double          t) const;
 
-    /** Dead traction on a loaded point, kPa per initial area. Whether there is
-     *  one was decided at @p X_seed, the initial position of the point of t = 0
-     *  that this one is a part of. */
-    Tensor<1, dim>
-    traction(const Point<dim> &X_seed,
-             const Point<dim> &X,
-             const double      t) const;
-
-    /** Following pressure on a loaded point, kPa; positive pushes inward. */
-    double
-    pressure(const Point<dim> &X_seed,
-             const Point<dim> &X,
-             const double      t) const;
-
-    /** Whether the scene has such conditions at all. */
+    /** Whether the scene has conditions that fix or let slip. */
     bool
-    has_dirichlet() const; // fixed or slip
-    bool
-    has_traction() const;
-    bool
-    has_pressure() const;
+    has_dirichlet() const;
 
-    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
-     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
-     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
-    double
-    penalty(const double           E,
-            const Lame            &lame,
-            const double           stiffness,
-            const VolumetricStrain volumetric_form,
-            const double           h) const;
+    /** Whether one of this kind exists. */
+    bool
+    has(const SurfaceCondition kind) const;
 
-    NitscheForm
-    nitsche_form() const;
+    /** All conditions: those that fix, that let slip, that load. */
+    const std::vector<Named> &
+    list() const;
+
+    /** How stiffly points are held. */
+    const NitschePenalty &
+    nitsche() const;
 
   private:
-    bool
-    holds(const std::optional<Expression> &where, const Point<dim> &X) const;
-
-    std::optional<Expression> fixed_where, slip_where, traction_where,
-      pressure_where;
-    Expression     displacement_, traction_, pressure_;
-    bool           has_slip_normal;
-    Tensor<1, dim> slip_normal;
-    double         relative_penalty; // β h / E
-    NitscheForm    form;
+    std::vector<Named> list_;
+    NitschePenalty     nitsche_;
   };
 } // namespace Morula
 

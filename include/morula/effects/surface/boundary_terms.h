@@ -31,21 +31,10 @@ namespace Morula
                const GrowthOfStep<dim>       &growth,
                const double                   t);
 
-  /** Dead traction on the loaded points at time @p t. */
+  /** The boundary points of this rank that conditions load. */
   template <int dim>
-  std::unique_ptr<Term<dim>>
-  traction_term(const BoundaryConditions<dim> &conditions,
-                const Tissue<dim>             &tissue,
-                const SplineSpace<dim>        &space,
-                const double                   t);
-
-  /** Following pressure on the loaded points at time @p t. */
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  pressure_term(const BoundaryConditions<dim> &conditions,
-                const Tissue<dim>             &tissue,
-                const SplineSpace<dim>        &space,
-                const double                   t);
+  LoadedPoints<dim>
+  loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
   /** The fixed and slip points of this rank. */
   template <int dim>

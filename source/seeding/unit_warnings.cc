@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/scene/grid_warnings.h>
-#include <morula/scene/refusals.h>
-#include <morula/scene/unit_warnings.h>
+#include <morula/seeding/unit_warnings.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/boost_adaptors/point.h>
 #include <deal.II/numerics/rtree.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,6 @@
 
 namespace Morula
 {
-  using Refusals::as_text;
-
   namespace
   {
     /** Usual distances of nearest cells, in units of their length. */
@@ -108,48 +106,74 @@ namespace Morula
 
 
   template <int dim>
-  std::vector<std::string>
-  unit_warnings(const Scene         &scene,
-                const Founders<dim> &founders,
-                const MPI_Comm       comm)
+  void
+  review_units(const TissueParameters &tissue,
+               const Founders<dim>    &founders,
+               const MPI_Comm          comm,
+               Review                 &review)
   {
-    const TissueParameters  &tissue = scene.tissue;
-    std::vector<std::string> warnings;
     if (tissue.shape == "points" && founders.n_global > 1)
       {
         const double ratio = median_distance(founders, comm);
         if (ratio < nearest_usual || ratio > farthest_usual)
-          warnings.push_back(warning(
-            "Tissue/Points file",
+          review.warn(
+            tissue.points_file.path(),
             tissue.points_file,
             "the nearest cell is, in the median, " + as_text(ratio) +
               " of a cell's length away, where 0.5 to 2 is usual: cells " +
               (ratio < nearest_usual ? "overlap" : "leave gaps") +
               ". Is the file in another unit than um?",
             "If so, scale it to um; else set Tissue/Cell spacing to the length "
-            "of the cells, or give each its volume in the file."));
+            "of the cells, or give each its volume in the file.");
       }
     if (tissue.shape == "mesh")
       {
         const double extent =
           longest_extent(founders, tissue.cell_spacing, comm);
         if (extent < fewest_cells * tissue.cell_spacing)
-          warnings.push_back(
-            warning("Tissue/Surface mesh",
-                    tissue.surface_mesh,
-                    "the tissue is only " +
-                      as_text(std::round(extent / tissue.cell_spacing)) +
-                      " cells long, " + as_text(extent) +
-                      " um. Is the file in another unit than um?",
-                    "If so, scale it to um, such as by 1000 from mm; else "
-                    "choose a smaller Tissue/Cell spacing."));
+          review.warn(tissue.surface_mesh.path(),
+                      tissue.surface_mesh,
+                      "the tissue is only " +
+                        as_text(std::round(extent / tissue.cell_spacing)) +
+                        " cells long, " + as_text(extent) +
+                        " um. Is the file in another unit than um?",
+                      "If so, scale it to um, such as by 1000 from mm; else "
+                      "choose a smaller Tissue/Cell spacing.");
       }
-    return warnings;
   }
 
 
-  template std::vector<std::string>
-  unit_warnings(const Scene &, const Founders<2> &, const MPI_Comm);
-  template std::vector<std::string>
-  unit_warnings(const Scene &, const Founders<3> &, const MPI_Comm);
+  void
+  review_unused(const TissueParameters &tissue, Review &review)
+  {
+    const std::vector<std::string> solid = {
+      "sphere", "box", "ellipsoid", "cylinder", "mesh"};
+    const std::vector<std::pair<const AnyKey *, std::vector<std::string>>>
+      shapes_of = {{&tissue.radius, {"sphere", "cylinder"}},
+                   {&tissue.size, {"box", "ellipsoid", "cylinder"}},
+                   {&tissue.center, solid},
+                   {&tissue.lattice_offset, solid},
+                   {&tissue.surface_cells, solid}};
+    for (const auto &[key, shapes] : shapes_of)
+      if (!key->is_default() && review.has_set(*key) &&
+          std::count(shapes.begin(), shapes.end(), tissue.shape.value()) == 0)
+        review.warn(key->path(),
+                    key->text(),
+                    "it has no effect on " + tissue.shape.path() + " = " +
+                      tissue.shape + ".",
+                    "Remove it, or choose one of the shapes " +
+                      boost::join(shapes, ", ") + ".");
+  }
+
+
+  template void
+  review_units(const TissueParameters &,
+               const Founders<2> &,
+               const MPI_Comm,
+               Review &);
+  template void
+  review_units(const TissueParameters &,
+               const Founders<3> &,
+               const MPI_Comm,
+               Review &);
 } // namespace Morula

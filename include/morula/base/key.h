@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_key_h
+#define morula_base_key_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * One key of a .prm file, with all that is known about it. Copies stand for
+   * themselves. The typed keys below add the value.
+   */
+  class AnyKey
+  {
+  public:
+    virtual ~AnyKey() = default;
+
+    /** Full path, separated by '/'. Spelt in no other place of the code. */
+    const std::string &
+    path() const;
+
+    /** Puts the key into a section: "A" becomes "Section/A". */
+    void
+    place_in(const std::string &section);
+
+    /** The default as text. */
+    const std::string &
+    default_text() const;
+
+    /** What --parameters prints; a unit stands at its end: "Units: um." */
+    const std::string &
+    documentation() const;
+
+    /** What follows "Units: " in the documentation, or empty. */
+    std::string
+    unit() const;
+
+    /** How --explain calls the key: its symbol, or its name. */
+    std::string
+    short_name() const;
+
+    /** The texts that values of `Method` give the key, by these. */
+    const std::map<std::string, std::string> &
+    texts_with_methods() const;
+
+    /** Adds a sentence, for what a program adds to the key. */
+    void
+    add_documentation(const std::string &text);
+
+    /** Full paths that the key had before. */
+    const std::vector<std::string> &
+    former_paths() const;
+
+    /** The value as text: as the scene wrote it, unless a program has changed
+     *  the value since. */
+    virtual std::string
+    text() const = 0;
+
+    /** Takes the value from text that matches the pattern. */
+    virtual void
+    assign(const std::string &text) = 0;
+
+    /** What deal.II lets through. */
+    virtual std::unique_ptr<Patterns::PatternBase>
+    pattern() const = 0;
+
+    /** What is allowed, as a noun phrase; empty for any text. */
+    virtual std::string
+    allowed() const = 0;
+
+    /** The words among which the value, or each of its list, is chosen. */
+    virtual std::vector<std::string>
+    choices() const;
+
+    /** Whether the value consists of real numbers. */
+    virtual bool
+    is_of_numbers() const;
+
+    /**
+     * Refuses a value that is wrong by itself, in @p dim dimensions.
+     * @throws InputError
+     */
+    virtual void
+    check(const unsigned int dim) const;
+
+    /** Whether the value is the default, whatever way it is written. */
+    bool
+    is_default() const;
+
+    /** Declares the key in deal.II's handler, bound to this object. */
+    void
+    declare(ParameterHandler &prm);
+
+    /** @throws InputError with the path and the value */
+    [[noreturn]] void
+    refuse(const std::string &allowed, const std::string &remedy) const;
+
+    /** The value as a message shows it: a number with six digits. */
+    virtual std::string
+    shown() const;
+
+  protected:
+    AnyKey(const std::string &path,
+           const std::string &default_text,
+           const std::string &documentation);
+    AnyKey(const AnyKey &) = default;
+    AnyKey &
+    operator=(const AnyKey &) = default;
+
+    std::string                        symbol_;
+    std::map<std::string, std::string> with_method;
+    std::vector<std::string>           former_paths_;
+
+  private:
+    std::string path_;
+    std::string default_text_;
+    std::string documentation_;
+  };
+
+  /** What deal.II's pattern of a key admits; one for each type of value. */
+  template <typename T>
+  struct Limits;
+
+  /** Any text, or one of some words. */
+  template <>
+  struct Limits<std::string>
+  {
+    std::string words = {}; // "first|second"; empty: any text
+  };
+  /** Numbers from a smallest one on. */
+  template <>
+  struct Limits<double>
+  {
+    double smallest = Patterns::Double::min_double_value;
+  };
+  /** Integers between two. */
+  template <>
+  struct Limits<unsigned int>
+  {
+    int smallest = 0;
+    int largest  = Patterns::Integer::max_int_value;
+  };
+  /** Both values. */
+  template <>
+  struct Limits<bool>
+  {};
+  /** Between two numbers of numbers. */
+  template <>
+  struct Limits<std::vector<double>>
+  {
+    unsigned int fewest = 0;
+    unsigned int most   = Patterns::List::max_int_value;
+  };
+  /** Some words, at least one. */
+  template <>
+  struct Limits<std::vector<std::string>>
+  {
+    std::string words = {};
+  };
+
+  /**
+   * A key with a value of type T: double, unsigned int, bool, std::string, or a
+   * vector of doubles or strings. It may be used like its value.
+   */
+  template <typename T>
+  class Key : public AnyKey
+  {
+  public:
+    /** @param path full, or relative to the section that place_in() names */
+    Key(const std::string &path,
+        const T           &default_value,
+        const std::string &documentation,
+        const Limits<T>   &limits = {});
+
+    const T &
+    value() const
+    {
+      return value_;
+    }
+
+    operator const T &() const
+    {
+      return value_;
+    }
+
+    Key &
+    operator=(const T &value)
+    {
+      value_ = value;
+      return *this;
+    }
+
+    template <typename Other>
+    Key &
+    operator+=(const Other &other)
+    {
+      value_ += other;
+      return *this;
+    }
+
+    template <typename Other>
+    Key &
+    operator*=(const Other &other)
+    {
+      value_ *= other;
+      return *this;
+    }
+
+    template <typename Other>
+    Key &
+    operator/=(const Other &other)
+    {
+      value_ /= other;
+      return *this;
+    }
+
+    const T *
+    operator->() const
+    {
+      return &value_;
+    }
+
+    // Templates, since most types have no such functions.
+
+    template <typename Value = T>
+    auto
+    operator[](const std::size_t i) const
+      -> decltype(std::declval<const Value &>()[i])
+    {
+      return value_[i];
+    }
+
+    template <typename Value = T>
+    auto
+    begin() const -> decltype(std::declval<const Value &>().begin())
+    {
+      return value_.begin();
+    }
+
+    template <typename Value = T>
+    auto
+    end() const -> decltype(std::declval<const Value &>().end())
+    {
+      return value_.end();
+    }
+
+    template <typename Value = T>
+    auto
+    size() const -> decltype(std::declval<const Value &>().size())
+    {
+      return value_.size();
+    }
+
+    template <typename Value = T>
+    auto
+    empty() const -> decltype(std::declval<const Value &>().empty())
+    {
+      return value_.empty();
+    }
+
+    /** Adds a rule that check() enforces. */
+    Key &
+    require(const std::function<bool(const T &)> &rule,
+            const std::string                    &allowed,
+            const std::string                    &remedy);
+
+    /** Names the value that the key has with a value of `Method`. */
+    Key &
+    with(const std::string &method, const std::string &text);
+
+    /** Names a path that the key had before. */
+    Key &
+    formerly(const std::string &path);
+
+    /** Admits one more word. */
+    void
+    add_word(const std::string &word);
+
+    std::string
+    text() const override;
+    void
+    assign(const std::string &text) override;
+    std::unique_ptr<Patterns::PatternBase>
+    pattern() const override;
+    std::string
+    allowed() const override;
+    std::vector<std::string>
+    choices() const override;
+    bool
+    is_of_numbers() const override;
+    void
+    check(const unsigned int dim) const override;
+
+    /** Prints the text. */
+    friend std::ostream &
+    operator<<(std::ostream &out, const Key &key)
+    {
+      return out << key.text();
+    }
+
+    std::string
+    shown() const override;
+
+  private:
+    struct Rule
+    {
+      std::function<bool(const T &)> holds;
+      std::string                    allowed, remedy;
+    };
+
+    T                 value_;
+    T                 assigned; // what text_ says
+    std::string       text_;
+    Limits<T>         limits;
+    std::vector<Rule> rules;
+  };
+
+  // Numbers are compared by themselves; the others need to be told.
+
+  /** Compares the values. */
+  inline bool
+  operator==(const Key<std::string> &key, const std::string &value)
+  {
+    return key.value() == value;
+  }
+  inline bool
+  operator==(const std::string &value, const Key<std::string> &key)
+  {
+    return key.value() == value;
+  }
+  inline bool
+  operator!=(const Key<std::string> &key, const std::string &value)
+  {
+    return key.value() != value;
+  }
+  inline bool
+  operator==(const Key<std::vector<double>> &key,
+             const std::vector<double>      &value)
+  {
+    return key.value() == value;
+  }
+  inline bool
+  operator==(const Key<std::vector<std::string>> &key,
+             const std::vector<std::string>      &value)
+  {
+    return key.value() == value;
+  }
+
+  /** Joins text with that of a key. */
+  inline std::string
+  operator+(const std::string &text, const Key<std::string> &key)
+  {
+    return text + key.value();
+  }
+  inline std::string
+  operator+(const Key<std::string> &key, const std::string &text)
+  {
+    return key.value() + text;
+  }
+
+  /** Keys in the order of their declaration. */
+  using KeyList = std::vector<AnyKey *>;
+
+  /** Some keys that belong together: a section of the scene, or an effect. */
+  struct Keys
+  {
+    virtual ~Keys() = default;
+
+    /** The keys in their order. */
+    virtual KeyList
+    list() = 0;
+
+    /** The keys in their order. */
+    std::vector<const AnyKey *>
+    list() const;
+
+    /** Declares all keys in deal.II's handler, bound to this object. */
+    void
+    declare(ParameterHandler &prm);
+
+    /** Refuses values that are wrong by themselves. @throws InputError */
+    void
+    check_each(const unsigned int dim) const;
+
+  protected:
+    Keys()             = default;
+    Keys(const Keys &) = default;
+    Keys &
+    operator=(const Keys &) = default;
+  };
+
+  /** Whether two values are equal, as text without blanks or as numbers. */
+  bool
+  same_value(const std::string &a, const std::string &b);
+
+  /** A number as a message shows it. */
+  std::string
+  as_text(const double value);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_effect_h
+#define morula_effects_effect_h
+
+#include <morula/base/key.h>
+#include <morula/base/review.h>
+#include <morula/particles/cell_state.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/particles/property_pool.h>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * The keys of an effect. Where a scene does not choose the effect by its
+   * name, they say whether it is on.
+   */
+  struct EffectKeys : public Keys
+  {
+    /** Whether the scene has the effect. */
+    virtual bool
+    is_on() const;
+
+    /** The key that switches the effect on, or null where a name does. */
+    virtual const AnyKey *
+    switch_key() const;
+
+    /** What it is called in --explain; empty: the effect's name. */
+    virtual std::string
+    topic() const;
+
+    /** What --explain says of its values: ", Key = value" for each. */
+    virtual std::string
+    details() const;
+  };
+
+  /** What a scene tells to every effect whose constructor wants to know. */
+  template <int dim>
+  struct EffectSetting
+  {
+    /** Random seed. */
+    std::uint64_t random_seed;
+    /** Times closer than this are equal, day. */
+    double slack;
+    /** The columns of the cells: an effect that has a state in cells adds its
+     *  own, and keeps the handles. They are saved and resumed with the others.
+     */
+    CellColumns<dim> &columns;
+  };
+
+  /**
+   * What an effect may look at before a run: plain values. The founders and
+   * boundary points are those of this rank.
+   */
+  template <int dim>
+  struct Preview
+  {
+    /** Initial positions, µm. */
+    const std::vector<Point<dim>> &founders;
+    /** On all ranks. */
+    types::particle_index n_founders;
+    /** Initial positions, µm. */
+    const std::vector<Point<dim>> &boundary_points;
+    /** Initial outward unit normals. */
+    const std::vector<Tensor<1, dim>> &normals;
+    /** Whether some boundary points are fixed. */
+    bool is_clamped;
+    /** Of the run, day. */
+    double end_time;
+    /** Length of a step, day. */
+    double   step;
+    MPI_Comm comm;
+  };
+
+  /** What all effects have in common. An effect keeps nothing between calls: a
+   *  state that outlives a step stands in columns of the cells. */
+  template <int dim>
+  class Effect
+  {
+  public:
+    virtual ~Effect() = default;
+
+    /** Sets the effect's columns of a founder, at t = 0, where they differ from
+     *  what was declared. Only called where the effect has columns. */
+    virtual void
+    begin(const CellView<dim, double> &cell) const;
+
+    /**
+     * Sets the effect's columns of a cell to the end @p t1 (day) of a step; all
+     * others, and its own until it writes them, are those of @p t0. Only called
+     * where the effect has columns, once for each step that is done.
+     */
+    virtual void
+    advance(const CellView<dim, double> &cell,
+            const double                 t0,
+            const double                 t1) const;
+
+    /**
+     * Refuses what the effect cannot do at these founders and boundary points,
+     * at t = 0 and at the end. Not collective.
+     * @throws InputError
+     */
+    virtual void
+    check(const Preview<dim> &scene) const;
+
+    /** Adds warnings. Collective. */
+    virtual void
+    review(const Preview<dim> &scene, Review &review) const;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_fate_h
+#define morula_effects_fate_fate_h
+
+#include <morula/effects/effect.h>
+
+namespace Morula
+{
+  /**
+   * What becomes of a cell over time, besides its growth and its cell cycle: a
+   * state in columns of its own, which other effects may read by the columns'
+   * names. A daughter has of her mother's what the columns declare.
+   */
+  template <int dim>
+  class Fate : public Effect<dim>
+  {
+  public:
+    void
+    advance(const CellView<dim, double> &cell,
+            const double                 t0,
+            const double                 t1) const override = 0;
+  };
+} // namespace Morula
+
+#endif

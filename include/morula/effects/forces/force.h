@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_forces_force_h
+#define morula_effects_forces_force_h
+
+#include <morula/effects/effect.h>
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
+#include <morula/particles/tissue.h>
+
+#include <memory>
+
+namespace Morula
+{
+  /** What acts on the cells, as a term of the momentum balance. */
+  template <int dim>
+  class Force : public Effect<dim>
+  {
+  public:
+    /**
+     * The term at the end @p t (day) of a step. Not collective.
+     * @param tissue    at the beginning of the step
+     * @param positions of the cells in their grid cells, in the order of
+     *                  Tissue::cells()
+     * @throws InputError where an expression has no value
+     */
+    virtual std::unique_ptr<Term<dim>>
+    term(const Tissue<dim>        &tissue,
+         const GroupedPoints<dim> &positions,
+         const double              t) const = 0;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_boundary_condition_h
+#define morula_effects_surface_boundary_condition_h
+
+#include <morula/effects/effect.h>
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
+#include <morula/particles/boundary_state.h>
+
+#include <memory>
+#include <vector>
+
+namespace Morula
+{
+  /** The boundary points that no condition holds, for terms that load them:
+   *  values of the configuration at the beginning of the step. */
+  template <int dim>
+  struct LoadedPoints : public GroupedPoints<dim>
+  {
+    /** One boundary point. */
+    struct Point
+    {
+      /** Initial position of the point of t = 0 that this one is a part of, µm:
+       *  there a condition is asked whether it acts. */
+      dealii::Point<dim> X_seed;
+      /** Initial position, µm. */
+      dealii::Point<dim> X;
+      /** Initial outward unit normal. */
+      Tensor<1, dim> N;
+      /** Position, µm. */
+      dealii::Point<dim> x;
+      /** Initial area, µm^(dim-1). */
+      double initial_area;
+      /** Area times outward normal, µm^(dim-1). */
+      Tensor<1, dim> area;
+    };
+
+    /** In the order of xi. */
+    std::vector<Point> points;
+  };
+
+  /**
+   * A condition on the surface. It holds its points (in all directions, or
+   * along their normal), which Nitsche's term does for all of them together; or
+   * it loads them by a term of its own.
+   *
+   * Where several act on a point, one that fixes wins over one that lets slip,
+   * and that over those that load; of two that fix or let slip, the one that
+   * was added first. All that load act together.
+   */
+  template <int dim>
+  class BoundaryCondition : public Effect<dim>
+  {
+  public:
+    /** What the condition does: fixed, slip or loaded. */
+    virtual SurfaceCondition
+    kind() const = 0;
+
+    /** Whether it acts on the point with initial position @p X (µm) and initial
+     *  outward unit normal @p N; asked at t = 0. */
+    virtual bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const = 0;
+
+    /** Displacement at which a fixed point is held at @p t (day), µm. */
+    virtual Tensor<1, dim>
+    displacement(const Point<dim> &X, const double t) const;
+
+    /** The term of a condition that loads, at the end @p t (day) of a step, on
+     *  those of the points that it acts on. Not collective. */
+    virtual std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const;
+
+    /** Whether tissue at rest would move: for the estimate of the time. */
+    virtual bool
+    moves() const;
+  };
+} // namespace Morula
+
+#endif

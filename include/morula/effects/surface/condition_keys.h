@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_condition_keys_h
+#define morula_effects_surface_condition_keys_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
+
+#include <string>
+
+namespace Morula
+{
+  /** The keys of a condition that acts where an expression is positive. */
+  struct ConditionKeys : public EffectKeys
+  {
+    /** @param path of the key that says where; without text: nowhere */
+    ConditionKeys(const std::string &path, const std::string &documentation);
+
+    ExpressionKey where;
+
+    bool
+    is_on() const override;
+    const AnyKey *
+    switch_key() const override;
+    std::string
+    details() const override;
+  };
+
+  /** Whether an expression of the place holds at @p X (µm). */
+  template <int dim>
+  bool
+  holds(const Expression &where, const Point<dim> &X)
+  {
+    return where.value(X, 0.) > 0.;
+  }
+} // namespace Morula
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_fixed_h
+#define morula_effects_surface_fixed_h
+
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/condition_keys.h>
+
+namespace Morula
+{
+  /** The keys of fixed points, in section "Boundary conditions". */
+  struct FixedParameters : public ConditionKeys
+  {
+    FixedParameters();
+
+    ExpressionKey displacement; // µm
+
+    using Keys::list;
+    KeyList
+    list() override;
+    std::string
+    topic() const override;
+    std::string
+    details() const override;
+  };
+
+  /** Points that are held in all directions, at a prescribed displacement. */
+  template <int dim>
+  class Fixed : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = FixedParameters;
+
+    /** @throws InputError for expressions that cannot be parsed */
+    explicit Fixed(const Parameters &parameters);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    Tensor<1, dim>
+    displacement(const Point<dim> &X, const double t) const override;
+    bool
+    moves() const override;
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    const Expression where, displacement_;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_nitsche_penalty_h
+#define morula_effects_surface_nitsche_penalty_h
+
+#include <morula/base/key.h>
+#include <morula/effects/surface/nitsche.h>
+
+namespace Morula
+{
+  /** The keys of Nitsche's term, in section "Boundary conditions". */
+  struct NitscheParameters : public Keys
+  {
+    NitscheParameters();
+
+    Key<double>      penalty; // β h / E
+    Key<std::string> form;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** How stiffly fixed and slip points are held. */
+  class NitschePenalty
+  {
+  public:
+    /** Made of the keys. */
+    explicit NitschePenalty(const NitscheParameters &parameters);
+
+    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
+     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
+     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
+    double
+    penalty(const double           E,
+            const Lame            &lame,
+            const double           stiffness,
+            const VolumetricStrain volumetric_form,
+            const double           h) const;
+
+    /** The least penalty of the symmetric form where tissue is at rest, in
+     *  units of E/h, with Poisson's ratio @p nu. */
+    static double
+    least(const double nu);
+
+    /** Which of Nitsche's terms. */
+    NitscheForm
+    form() const;
+
+  private:
+    double      relative; // β h / E
+    NitscheForm form_;
+  };
+} // namespace Morula
+
+#endif

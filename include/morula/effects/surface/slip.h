@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_slip_h
+#define morula_effects_surface_slip_h
+
+#include <morula/base/unit_vector.h>
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/condition_keys.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /** The keys of slip points, in section "Boundary conditions". */
+  struct SlipParameters : public ConditionKeys
+  {
+    SlipParameters();
+
+    DirectionKey normal;
+
+    using Keys::list;
+    KeyList
+    list() override;
+    std::string
+    topic() const override;
+  };
+
+  /** Points that are held along their own initial normal. */
+  template <int dim>
+  class Slip : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = SlipParameters;
+
+    /** @throws InputError for an expression or a direction that cannot be
+     *  parsed */
+    explicit Slip(const Parameters &parameters);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+
+  private:
+    const Expression              where;
+    std::optional<Tensor<1, dim>> normal; // of the points that slip
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_traction_h
+#define morula_effects_surface_traction_h
+
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/condition_keys.h>
+
+namespace Morula
+{
+  /** The keys of the traction, in section "Boundary conditions". */
+  struct TractionParameters : public ConditionKeys
+  {
+    TractionParameters();
+
+    ExpressionKey traction; // kPa
+
+    using Keys::list;
+    KeyList
+    list() override;
+    std::string
+    details() const override;
+  };
+
+  /** Dead traction: doc/theory.md (4.7). */
+  template <int dim>
+  class Traction : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = TractionParameters;
+
+    /** @throws InputError for expressions that cannot be parsed */
+    explicit Traction(const Parameters &parameters);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const override;
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    const Expression where, traction;
+  };
+} // namespace Morula
+
+#endif

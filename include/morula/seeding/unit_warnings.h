@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_unit_warnings_h
+#define morula_seeding_unit_warnings_h
+
+#include <morula/base/review.h>
+#include <morula/seeding/seeding.h>
+
+#include <mpi.h>
+
+namespace Morula
+{
+  /**
+   * Asks whether the file of a tissue is in
+   * um: points whose nearest neighbours are nearer or farther than cells are
+   * long, and meshes of few cells. Collective.
+   */
+  template <int dim>
+  void
+  review_units(const TissueParameters &tissue,
+               const Founders<dim>    &founders,
+               const MPI_Comm          comm,
+               Review                 &review);
+
+  /** Warns of keys of Tissue that the chosen shape does not use. Those that
+   *  name files are refused; these are not, so that one scene serves several
+   *  shapes. */
+  void
+  review_unused(const TissueParameters &tissue, Review &review);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/division/division_rule.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Morula
+{
+  template <int dim>
+  void
+  DivisionRule<dim>::check(const Preview<dim> &scene) const
+  {
+    Tensor<1, dim> direction;
+    direction[0] = 1.;
+    for (const Point<dim> &X : scene.founders)
+      axis({X, Tensor<2, dim>(unit_symmetric_tensor<dim>()), direction});
+  }
+
+
+  template class DivisionRule<2>;
+  template class DivisionRule<3>;
+} // namespace Morula

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/effect.h>
+
+namespace Morula
+{
+  bool
+  EffectKeys::is_on() const
+  {
+    return true;
+  }
+
+
+  const AnyKey *
+  EffectKeys::switch_key() const
+  {
+    return nullptr;
+  }
+
+
+  std::string
+  EffectKeys::topic() const
+  {
+    return "";
+  }
+
+
+  std::string
+  EffectKeys::details() const
+  {
+    std::string text;
+    for (const AnyKey *key : list())
+      text += ", " + key->short_name() + " = " + key->text();
+    return text;
+  }
+
+
+  template <int dim>
+  void
+  Effect<dim>::begin(const CellView<dim, double> &) const
+  {}
+
+
+  template <int dim>
+  void
+  Effect<dim>::advance(const CellView<dim, double> &,
+                       const double,
+                       const double) const
+  {}
+
+
+  template <int dim>
+  void
+  Effect<dim>::check(const Preview<dim> &) const
+  {}
+
+
+  template <int dim>
+  void
+  Effect<dim>::review(const Preview<dim> &, Review &) const
+  {}
+
+
+  template class Effect<2>;
+  template class Effect<3>;
+} // namespace Morula

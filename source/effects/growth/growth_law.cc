@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/time_parameters.h>
+#include <morula/effects/growth/growth_law.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The largest stretch of a tensor near a multiple of the identity: an
+     *  upper bound that is exact without shear. */
+    template <int dim>
+    double
+    largest_stretch(const Tensor<2, dim> &F)
+    {
+      return std::sqrt(l1_norm(F * transpose(F)));
+    }
+
+    /**
+     * Largest growth of any cell in one step, as a ratio of lengths, where
+     * cells are free of stress. Where there are many cells and steps, only some
+     * cells are asked.
+     */
+    template <int dim>
+    double
+    largest_growth(const GrowthLaw<dim> &law, const Preview<dim> &scene)
+    {
+      constexpr double most_evaluations = 2e5;
+      const double     n_steps =
+        std::ceil(scene.end_time / scene.step * (1. - time_slack));
+      if (n_steps > most_evaluations)
+        return 1.;
+      const std::size_t every = std::max<std::size_t>(
+        1, std::ceil(n_steps * scene.founders.size() / most_evaluations));
+      const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+      double               largest = 1.;
+      for (std::size_t i = 0; i < scene.founders.size(); i += every)
+        {
+          const Point<dim> &X   = scene.founders[i];
+          Tensor<2, dim> before = law.growth({X, identity, identity}, 0., 0.);
+          double         t      = 0.;
+          for (double n = 1.; n <= n_steps; ++n)
+            {
+              const double next = std::min(n * scene.step, scene.end_time);
+              const Tensor<2, dim> now =
+                law.growth({X, before, identity}, t, next);
+              largest = std::max({largest,
+                                  largest_stretch(now * invert(before)),
+                                  largest_stretch(before * invert(now))});
+              before  = now;
+              t       = next;
+            }
+        }
+      return largest;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  GrowthLaw<dim>::check(const Preview<dim> &scene) const
+  {
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    const double         first_step = std::min(scene.step, scene.end_time);
+    for (const Point<dim> &X : scene.founders)
+      {
+        for (const double t : {0., scene.end_time})
+          expected_volume_ratio(X, t);
+        growth({X, identity, identity}, 0., first_step);
+      }
+  }
+
+
+  template <int dim>
+  void
+  GrowthLaw<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    // A law may have no value at some time in mid-run; then the run says so
+    // when it gets there.
+    double ratio = 1.;
+    try
+      {
+        ratio = largest_growth(*this, scene);
+      }
+    catch (const std::exception &)
+      {}
+    ratio = Utilities::MPI::max(ratio, scene.comm);
+    if (ratio > (scene.is_clamped ? 1.2 : 1.4) + 1e-9)
+      review.warn(TimeParameters::step_path,
+                  as_text(scene.step) + " day",
+                  "in one step cells grow (or wither) by a factor of up to " +
+                    as_text(ratio) +
+                    "; measured are steps of up to 1.2 beside a clamp, where "
+                    "one of 1.1 is enough, and of 1.4 elsewhere "
+                    "(doc/accuracy-and-cost.md, advice).",
+                  "Shorten the step, unless you have compared with shorter "
+                  "ones.");
+  }
+
+
+  template class GrowthLaw<2>;
+  template class GrowthLaw<3>;
+} // namespace Morula

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/boundary_condition.h>
+
+namespace Morula
+{
+  template <int dim>
+  Tensor<1, dim>
+  BoundaryCondition<dim>::displacement(const Point<dim> &, const double) const
+  {
+    return Tensor<1, dim>();
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  BoundaryCondition<dim>::term(const LoadedPoints<dim> &, const double) const
+  {
+    return nullptr;
+  }
+
+
+  template <int dim>
+  bool
+  BoundaryCondition<dim>::moves() const
+  {
+    return kind() == SurfaceCondition::loaded;
+  }
+
+
+  template class BoundaryCondition<2>;
+  template class BoundaryCondition<3>;
+} // namespace Morula

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/condition_keys.h>
+
+namespace Morula
+{
+  ConditionKeys::ConditionKeys(const std::string &path,
+                               const std::string &documentation)
+    : where(path, "", documentation, Evaluated::founder)
+  {}
+
+
+  bool
+  ConditionKeys::is_on() const
+  {
+    return !where.empty();
+  }
+
+
+  const AnyKey *
+  ConditionKeys::switch_key() const
+  {
+    return &where;
+  }
+
+
+  std::string
+  ConditionKeys::details() const
+  {
+    return "";
+  }
+} // namespace Morula

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/fixed.h>
+
+namespace Morula
+{
+  FixedParameters::FixedParameters()
+    : ConditionKeys("Boundary conditions/Fixed where",
+                    "Expression of X, Y, Z (initial position on the surface, "
+                    "um): points where it is > 0 are fixed, e.g. Z <= 0; "
+                    "empty: nowhere. Fixed wins over slip.")
+    , displacement("Boundary conditions/Displacement",
+                   "0; 0; 0",
+                   "Displacement of the fixed points: functions of "
+                   "X, Y, Z, t separated by ';'. Units: um.",
+                   Evaluated::step,
+                   3)
+  {}
+
+
+  KeyList
+  FixedParameters::list()
+  {
+    return {&where, &displacement};
+  }
+
+
+  std::string
+  FixedParameters::topic() const
+  {
+    return "fixed points (Nitsche)";
+  }
+
+
+  std::string
+  FixedParameters::details() const
+  {
+    return "; displacement " + displacement.text() + " um";
+  }
+
+
+  template <int dim>
+  Fixed<dim>::Fixed(const Parameters &parameters)
+    : where(parameters.where.expression(dim))
+    , displacement_(parameters.displacement.expression(dim))
+  {}
+
+
+  template <int dim>
+  SurfaceCondition
+  Fixed<dim>::kind() const
+  {
+    return SurfaceCondition::fixed;
+  }
+
+
+  template <int dim>
+  bool
+  Fixed<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &) const
+  {
+    return holds(where, X);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Fixed<dim>::displacement(const Point<dim> &X, const double t) const
+  {
+    return displacement_.vector(X, t);
+  }
+
+
+  template <int dim>
+  bool
+  Fixed<dim>::moves() const
+  {
+    return !(displacement_.is_constant() &&
+             displacement_.vector(Point<dim>(), 0.) == Tensor<1, dim>());
+  }
+
+
+  template <int dim>
+  void
+  Fixed<dim>::check(const Preview<dim> &scene) const
+  {
+    for (const Point<dim> &X : scene.boundary_points)
+      if (holds(where, X))
+        for (const double t : {0., scene.end_time})
+          displacement_.vector(X, t);
+  }
+
+
+  template class Fixed<2>;
+  template class Fixed<3>;
+} // namespace Morula

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/nitsche_penalty.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
+     *  (λ + 2μ)/h, and what is added for squeezed tissue, in units of the
+     *  stiffness beyond that at rest by h: doc/theory.md (4.6). */
+    constexpr double least_penalty = 20., squeezed_penalty = 100.;
+  } // namespace
+
+
+  NitscheParameters::NitscheParameters()
+    : penalty("Boundary conditions/Nitsche penalty",
+              1e3,
+              "Penalty of fixed and slip points; > 0. "
+              "The symmetric form uses at least " +
+                as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.")
+    , form(
+        "Boundary conditions/Nitsche form",
+        "symmetric",
+        "symmetric: the paper's, for large penalties. unsymmetric: stable for "
+        "any penalty; with Nitsche penalty = 20 it is much more accurate "
+        "beside the edge of a fixed surface, for somewhat dearer linear "
+        "solves.",
+        {"symmetric|unsymmetric"})
+  {
+    penalty.with("consistent", "20")
+      .require([](const double beta) { return beta > 0.; },
+               "a number > 0, in units of E/h",
+               "1e3 is a good choice for the symmetric Nitsche form, 20 "
+               "for the unsymmetric one.");
+    form.with("consistent", "unsymmetric");
+  }
+
+
+  KeyList
+  NitscheParameters::list()
+  {
+    return {&penalty, &form};
+  }
+
+
+  NitschePenalty::NitschePenalty(const NitscheParameters &parameters)
+    : relative(parameters.penalty)
+    , form_(parameters.form == "symmetric" ? NitscheForm::symmetric :
+                                             NitscheForm::unsymmetric)
+  {}
+
+
+  double
+  NitschePenalty::penalty(const double           E,
+                          const Lame            &lame,
+                          const double           stiffness,
+                          const VolumetricStrain volumetric_form,
+                          const double           h) const
+  {
+    if (volumetric_form == VolumetricStrain::projected)
+      return relative * (lame.lambda + 2. * lame.mu) / h;
+    const double at_rest = lame.lambda + 2. * lame.mu;
+    const double least =
+      form_ == NitscheForm::symmetric ?
+        least_penalty * at_rest +
+          squeezed_penalty * std::max(0., stiffness - at_rest) :
+        0.;
+    return std::max(relative * E, least) / h;
+  }
+
+
+  double
+  NitschePenalty::least(const double nu)
+  {
+    const Lame unit = lame(1., nu);
+    return least_penalty * (unit.lambda + 2. * unit.mu);
+  }
+
+
+  NitscheForm
+  NitschePenalty::form() const
+  {
+    return form_;
+  }
+} // namespace Morula

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/slip.h>
+
+#include <cmath>
+
+namespace Morula
+{
+  SlipParameters::SlipParameters()
+    : ConditionKeys("Boundary conditions/Slip where",
+                    "Expression of X, Y, Z: the displacement along the normal "
+                    "is zero where it is > 0; empty: nowhere. Slip wins over "
+                    "traction.")
+    , normal("Boundary conditions/Slip normal",
+             "",
+             "Direction, e.g. 0, 0, 1: only points whose initial "
+             "normal N is along it, |N.normal| > 0.9, slip; empty: "
+             "all, each along its own normal.")
+  {}
+
+
+  KeyList
+  SlipParameters::list()
+  {
+    return {&where, &normal};
+  }
+
+
+  std::string
+  SlipParameters::topic() const
+  {
+    return "slip (Nitsche)";
+  }
+
+
+  template <int dim>
+  Slip<dim>::Slip(const Parameters &parameters)
+    : where(parameters.where.expression(dim))
+  {
+    if (!parameters.normal.empty())
+      normal = unit_vector<dim>(parameters.normal.path(), parameters.normal);
+  }
+
+
+  template <int dim>
+  SurfaceCondition
+  Slip<dim>::kind() const
+  {
+    return SurfaceCondition::slip;
+  }
+
+
+  template <int dim>
+  bool
+  Slip<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const
+  {
+    return holds(where, X) && (!normal || std::abs(N * *normal) > 0.9);
+  }
+
+
+  template class Slip<2>;
+  template class Slip<3>;
+} // namespace Morula

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// A program with an effect of its own of each kind: a file and a line each.
+
+#include <morula/program/program.h>
+
+#include "ageing.h"
+#include "along_rule.h"
+#include "dose_law.h"
+#include "drag.h"
+#include "pull.h"
+
+int
+main(int argc, char *argv[])
+{
+  Morula::Program program;
+  program.catalogue.add_growth_law<Own::DoseLaw>("dose");
+  program.catalogue.add_division_rule<Own::AlongRule>("along");
+  program.catalogue.add_fate<Own::Ageing>("ageing");
+  program.catalogue.add_force<Own::Pull>("pull");
+  program.catalogue.add_boundary_condition<Own::Drag>("drag");
+  return program.run(argc, argv);
+}

@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""A program with an effect of its own of each kind, tests/own_effects: its
+results by closed forms and against the library's own effects, on one rank and
+on two, and resumed.
+"""
+from pathlib import Path
+
+import numpy
+from program import ProgramTest, main, overrides, read_csv, without_wall_time
+
+SCENE = Path(__file__).resolve().parents[1] / "own_effects" / "own.prm"
+LIBRARY = overrides({
+    "Pull/Density": "0; 0", "Body force/Force density": "0; 1e-4*t",
+    "Boundary conditions/Drag/Where": "", "Boundary conditions/Drag/Load":
+    "0; 0", "Boundary conditions/Traction where": "Y > 49",
+    "Boundary conditions/Traction": "0.01*t; 0"})
+DIVISION = 0.5  # day
+
+
+class OwnEffects(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        library = Path(self.options.morula)
+        self.program = library.parent / "tests" / "own-effects"
+
+    def execute(self, *arguments, ranks=1, output=None, code=0):
+        library, self.options.morula = self.options.morula, str(self.program)
+        try:
+            return super().execute(SCENE, *arguments, ranks=ranks,
+                                   output=output, code=code)
+        finally:
+            self.options.morula = library
+
+    def check_closed_forms(self, output):
+        rows = read_csv(output / "statistics.csv")
+        t = rows["time"]
+        # the law's dose, and the cycle: both whatever the stress is
+        expected = (1 + 0.1 * 0.5 * t)**2 * (1 + t)
+        numpy.testing.assert_allclose(
+            rows["grown_volume"] / rows["grown_volume"][0], expected,
+            rtol=1e-9)  # of ten digits
+        self.assertEqual(list(rows["cells"]), [100] * 4 + [200] * 3)
+        for number, time in enumerate(t):
+            cells = read_csv(output / f"cells-{number:04d}.csv")
+            age = time if time < DIVISION - 1e-9 else time - DIVISION
+            numpy.testing.assert_allclose(cells["age"], age, atol=1e-12)
+        # every cell has divided along y
+        cells = read_csv(output / "cells-0004.csv")
+        for mother in range(100):
+            pair = cells[cells["parent"] == mother]
+            self.assertEqual(len(pair), 2)
+            self.assertLess(abs(pair["x"][0] - pair["x"][1]), 1e-9)
+            self.assertGreater(abs(pair["y"][0] - pair["y"][1]), 1)
+
+    def test_closed_forms(self):
+        for ranks in (1, 2):
+            output = self.work / f"ranks-{ranks}"
+            self.execute(ranks=ranks, output=output)
+            self.check_closed_forms(output)
+
+    def test_force_and_condition_are_the_librarys(self):
+        own, library = self.work / "own", self.work / "library"
+        self.execute(output=own)
+        self.execute(*LIBRARY, output=library)
+        self.assertEqual(without_wall_time(own), without_wall_time(library))
+        self.assertGreater(read_csv(own / "statistics.csv")["xmax"][-1], 50.5)
+        timings = (own / "timings.csv").read_text()
+        for section in ("pull", "drag"):
+            self.assertIn(section, timings)
+        for section in ("body force", "traction"):
+            self.assertNotIn(section, timings)
+
+    def test_resumed(self):
+        for ranks in (1, 2):
+            whole = self.work / f"whole-{ranks}"
+            resumed = self.work / f"resumed-{ranks}"
+            self.execute(ranks=ranks, output=whole)
+            self.execute("-s", "Time/End time=0.25", ranks=ranks,
+                         output=resumed)
+            self.execute("--resume", ranks=ranks, output=resumed)
+            self.assertEqual(without_wall_time(whole),
+                             without_wall_time(resumed))
+            for number in range(7):
+                name = f"cells-{number:04d}.csv"
+                self.assert_same_file(whole / name, resumed / name)
+
+    def test_explained_and_refused(self):
+        text = self.execute("--explain").text
+        for line in ("dose, Uptake = 0.5, Response = 0.1",
+                     "axis = along, Direction = 0, 1, 0",
+                     ", Record = true", ", Density = 0; 1e-4*t",
+                     "at 10 boundary points, where Y > 49"):
+            self.assertIn(line, text)
+        text = self.execute("-s", "Boundary conditions/Drag/Where=Y > 999",
+                            code=1).text
+        self.assertIn("Boundary conditions/Drag/Where = 'Y > 999'", text)
+        text = self.execute("-s", "Growth/Dose/Uptake=t", code=1).text
+        self.assertIn("Growth/Dose/Uptake = 't'", text)
+
+
+if __name__ == "__main__":
+    main()

@@ -62,8 +62,8 @@ namespace Morula
                     " day / " + as_text(max_steps),
                   "Raise it, or choose an earlier end.");
     if (!(smallest_step > 0. && smallest_step <= step))
-      smallest_step.refuse("a number of days > 0 and <= " + step.path() +
-                             " = " + as_text(step) + " day",
+      smallest_step.refuse("a number of days > 0 and <= Time/Step = " +
+                             as_text(step) + " day",
                            "Lower it, or raise " + step.path() + ".");
   }
 } // namespace Morula

@@ -143,13 +143,13 @@ namespace Morula
       if (shape != shape_with_file)
         {
           if (!file.empty())
-            file.refuse("nothing, as " + shape.path() + " = " + shape,
+            file.refuse("nothing, as Tissue/Shape = " + shape,
                         "Set Shape = " + shape_with_file +
                           ", or leave this key empty.");
           return;
         }
       if (file.empty())
-        file.refuse("a file, as " + shape.path() + " = " + shape,
+        file.refuse("a file, as Tissue/Shape = " + shape,
                     "Name the file, or choose another Shape.");
       std::ifstream stream(file.value());
       stream.peek(); // a directory opens, but cannot be read
@@ -209,14 +209,12 @@ namespace Morula
     if (shape == "mesh")
       check_mesh_format(surface_mesh);
     if (shape == "points" && boundary_points > 0)
-      boundary_points.refuse("0, as " + shape.path() +
-                               " = points has no surface",
+      boundary_points.refuse("0, as Tissue/Shape = points has no surface",
                              "Set Boundary points = 0, or describe the tissue "
                              "by another Shape.");
 
     if (shape == "points" && refine_surface)
-      refine_surface.refuse("false, as " + shape.path() +
-                              " = points has no surface",
+      refine_surface.refuse("false, as Tissue/Shape = points has no surface",
                             "Set Refine surface = false, or describe the "
                             "tissue by another Shape.");
 

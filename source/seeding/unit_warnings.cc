@@ -159,8 +159,7 @@ namespace Morula
           std::count(shapes.begin(), shapes.end(), tissue.shape.value()) == 0)
         review.warn(key->path(),
                     key->text(),
-                    "it has no effect on " + tissue.shape.path() + " = " +
-                      tissue.shape + ".",
+                    "it has no effect on Tissue/Shape = " + tissue.shape + ".",
                     "Remove it, or choose one of the shapes " +
                       boost::join(shapes, ", ") + ".");
   }

@@ -8,7 +8,7 @@
 namespace Morula
 {
   std::string
-  as_text(const std::uint64_t digest)
+  digest_text(const std::uint64_t digest)
   {
     char text[32];
     std::snprintf(text,

@@ -31,7 +31,7 @@ namespace Morula
           n_bytes += in.gcount();
         }
       std::string text = first_line + "bytes " + std::to_string(n_bytes) +
-                         "\nCRC-64/XZ " + as_text(digest.value()) + '\n';
+                         "\nCRC-64/XZ " + digest_text(digest.value()) + '\n';
       text.resize(size_of_seal, '\n');
       return text;
     }

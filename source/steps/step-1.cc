@@ -238,7 +238,7 @@ namespace Step1
         finer.grid.spacing = h * scene.grid.spacing / 50.;
         const Projection projection(finer);
 
-        table.add_value("h", finer.grid.spacing);
+        table.add_value("h", finer.grid.spacing.value());
         table.add_value("unknowns", projection.size());
         table.add_value("of 1", projection.error([](const Point<dim> &) {
           return 1.;

@@ -282,7 +282,7 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
   digest.add("1234");
   digest.add("56789");
   EXPECT_EQ(digest.value(), 0x995dc9bbdf1939fau);
-  EXPECT_EQ(as_text(0x12abu), "00000000000012ab");
+  EXPECT_EQ(digest_text(0x12abu), "00000000000012ab");
   for (const std::uint64_t value : {digest.value(), ~digest.value()})
     EXPECT_EQ(digest_of_integers(as_integers(value)), value);
 

@@ -48,7 +48,7 @@ namespace Morula
 
   /** A digest as 16 hexadecimal digits. */
   std::string
-  as_text(const std::uint64_t digest);
+  digest_text(const std::uint64_t digest);
 
   /** A digest as two integers, the upper half first, for a snapshot's integer
    *  tables. */

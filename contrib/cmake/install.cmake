@@ -32,8 +32,7 @@ install(TARGETS morula_lib EXPORT MorulaTargets
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/morula
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h"
-  PATTERN kernels EXCLUDE) # parts of three files in source/, nobody else's
+  FILES_MATCHING PATTERN "*.h")
 
 # The package. Programs get the flavour of deal.II that the library has.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")

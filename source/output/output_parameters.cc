@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/time_parameters.h>
 #include <morula/output/output_parameters.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace Morula
@@ -55,5 +57,32 @@ namespace Morula
   OutputParameters::list()
   {
     return {&interval, &formats, &snapshot_interval, &condition_estimate};
+  }
+
+
+  void
+  OutputParameters::review(const double step,
+                           const double seconds,
+                           Review      &review) const
+  {
+    constexpr double hour = 3600.;
+    if (snapshot_interval == 0. && seconds > hour)
+      review.warn(snapshot_interval.path(),
+                  "0 day",
+                  "the run may take some " +
+                    as_text(std::round(10. * seconds / hour) / 10.) +
+                    " hours of one core (doc/performance.md, what --explain "
+                    "expects), and without snapshots all is lost if it is "
+                    "interrupted.",
+                  "Choose an interval of some steps.");
+    for (const Key<double> *given : {&interval, &snapshot_interval})
+      if (*given > 0. && *given < (1. - 1e-9) * step)
+        review.warn(given->path(),
+                    as_text(*given) + " day",
+                    std::string("it is shorter than ") +
+                      TimeParameters::step_path + " = " + as_text(step) +
+                      " day, and nothing is written between the ends of "
+                      "steps.",
+                    "Raise it to the step, or shorten the step.");
   }
 } // namespace Morula

@@ -6,9 +6,9 @@
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
 #include <morula/program/command_line.h>
+#include <morula/program/explain.h>
 #include <morula/program/failure.h>
 #include <morula/program/program.h>
-#include <morula/scene/explain.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
@@ -50,15 +50,6 @@ namespace Morula
       return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     }
 
-    /** The number of unknowns of the first step, for --explain. It needs the
-     *  splines of that step. */
-    template <int dim>
-    unsigned int
-    n_unknowns(const Scene &scene)
-    {
-      return Simulation<dim>(scene, MPI_COMM_WORLD, false).n_unknowns();
-    }
-
     /** Prints help, version or keys if the command line asks for them.
      *  @return whether it does */
     bool
@@ -94,10 +85,7 @@ namespace Morula
                          "This program knows no other dimension.");
       if (command.explain)
         {
-          explain(scene, std::cout, MPI_COMM_WORLD, [&scene]() {
-            return scene.dimension == 2 ? n_unknowns<2>(scene) :
-                                          n_unknowns<3>(scene);
-          });
+          explain(scene, std::cout, MPI_COMM_WORLD);
           return;
         }
       check_memory(scene, initial_size(scene), MPI_COMM_WORLD);

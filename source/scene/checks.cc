@@ -9,28 +9,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <sstream>
-
 namespace Morula
 {
   namespace
   {
-    template <int dim>
-    void
-    require_stiffness(const Expression &expression, const Point<dim> &X)
-    {
-      const double value = expression.value(X, 0.);
-      if (value > 0.)
-        return;
-      std::ostringstream place;
-      place << "It is " << value << " kPa at (" << X
-            << ") um. Make it positive all over the tissue.";
-      throw InputError(expression.key(),
-                       expression.text(),
-                       "a value > 0 kPa",
-                       place.str());
-    }
-
     template <int dim>
     void
     check_founders(const Scene &scene, const Preview<dim> &at)

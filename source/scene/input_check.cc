@@ -3,8 +3,8 @@
 
 #include <morula/base/input_error.h>
 #include <morula/mechanics/materials/material.h>
-#include <morula/scene/limits.h>
 #include <morula/scene/scene.h>
+#include <morula/seeding/limits.h>
 
 #include <cmath>
 
@@ -182,7 +182,9 @@ namespace Morula
     {
       scene.time.check();
       check_grid(scene.grid, dim);
-      check_lengths(scene); // first: the next looks through all places of cells
+      check_lengths(scene.tissue,
+                    scene.grid.spacing,
+                    dim); // first: the next looks through all places of cells
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       scene.material.check_each(dim);

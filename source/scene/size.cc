@@ -1,65 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/expected_cells.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/limits.h>
 #include <morula/seeding/shape.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/math/special_functions/gamma.hpp>
-
 #include <unistd.h>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace Morula
 {
   namespace
   {
-    /** Expected number of descendants of a founder at @p X at End time. */
-    template <int dim>
-    class Descendants
-    {
-    public:
-      explicit Descendants(const Scene &scene)
-        : proliferates(scene.has_proliferation())
-        , together(scene.cell_cycle.start == "together")
-        , end_time(scene.time.end_time)
-        , where(scene.cell_cycle.where.expression(dim))
-        , duration(scene.cell_cycle.duration.expression(dim))
-        , rate(scene.cell_cycle.exit_rate.expression(dim))
-        , checkpoint(scene.cell_cycle.size_checkpoint.expression(dim))
-      {}
-
-      double
-      operator()(const Point<dim> &X)
-      {
-        if (!proliferates || !(where.value(X, 0.) > 0.) ||
-            checkpoint.value(X, 0.) > 0.)
-          return 1.;
-        const std::pair<double, double> here = {duration.value(X, 0.),
-                                                rate.value(X, 0.)};
-        if (here != last)
-          {
-            last = here;
-            n    = expected_cells(here.first, here.second, end_time, together);
-          }
-        return n;
-      }
-
-    private:
-      const bool   proliferates, together;
-      const double end_time;
-      // most founders are like the one before
-      std::pair<double, double> last = {-1., -1.};
-      double                    n    = 1.;
-      Expression                where, duration, rate, checkpoint;
-    };
-
     std::string
     gigabytes(const double bytes)
     {
@@ -85,46 +45,22 @@ namespace Morula
   }
 
 
-  double
-  expected_cells(const double T,
-                 const double Lambda,
-                 const double t,
-                 const bool   together)
-  {
-    double n = 1.;
-    for (unsigned int k = 1; (k - 0.5) * T <= t && std::isfinite(n); ++k)
-      {
-        // the k-th division comes after k waits, without the first if all
-        // start together
-        const unsigned int waits = together ? k - 1 : k;
-        const double       share =
-          waits == 0 ?
-                  1. :
-                Lambda == 0. ?
-                  0. :
-                  boost::math::gamma_p(waits, Lambda * (t - (k - 0.5) * T));
-        if (share == 0.)
-          break;
-        n += std::exp2(k - 1.) * share;
-      }
-    return n;
-  }
-
-
   template <int dim>
   SceneSize
   expected_size(const Scene                   &scene,
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
-    const double     t   = scene.time.end_time;
-    const double     V   = std::pow(scene.tissue.cell_spacing, dim);
-    const auto       law = growth_law_of<dim>(scene);
-    Descendants<dim> descendants(scene);
-    SceneSize        size;
+    const double t   = scene.time.end_time;
+    const double V   = std::pow(scene.tissue.cell_spacing, dim);
+    const auto   law = growth_law_of<dim>(scene);
+    std::optional<Descendants<dim>> descendants;
+    if (scene.has_proliferation())
+      descendants.emplace(scene.cell_cycle, t);
+    SceneSize size;
     for (const Point<dim> &X : founders)
       {
-        const double n = descendants(X);
+        const double n = descendants ? descendants->expected(X) : 1.;
         size.cells += n;
         size.volume += n * V * (law ? law->expected_volume_ratio(X, t) : 1.);
       }
@@ -181,8 +117,26 @@ namespace Morula
   }
 
 
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const Scene &scene, const MPI_Comm comm)
+  {
+    return seeding_limits<dim>(
+      scene.tissue,
+      scene.grid.spacing,
+      [scene,
+       comm](const double cells, const double volume, const double grid_cells) {
+        check_memory(scene, {cells, volume, grid_cells}, comm);
+      });
+  }
+
+
   template SceneSize
   expected_size(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
   template SceneSize
   expected_size(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
+  template SeedingLimits<2>
+  seeding_limits(const Scene &, const MPI_Comm);
+  template SeedingLimits<3>
+  seeding_limits(const Scene &, const MPI_Comm);
 } // namespace Morula

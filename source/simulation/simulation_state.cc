@@ -7,7 +7,7 @@
 #include <morula/particles/cell_domain.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene/checks.h>
-#include <morula/scene/limits.h>
+#include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>

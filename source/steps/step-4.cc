@@ -52,9 +52,10 @@ namespace Step4
   Result
   reference_for(const Scene &scene)
   {
-    const Expression &theta =
-      scene.keys<IsotropicGrowthParameters>().stretch.expression(dim);
-    const double      stretch = theta.value(Point<dim>(), scene.time.end_time);
+    const ExpressionKey &theta =
+      scene.keys<IsotropicGrowthParameters>().stretch;
+    const double stretch =
+      theta.expression(dim).value(Point<dim>(), scene.time.end_time);
     const std::string path =
       MORULA_SOURCE_DIRECTORY "/doc/data/half-fixed-sphere.csv";
     std::ifstream file(path);
@@ -67,10 +68,10 @@ namespace Step4
         if (std::abs(row.at(0) - stretch) < 1e-6)
           return {row.at(1), row.at(5)};
       }
-    throw InputError("Growth/Isotropic/Stretch",
-                     std::to_string(stretch) + " at End time",
-                     "a stretch that doc/data/half-fixed-sphere.csv has",
-                     "Let Time/End time be 1, 2, 3 or 4 days.");
+    theta.refuse("a stretch that doc/data/half-fixed-sphere.csv has at End "
+                 "time",
+                 "Let " + scene.time.end_time.path() +
+                   " be 1, 2, 3 or 4 days.");
   }
 
 

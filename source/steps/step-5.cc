@@ -111,11 +111,10 @@ namespace Step5
     const double Lambda = exit_rate(scene);
     const double t      = scene.time.end_time;
     if (t < 0.5 * T || t > 1.5 * T)
-      throw InputError("Time/End time",
-                       std::to_string(t),
-                       "a time between a half and one and a half cycles",
-                       "Beyond, daughters divide as well, and the formula in "
-                       "step-5.cc does not count them.");
+      scene.time.end_time.refuse(
+        "a time between a half and one and a half cycles",
+        "Beyond, daughters divide as well, and the formula in step-5.cc does "
+        "not count them.");
     return 1. - std::exp(-Lambda * (t - 0.5 * T));
   }
 

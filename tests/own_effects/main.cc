@@ -3,6 +3,7 @@
 
 // A program with an effect of its own of each kind: a file and a line each.
 
+#include <morula/mechanics/materials/own_material.h>
 #include <morula/program/program.h>
 
 #include "ageing.h"
@@ -10,6 +11,7 @@
 #include "dose_law.h"
 #include "drag.h"
 #include "pull.h"
+#include "twofold.h"
 
 int
 main(int argc, char *argv[])
@@ -20,5 +22,7 @@ main(int argc, char *argv[])
   program.catalogue.add_fate<Own::Ageing>("ageing");
   program.catalogue.add_force<Own::Pull>("pull");
   program.catalogue.add_boundary_condition<Own::Drag>("drag");
+  program.catalogue.materials.add("twofold",
+                                  Morula::own_material(Own::Twofold()));
   return program.run(argc, argv);
 }

@@ -16,6 +16,15 @@ LIBRARY = overrides({
     "Boundary conditions/Drag/Where": "", "Boundary conditions/Drag/Load":
     "0; 0", "Boundary conditions/Traction where": "Y > 49",
     "Boundary conditions/Traction": "0.01*t; 0"})
+# Nitsche's penalty is a multiple of Young's modulus, whatever the law.
+DOUBLED = overrides({
+    "Material/Law": "neo-Hookean", "Material/Young's modulus": "2",
+    "Boundary conditions/Nitsche penalty": "1000",
+    "Solver/Newton tolerance": "1e-10"})
+TWOFOLD = overrides({
+    "Material/Young's modulus": "1",
+    "Boundary conditions/Nitsche penalty": "2000",
+    "Solver/Newton tolerance": "1e-10"})
 DIVISION = 0.5  # day
 
 
@@ -71,6 +80,17 @@ class OwnEffects(ProgramTest):
             self.assertIn(section, timings)
         for section in ("body force", "traction"):
             self.assertNotIn(section, timings)
+
+    def test_material_is_twice_as_stiff(self):
+        own, library = self.work / "twofold", self.work / "doubled"
+        self.execute(*TWOFOLD, output=own)
+        self.execute(*DOUBLED, output=library)
+        own, library = (read_csv(run / "statistics.csv")
+                        for run in (own, library))
+        for name in ("mean_energy_density", "total_volume", "xmax", "ymax"):
+            numpy.testing.assert_allclose(own[name], library[name], rtol=1e-8,
+                                          err_msg=name)
+        self.assertGreater(own["mean_energy_density"][-1], 0)
 
     def test_resumed(self):
         for ranks in (1, 2):

@@ -3,6 +3,7 @@
 // ranks: 1 2 3
 
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>

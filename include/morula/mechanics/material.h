@@ -5,7 +5,10 @@
 #define morula_mechanics_material_h
 
 #include <morula/base/expression_key.h>
+#include <morula/base/review.h>
 #include <morula/mechanics/materials/materials.h>
+
+#include <deal.II/base/point.h>
 
 #include <memory>
 
@@ -42,6 +45,10 @@ namespace Morula
     VolumetricStrain
     volumetric_form() const;
 
+    /** Warns of tissue that locks. */
+    void
+    review(Review &review) const;
+
     /** The one that the law names. @throws InputError if there is none */
     std::shared_ptr<const Material>
     chosen_material() const;
@@ -64,6 +71,12 @@ namespace Morula
   {
     return {E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu))};
   }
+
+  /** Refuses a Young's modulus that is not positive at @p X, initial position
+   * in µm, at t = 0. @throws InputError */
+  template <int dim>
+  void
+  require_stiffness(const Expression &youngs_modulus, const Point<dim> &X);
 } // namespace Morula
 
 #endif

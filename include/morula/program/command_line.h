@@ -4,7 +4,7 @@
 #ifndef morula_program_command_line_h
 #define morula_program_command_line_h
 
-#include <morula/scene/catalogue.h>
+#include <morula/effects/catalogue.h>
 
 #include <iosfwd>
 #include <string>

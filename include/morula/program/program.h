@@ -4,7 +4,7 @@
 #ifndef morula_program_program_h
 #define morula_program_program_h
 
-#include <morula/scene/catalogue.h>
+#include <morula/effects/catalogue.h>
 #include <morula/scene/scene.h>
 
 #include <functional>

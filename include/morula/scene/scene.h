@@ -5,12 +5,12 @@
 #define morula_scene_scene_h
 
 #include <morula/base/time_parameters.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
 #include <morula/output/output_parameters.h>
-#include <morula/scene/catalogue.h>
 #include <morula/seeding/seeding.h>
 #include <morula/solver/solver_parameters.h>
 

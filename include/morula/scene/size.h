@@ -5,6 +5,7 @@
 #define morula_scene_size_h
 
 #include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
 
 #include <deal.II/base/point.h>
 
@@ -31,18 +32,6 @@ namespace Morula
   initial_size(const Scene &scene);
 
   /**
-   * Expected number of cells at time @p t, day, that descend from one which
-   * waits in G0 at t = 0, or enters S then if all start @p together: 1 + sum
-   * over k of 2^(k-1) times the probability that k waits, exponential with the
-   * rate @p Lambda, 1/day, and k - 1/2 cycles of duration @p T, day, fit in.
-   */
-  double
-  expected_cells(const double T,
-                 const double Lambda,
-                 const double t,
-                 const bool   together);
-
-  /**
    * Expected size at End time of the descendants of @p founders, no more than
    * twice 'Stop at cells'. With a size checkpoint, whose effect only
    * the run can tell, the founders alone are counted: a lower bound.
@@ -65,6 +54,11 @@ namespace Morula
    */
   void
   check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm);
+
+  /** The limits of the scene's tissue, if it comes from a file. */
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const Scene &scene, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

@@ -5,6 +5,8 @@
 #include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +49,31 @@ namespace Morula
       return text.str();
     }
   } // namespace
+
+
+  template <int dim>
+  void
+  review_cell_cycle(const CellCycleParameters &parameters,
+                    const Preview<dim>        &scene,
+                    Review                    &review)
+  {
+    const Expression &duration = parameters.duration.expression(dim);
+    const Expression &where    = parameters.where.expression(dim);
+    double            shortest = std::numeric_limits<double>::max();
+    for (const Point<dim> &X : scene.founders)
+      if (where.value(X, 0.) > 0.)
+        shortest = std::min(shortest, duration.value(X, 0.));
+    shortest = Utilities::MPI::min(shortest, scene.comm);
+    if (scene.step > (0.25 + 1e-9) * shortest)
+      review.warn(TimeParameters::step_path,
+                  as_text(scene.step) + " day",
+                  "that is " + as_text(scene.step / shortest) +
+                    " of the shortest cell cycle, " + as_text(shortest) +
+                    " day; measured are steps of up to a quarter "
+                    "(doc/accuracy-and-cost.md, advice; doc/hard-cases.md, "
+                    "showcase).",
+                  "Shorten the step to 0.1 or 0.2 of the cycle.");
+  }
 
 
   template <int dim>
@@ -128,4 +155,8 @@ namespace Morula
   CellCycle<2>::check(const std::vector<Point<2>> &, const double) const;
   template void
   CellCycle<3>::check(const std::vector<Point<3>> &, const double) const;
+  template void
+  review_cell_cycle(const CellCycleParameters &, const Preview<2> &, Review &);
+  template void
+  review_cell_cycle(const CellCycleParameters &, const Preview<3> &, Review &);
 } // namespace Morula

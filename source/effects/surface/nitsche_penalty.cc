@@ -47,6 +47,36 @@ namespace Morula
   }
 
 
+  void
+  NitscheParameters::review(const MaterialParameters &material,
+                            const bool                all_is_fixed,
+                            Review                   &review) const
+  {
+    const double least = NitschePenalty::least(material.poissons_ratio);
+    if (material.volumetric_form() == VolumetricStrain::pointwise &&
+        form == "symmetric" && review.has_set(penalty) && penalty < least)
+      review.warn(penalty.path(),
+                  as_text(penalty) + " E/h",
+                  "the symmetric form never uses less than " +
+                    as_text(least_penalty) + " (lambda + 2 mu)/h, here " +
+                    as_text(least) +
+                    " E/h, so that this value has no effect "
+                    "(doc/theory.md, section 4.2).",
+                  "Raise it, or set " + form.path() + " = unsymmetric.");
+    // A small penalty under pressure: tissue that grows between its clamps.
+    if (all_is_fixed && form == "unsymmetric" && penalty < 100.)
+      review.warn(
+        penalty.path(),
+        as_text(penalty) + " E/h",
+        "all of the surface is fixed, and gives way where tissue is pressed "
+        "against it: in a ball that grows to 1.1 in all directions the "
+        "energy is 9 % low at a penalty of 20 (doc/accuracy-and-cost.md, "
+        "which method).",
+        "Set Method = paper and remove the keys that it stands for, or "
+        "raise the penalty to 1000.");
+  }
+
+
   NitschePenalty::NitschePenalty(const NitscheParameters &parameters)
     : relative(parameters.penalty)
     , form_(parameters.form == "symmetric" ? NitscheForm::symmetric :

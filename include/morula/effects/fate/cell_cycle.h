@@ -5,6 +5,7 @@
 #define morula_effects_fate_cell_cycle_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/particles/property_pool.h>
@@ -36,6 +37,14 @@ namespace Morula
     KeyList
     list() override;
   };
+
+  /** Warns of steps that are long beside the shortest cycle of a founder.
+   *  Collective. */
+  template <int dim>
+  void
+  review_cell_cycle(const CellCycleParameters &parameters,
+                    const Preview<dim>        &scene,
+                    Review                    &review);
 
   /** Where a cell stands in its cycle. S and G2 differ by the clock alone. */
   enum class CyclePhase

@@ -5,7 +5,9 @@
 #define morula_effects_surface_nitsche_penalty_h
 
 #include <morula/base/key.h>
+#include <morula/base/review.h>
 #include <morula/effects/surface/nitsche.h>
+#include <morula/mechanics/material.h>
 
 namespace Morula
 {
@@ -20,6 +22,13 @@ namespace Morula
     using Keys::list;
     KeyList
     list() override;
+
+    /** Warns of penalties that have no effect, or that are too low where
+     *  @p all_is_fixed, all of the surface. For scenes that hold points. */
+    void
+    review(const MaterialParameters &material,
+           const bool                all_is_fixed,
+           Review                   &review) const;
   };
 
   /** How stiffly fixed and slip points are held. */

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_scene_catalogue_h
-#define morula_scene_catalogue_h
+#ifndef morula_effects_catalogue_h
+#define morula_effects_catalogue_h
 
+#include <morula/effects/choice.h>
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/fate.h>
 #include <morula/effects/forces/force.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/surface/boundary_condition.h>
 #include <morula/mechanics/materials/materials.h>
-#include <morula/scene/choice.h>
 
 #include <deal.II/base/exceptions.h>
 

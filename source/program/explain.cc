@@ -2,13 +2,13 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/particles/cell_state.h>
+#include <morula/program/explain.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
-#include <morula/scene/explain.h>
-#include <morula/scene/limits.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/seeding.h>
+#include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -228,10 +228,7 @@ namespace Morula
 
     template <int dim>
     void
-    explain_scene(const Scene                         &scene,
-                  std::ostream                        &out,
-                  const MPI_Comm                       comm,
-                  const std::function<unsigned int()> &n_unknowns)
+    explain_scene(const Scene &scene, std::ostream &out, const MPI_Comm comm)
     {
       check_memory(scene, initial_size(scene), comm);
       const Founders<dim> founders =
@@ -242,8 +239,11 @@ namespace Morula
       const ConditionCounts     counts = check_at_surface(scene, surface, comm);
       const std::vector<std::string> warnings =
         scene_warnings(scene, founders, surface, comm);
+      // Counted by the splines of the first step.
+      const unsigned int n_unknowns =
+        Simulation<dim>(scene, comm, false).n_unknowns();
       const SizeEstimate size =
-        estimated_size(scene, founders, comm, n_unknowns());
+        estimated_size(scene, founders, comm, n_unknowns);
       const double available = physical_memory(comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
@@ -270,14 +270,11 @@ namespace Morula
 
 
   void
-  explain(const Scene                         &scene,
-          std::ostream                        &out,
-          const MPI_Comm                       comm,
-          const std::function<unsigned int()> &n_unknowns)
+  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm)
   {
     if (scene.dimension == 2)
-      explain_scene<2>(scene, out, comm, n_unknowns);
+      explain_scene<2>(scene, out, comm);
     else
-      explain_scene<3>(scene, out, comm, n_unknowns);
+      explain_scene<3>(scene, out, comm);
   }
 } // namespace Morula

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_scene_limits_h
-#define morula_scene_limits_h
+#ifndef morula_seeding_limits_h
+#define morula_seeding_limits_h
 
-#include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
 
-#include <mpi.h>
+#include <functional>
 
 namespace Morula
 {
@@ -26,16 +25,25 @@ namespace Morula
 
   /**
    * Refuses shapes and cells whose lengths, as the scene gives them, are beyond
-   * these limits.
+   * these limits on a grid of spacing @p h (µm).
    * @throws InputError
    */
   void
-  check_lengths(const Scene &scene);
+  check_lengths(const TissueParameters &tissue,
+                const double            h,
+                const unsigned int      dim);
 
-  /** The limits for tissue from files, with the memory of these machines. */
+  /** Refuses a tissue of so many cells, with this volume (µm^dim), on a grid of
+   *  so many grid cells, if the machines' memory cannot hold it. Collective. */
+  using MemoryCheck =
+    std::function<void(const double, const double, const double)>;
+
+  /** The limits for tissue from files on a grid of spacing @p h (µm). */
   template <int dim>
   SeedingLimits<dim>
-  seeding_limits(const Scene &scene, const MPI_Comm comm);
+  seeding_limits(const TissueParameters &tissue,
+                 const double            h,
+                 const MemoryCheck      &check_memory);
 } // namespace Morula
 
 #endif

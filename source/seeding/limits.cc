@@ -2,8 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/scene/limits.h>
-#include <morula/scene/size.h>
+#include <morula/seeding/limits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,21 +45,21 @@ namespace Morula
     /** Refuses tissue that fills next to nothing of the grid around it. */
     template <int dim>
     void
-    check_filled(const Scene            &scene,
+    check_filled(const TissueParameters &tissue,
+                 const double            h,
                  const BoundingBox<dim> &box,
                  const double            cells,
                  const double            volume)
     {
       // Two spheroids with a gap of many diameters are far from this.
       constexpr double most_per_cell = 1000., few_cells = 1000.;
-      const double     h = scene.grid.spacing;
       const double     n = grid_cells(box, h);
       if (n <= most_per_cell *
                  std::max({few_cells, cells, volume / std::pow(h, dim)}))
         return;
-      const bool              is_mesh = scene.tissue.shape == "mesh";
+      const bool              is_mesh = tissue.shape == "mesh";
       const Key<std::string> &file =
-        is_mesh ? scene.tissue.surface_mesh : scene.tissue.points_file;
+        is_mesh ? tissue.surface_mesh : tissue.points_file;
       std::ostringstream remedy;
       remedy << "It reaches from (" << box.get_boundary_points().first
              << ") to (" << box.get_boundary_points().second << ") um, " << n
@@ -75,10 +74,10 @@ namespace Morula
 
 
   void
-  check_lengths(const Scene &scene)
+  check_lengths(const TissueParameters &tissue,
+                const double            h,
+                const unsigned int      dim)
   {
-    const TissueParameters &tissue = scene.tissue;
-    const double            h      = scene.grid.spacing;
     if (tissue.shape != "points" && tissue.cell_spacing > longest_cell * h)
       tissue.cell_spacing.refuse(
         "a spacing of at most " + as_text(longest_cell) +
@@ -90,7 +89,7 @@ namespace Morula
     if (tissue.shape == "box" || tissue.shape == "ellipsoid" ||
         tissue.shape == "cylinder")
       for (unsigned int d = tissue.shape == "cylinder" ? 2 : 0;
-           d < std::min<std::size_t>(scene.dimension, tissue.size.size());
+           d < std::min<std::size_t>(dim, tissue.size.size());
            ++d)
         refuse_long(tissue.size, tissue.size[d], tissue.size[d], h);
   }
@@ -98,25 +97,26 @@ namespace Morula
 
   template <int dim>
   SeedingLimits<dim>
-  seeding_limits(const Scene &scene, const MPI_Comm comm)
+  seeding_limits(const TissueParameters &tissue,
+                 const double            h,
+                 const MemoryCheck      &check_memory)
   {
-    const double       h = scene.grid.spacing;
     SeedingLimits<dim> limits;
     limits.farthest     = farthest_place * h;
     limits.extent       = longest_tissue * h;
     limits.cell_length  = longest_cell * h;
-    limits.check_memory = [scene, h, comm](const BoundingBox<dim> &box,
-                                           const double            cells,
-                                           const double            volume) {
-      check_filled(scene, box, cells, volume);
-      check_memory(scene, {cells, volume, grid_cells(box, h)}, comm);
+    limits.check_memory = [tissue, h, check_memory](const BoundingBox<dim> &box,
+                                                    const double cells,
+                                                    const double volume) {
+      check_filled(tissue, h, box, cells, volume);
+      check_memory(cells, volume, grid_cells(box, h));
     };
     return limits;
   }
 
 
   template SeedingLimits<2>
-  seeding_limits(const Scene &, const MPI_Comm);
+  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
   template SeedingLimits<3>
-  seeding_limits(const Scene &, const MPI_Comm);
+  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
 } // namespace Morula

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_scene_choice_h
-#define morula_scene_choice_h
+#ifndef morula_effects_choice_h
+#define morula_effects_choice_h
 
 #include <morula/effects/effect.h>
 

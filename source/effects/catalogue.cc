@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/traction.h>
-#include <morula/scene/catalogue.h>
 
 #include <algorithm>
 #include <cctype>

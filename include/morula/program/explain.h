@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_scene_explain_h
-#define morula_scene_explain_h
+#ifndef morula_program_explain_h
+#define morula_program_explain_h
 
 #include <morula/scene/scene.h>
 
 #include <mpi.h>
 
-#include <functional>
 #include <iosfwd>
 
 namespace Morula
@@ -19,15 +18,10 @@ namespace Morula
    * and which are off, the columns of a cell, cells and memory
    * to expect, also estimates of unknowns and time, and the warnings.
    * Simulates nothing and writes no file. Collective.
-   * @param n_unknowns counts those of the first step; called when all checks
-   *                   are passed, collective
    * @throws InputError
    */
   void
-  explain(const Scene                         &scene,
-          std::ostream                        &out,
-          const MPI_Comm                       comm,
-          const std::function<unsigned int()> &n_unknowns);
+  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/scene/grid_warnings.h>
+#include <morula/seeding/grid_warnings.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -45,13 +45,12 @@ namespace Morula
     /** Smallest extent of the tissue along an axis, µm. */
     template <int dim>
     double
-    smallest_extent(const Scene               &scene,
+    smallest_extent(const TissueParameters    &tissue,
                     const Founders<dim>       &founders,
                     const SurfacePatches<dim> &surface,
                     const MPI_Comm             comm)
     {
-      const TissueParameters &tissue = scene.tissue;
-      double smallest                = std::numeric_limits<double>::infinity();
+      double smallest = std::numeric_limits<double>::infinity();
       if (tissue.shape == "sphere" || tissue.shape == "cylinder")
         smallest = 2. * tissue.radius;
       if (tissue.shape == "cylinder")
@@ -84,15 +83,17 @@ namespace Morula
 
   template <int dim>
   void
-  review_grid(const Scene               &scene,
+  review_grid(const GridParameters      &grid,
+              const TissueParameters    &tissue,
               const Founders<dim>       &founders,
               const SurfacePatches<dim> &surface,
+              const bool                 slips,
               const MPI_Comm             comm,
               Review                    &review)
   {
-    const double      h     = scene.grid.spacing;
+    const double      h     = grid.spacing;
     const double      L     = cell_length(founders, comm);
-    const std::string path  = scene.grid.spacing.path();
+    const std::string path  = grid.spacing.path();
     const std::string value = as_text(h) + " um";
     if (h < (3. - rounding) * L)
       review.warn(
@@ -108,7 +109,7 @@ namespace Morula
         "Choose 4 to 7 cells per grid spacing: raise Grid/Spacing, or "
         "lower Tissue/Cell spacing.");
 
-    const double thickness = smallest_extent(scene, founders, surface, comm);
+    const double thickness = smallest_extent(tissue, founders, surface, comm);
     if (thickness < (1. - rounding) * h)
       review.warn(
         path,
@@ -118,15 +119,12 @@ namespace Morula
           "through its thickness, and details within it are lost "
           "(doc/hard-cases.md, small_and_thin).",
         "Lower Grid/Spacing to half the thickness if they matter, with " +
-          scene.tissue.cell_spacing.path() + " at most a third of that.");
+          tissue.cell_spacing.path() + " at most a third of that.");
 
     // fixed points keep their distances
-    const bool slips =
-      boundary_conditions_of<dim>(scene).has(SurfaceCondition::slip);
     const double patch = patch_length(surface, comm);
-    if (slips && (scene.has_growth() || scene.has_proliferation()) &&
-        !scene.tissue.refine_surface && patch > (0.5 - rounding) * h)
-      review.warn(scene.tissue.boundary_points.path(),
+    if (slips && !tissue.refine_surface && patch > (0.5 - rounding) * h)
+      review.warn(tissue.boundary_points.path(),
                   std::to_string(surface.n_global),
                   "they are " + as_text(patch) +
                     " um apart at the start, half of Grid/Spacing = " + value +
@@ -135,9 +133,9 @@ namespace Morula
                     "(doc/hard-cases.md, instability).",
                   "Raise their number, or set Tissue/Refine surface = true.");
 
-    if (!scene.grid.extension)
+    if (!grid.extension)
       review.warn(
-        scene.grid.extension.path(),
+        grid.extension.path(),
         "false",
         "plain splines fail for a third to a half of the places that the "
         "grid can have (doc/hard-cases.md, cuts).",
@@ -146,15 +144,19 @@ namespace Morula
 
 
   template void
-  review_grid(const Scene &,
+  review_grid(const GridParameters &,
+              const TissueParameters &,
               const Founders<2> &,
               const SurfacePatches<2> &,
+              const bool,
               const MPI_Comm,
               Review &);
   template void
-  review_grid(const Scene &,
+  review_grid(const GridParameters &,
+              const TissueParameters &,
               const Founders<3> &,
               const SurfacePatches<3> &,
+              const bool,
               const MPI_Comm,
               Review &);
 } // namespace Morula

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/expected_cells.h>
+
+#include <boost/math/special_functions/gamma.hpp>
+
+#include <cmath>
+
+namespace Morula
+{
+  double
+  expected_cells(const double T,
+                 const double Lambda,
+                 const double t,
+                 const bool   together)
+  {
+    double n = 1.;
+    for (unsigned int k = 1; (k - 0.5) * T <= t && std::isfinite(n); ++k)
+      {
+        // the k-th division comes after k waits, without the first if all
+        // start together
+        const unsigned int waits = together ? k - 1 : k;
+        const double       share =
+          waits == 0 ?
+                  1. :
+                Lambda == 0. ?
+                  0. :
+                  boost::math::gamma_p(waits, Lambda * (t - (k - 0.5) * T));
+        if (share == 0.)
+          break;
+        n += std::exp2(k - 1.) * share;
+      }
+    return n;
+  }
+
+
+  template <int dim>
+  Descendants<dim>::Descendants(const CellCycleParameters &cycle,
+                                const double               end_time)
+    : together(cycle.start == "together")
+    , end_time(end_time)
+    , where(cycle.where.expression(dim))
+    , duration(cycle.duration.expression(dim))
+    , rate(cycle.exit_rate.expression(dim))
+    , checkpoint(cycle.size_checkpoint.expression(dim))
+  {}
+
+
+  template <int dim>
+  double
+  Descendants<dim>::expected(const Point<dim> &X)
+  {
+    if (!(where.value(X, 0.) > 0.) || checkpoint.value(X, 0.) > 0.)
+      return 1.;
+    const std::pair<double, double> here = {duration.value(X, 0.),
+                                            rate.value(X, 0.)};
+    if (here != last)
+      {
+        last = here;
+        n    = expected_cells(here.first, here.second, end_time, together);
+      }
+    return n;
+  }
+
+
+  template class Descendants<2>;
+  template class Descendants<3>;
+} // namespace Morula

@@ -105,7 +105,7 @@ namespace Morula
   {
     const SceneSize last = expected_size(scene, founders.positions, comm);
     const double    first_volume =
-      founders.n_global * std::pow(scene.tissue.cell_spacing, dim);
+      founders.n_global * std::pow(scene.tissue.cell_spacing.value(), dim);
 
     SizeEstimate size;
     size.cells = last.cells;

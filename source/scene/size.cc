@@ -40,7 +40,8 @@ namespace Morula
     const double volume = scene.dimension == 2 ?
                             make_shape<2>(scene.tissue)->volume() :
                             make_shape<3>(scene.tissue)->volume();
-    return {volume / std::pow(scene.tissue.cell_spacing, scene.dimension),
+    return {volume / std::pow(scene.tissue.cell_spacing.value(),
+                              scene.dimension.value()),
             volume};
   }
 
@@ -52,7 +53,7 @@ namespace Morula
                 const MPI_Comm                 comm)
   {
     const double t   = scene.time.end_time;
-    const double V   = std::pow(scene.tissue.cell_spacing, dim);
+    const double V   = std::pow(scene.tissue.cell_spacing.value(), dim);
     const auto   law = growth_law_of<dim>(scene);
     std::optional<Descendants<dim>> descendants;
     if (scene.has_proliferation())

@@ -141,7 +141,7 @@ namespace Morula
       if (limits.check_memory)
         limits.check_memory(box,
                             shape.volume() /
-                              std::pow(parameters.cell_spacing, dim),
+                              std::pow(parameters.cell_spacing.value(), dim),
                             shape.volume());
     }
 
@@ -177,7 +177,7 @@ namespace Morula
                 const MPI_Comm            comm,
                 const SeedingLimits<dim> &limits)
   {
-    const double volume = std::pow(parameters.cell_spacing, dim);
+    const double volume = std::pow(parameters.cell_spacing.value(), dim);
     if (parameters.shape == "points")
       return read_points<dim>(parameters.points_file, volume, comm, limits);
 
@@ -222,7 +222,7 @@ namespace Morula
     const double n_by_spacing =
       std::max(1.,
                std::round(shape->surface_area() /
-                          std::pow(parameters.cell_spacing, dim - 1)));
+                          std::pow(parameters.cell_spacing.value(), dim - 1)));
     const bool chosen = parameters.boundary_points > 0;
     if (!chosen && !(n_by_spacing < most_ids))
       parameters.cell_spacing.refuse(

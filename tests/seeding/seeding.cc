@@ -25,7 +25,7 @@ namespace
     const auto mine = seed_founders<dim>(parameters, MPI_COMM_WORLD);
     EXPECT_EQ(mine.volumes.size(), mine.positions.size());
     for (const double volume : mine.volumes)
-      EXPECT_DOUBLE_EQ(volume, std::pow(parameters.cell_spacing, dim));
+      EXPECT_DOUBLE_EQ(volume, std::pow(parameters.cell_spacing.value(), dim));
 
     std::vector<Point<dim>> all;
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);

@@ -33,7 +33,7 @@ class Install(Installation, ProgramTest):
                  for file in prefix.rglob("*") if file.is_file()}
         for header in (ROOT / "include").rglob("*.h"):
             name = header.relative_to(ROOT).as_posix()
-            self.assertEqual(name in files, "/kernels/" not in name, name)
+            self.assertIn(name, files)
         for file in EXAMPLE.iterdir():
             if file.is_file():
                 self.assertIn(f"share/morula/example-project/{file.name}",

@@ -70,8 +70,8 @@ namespace Step4
       }
     theta.refuse("a stretch that doc/data/half-fixed-sphere.csv has at End "
                  "time",
-                 "Let " + scene.time.end_time.path() +
-                   " be 1, 2, 3 or 4 days.");
+                 "It is " + std::to_string(stretch) + ". Let " +
+                   scene.time.end_time.path() + " be 1, 2, 3 or 4 days.");
   }
 
 

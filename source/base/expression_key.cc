@@ -38,10 +38,9 @@ namespace Morula
 
 
   ExpressionKey &
-  ExpressionKey::symbol(const std::string &symbol, const std::string &unit)
+  ExpressionKey::symbol(const std::string &symbol)
   {
-    symbol_    = symbol;
-    unit_shown = unit;
+    symbol_ = symbol;
     return *this;
   }
 
@@ -88,13 +87,6 @@ namespace Morula
   ExpressionKey::optional(const unsigned int dim) const
   {
     return empty() ? std::optional<Expression>() : expression(dim);
-  }
-
-
-  std::string
-  ExpressionKey::text_with_unit() const
-  {
-    return unit_shown.empty() ? text_ : text_ + " " + unit_shown;
   }
 
 

@@ -44,9 +44,9 @@ namespace Morula
     ExpressionKey &
     not_negative(const std::string &unit, const std::string &remedy);
 
-    /** Names the symbol that --explain uses, and what follows the value. */
+    /** Names the symbol that --explain uses. */
     ExpressionKey &
-    symbol(const std::string &symbol, const std::string &unit = "");
+    symbol(const std::string &symbol);
 
     /** Takes other text; it is parsed when it is next needed. */
     ExpressionKey &
@@ -71,10 +71,6 @@ namespace Morula
     /** The expression, or none without text. @throws InputError */
     std::optional<Expression>
     optional(const unsigned int dim) const;
-
-    /** The value with its unit, for --explain. */
-    std::string
-    text_with_unit() const;
 
     std::string
     text() const override;
@@ -107,7 +103,6 @@ namespace Morula
     std::string  text_;
     Sign         sign = Sign::any;
     std::string  unit_of_sign, remedy_of_sign;
-    std::string  unit_shown;
 
     // The value, parsed: made of text_ alone.
     mutable std::optional<Expression> parsed;

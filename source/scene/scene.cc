@@ -243,22 +243,6 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<const GrowthLaw<dim>>
-  growth_law_of(const Scene &scene)
-  {
-    return effects_of<dim>(scene).growth_law;
-  }
-
-
-  template <int dim>
-  std::unique_ptr<const DivisionRule<dim>>
-  division_rule_of(const Scene &scene)
-  {
-    return effects_of<dim>(scene).division_rule;
-  }
-
-
-  template <int dim>
   BoundaryConditions<dim>
   boundary_conditions_of(const Scene &scene)
   {
@@ -266,11 +250,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                       \
-  template SceneEffects<dim>                     effects_of(const Scene &);    \
-  template std::unique_ptr<const GrowthLaw<dim>> growth_law_of(const Scene &); \
-  template std::unique_ptr<const DivisionRule<dim>> division_rule_of(          \
-    const Scene &);                                                            \
+#define INSTANTIATE(dim)                                      \
+  template SceneEffects<dim>       effects_of(const Scene &); \
   template BoundaryConditions<dim> boundary_conditions_of(const Scene &);
   INSTANTIATE(2)
   INSTANTIATE(3)

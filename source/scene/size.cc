@@ -52,9 +52,10 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
-    const double t   = scene.time.end_time;
-    const double V   = std::pow(scene.tissue.cell_spacing.value(), dim);
-    const auto   law = growth_law_of<dim>(scene);
+    const double t = scene.time.end_time;
+    const double V = std::pow(scene.tissue.cell_spacing.value(), dim);
+    const SceneEffects<dim>         effects = effects_of<dim>(scene);
+    const GrowthLaw<dim> *const     law     = effects.growth_law.get();
     std::optional<Descendants<dim>> descendants;
     if (scene.has_proliferation())
       descendants.emplace(scene.cell_cycle, t);

@@ -95,6 +95,15 @@ namespace
     std::remove(empty.c_str());
     return scene;
   }
+
+  /** What the scene's growth law expects at t = 1 day. */
+  template <int dim>
+  double
+  expected_volume_ratio(const Scene &scene)
+  {
+    return effects_of<dim>(scene).growth_law->expected_volume_ratio(
+      Point<dim>(), 1.);
+  }
 } // namespace
 
 
@@ -106,9 +115,9 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
           "Proliferation/Law=cell cycle",
           "Proliferation/Cell cycle/Division axis=some axis"});
   EXPECT_NO_THROW(scene.check());
-  EXPECT_EQ(growth_law_of<2>(scene)->expected_volume_ratio(Point<2>(), 1.), 3.);
-  EXPECT_EQ(growth_law_of<3>(scene)->expected_volume_ratio(Point<3>(), 1.), 3.);
-  EXPECT_NE(division_rule_of<3>(scene), nullptr);
+  EXPECT_EQ(expected_volume_ratio<2>(scene), 3.);
+  EXPECT_EQ(expected_volume_ratio<3>(scene), 3.);
+  EXPECT_NE(effects_of<3>(scene).division_rule, nullptr);
 
   // Values belong to one scene.
   EXPECT_EQ(catalogue().growth_laws.back().keys().list()[0]->text(), "2");
@@ -141,11 +150,9 @@ TEST(Catalogue, LeavesTheLibrarysOwnEffectsAlone)
                             "Growth/Isotropic/Stretch=1.1",
                             "Proliferation/Law=cell cycle"});
   EXPECT_NO_THROW(scene.check());
-  EXPECT_NEAR(growth_law_of<2>(scene)->expected_volume_ratio(Point<2>(), 1.),
-              1.21,
-              1e-12);
-  EXPECT_EQ(division_rule_of<2>(scene), nullptr);
-  EXPECT_EQ(growth_law_of<2>(read({})), nullptr);
+  EXPECT_NEAR(expected_volume_ratio<2>(scene), 1.21, 1e-12);
+  EXPECT_EQ(effects_of<2>(scene).division_rule, nullptr);
+  EXPECT_EQ(effects_of<2>(read({})).growth_law, nullptr);
 }
 
 

@@ -176,17 +176,6 @@ namespace Morula
   SceneEffects<dim>
   effects_of(const Scene &scene);
 
-  /** The scene's growth law, or null. @throws InputError */
-  template <int dim>
-  std::unique_ptr<const GrowthLaw<dim>>
-  growth_law_of(const Scene &scene);
-
-  /** The scene's rule for the axes of divisions, or null where the cell cycle
-   *  draws them. @throws InputError */
-  template <int dim>
-  std::unique_ptr<const DivisionRule<dim>>
-  division_rule_of(const Scene &scene);
-
   /** The scene's conditions on the surface. @throws InputError */
   template <int dim>
   BoundaryConditions<dim>

@@ -238,7 +238,7 @@ namespace Morula
       const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);
       const ConditionCounts     counts = check_at_surface(scene, surface, comm);
       const std::vector<std::string> warnings =
-        scene_warnings(scene, founders, surface, comm);
+        scene_warnings(scene, founders, surface, counts, comm);
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
         Simulation<dim>(scene, comm, false).n_unknowns();

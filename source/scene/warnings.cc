@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/grid_warnings.h>
 #include <morula/seeding/unit_warnings.h>
 
-#include <deal.II/base/mpi.h>
-
+#include <utility>
 
 namespace Morula
 {
@@ -47,21 +45,23 @@ namespace Morula
   scene_warnings(const Scene               &scene,
                  const Founders<dim>       &founders,
                  const SurfacePatches<dim> &surface,
+                 const ConditionCounts     &counts,
                  const MPI_Comm             comm)
   {
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     for (const std::string &text : scene.renamed)
       review.warnings.push_back("Warning: " + text + '.');
     review_units(scene.tissue, founders, comm, review);
-    const bool slips =
-      boundary_conditions_of<dim>(scene).has(SurfaceCondition::slip) &&
-      (scene.has_growth() || scene.has_proliferation());
+    SceneEffects<dim>             effects = effects_of<dim>(scene);
+    const BoundaryConditions<dim> conditions(std::move(effects.conditions),
+                                             scene.nitsche);
+    const bool slips = conditions.has(SurfaceCondition::slip) &&
+                       (scene.has_growth() || scene.has_proliferation());
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
 
     const Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);
-    const SceneEffects<dim> effects = effects_of<dim>(scene);
     if (effects.growth_law)
       effects.growth_law->review(at, review);
     if (scene.has_proliferation())
@@ -74,10 +74,9 @@ namespace Morula
       force->review(at, review);
     review_unused(scene.tissue, review);
     scene.material.review(review);
-    for (const auto &[name, condition] : effects.conditions)
+    for (const auto &[name, condition] : conditions.list())
       condition->review(at, review);
-    const ConditionCounts counts = check_at_surface(scene, surface, comm);
-    if (boundary_conditions_of<dim>(scene).has_dirichlet())
+    if (conditions.has_dirichlet())
       scene.nitsche.review(scene.material,
                            counts.points > 0 && counts.fixed == counts.points,
                            review);
@@ -93,10 +92,12 @@ namespace Morula
   scene_warnings(const Scene &,
                  const Founders<2> &,
                  const SurfacePatches<2> &,
+                 const ConditionCounts &,
                  const MPI_Comm);
   template std::vector<std::string>
   scene_warnings(const Scene &,
                  const Founders<3> &,
                  const SurfacePatches<3> &,
+                 const ConditionCounts &,
                  const MPI_Comm);
 } // namespace Morula

@@ -83,8 +83,8 @@ namespace Morula
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
     const SurfacePatches<dim> patches = seed_surface<dim>(scene.tissue, comm);
     check_at_cells(scene, founders.positions, comm);
-    check_at_surface(scene, patches, comm);
-    warnings = scene_warnings(scene, founders, patches, comm);
+    warnings = scene_warnings(
+      scene, founders, patches, check_at_surface(scene, patches, comm), comm);
 
     const CellColumns<dim> &columns = tissue.cells().columns();
     PointList<dim>          cells(columns.n_numbers());

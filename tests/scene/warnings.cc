@@ -39,9 +39,12 @@ namespace
   warnings_of(const Scene &scene)
   {
     scene.check();
+    const SurfacePatches<dim> surface =
+      seed_surface<dim>(scene.tissue, MPI_COMM_WORLD);
     return scene_warnings(scene,
                           seed_founders<dim>(scene.tissue, MPI_COMM_WORLD),
-                          seed_surface<dim>(scene.tissue, MPI_COMM_WORLD),
+                          surface,
+                          check_at_surface(scene, surface, MPI_COMM_WORLD),
                           MPI_COMM_WORLD);
   }
 

@@ -4,6 +4,7 @@
 #ifndef morula_scene_warnings_h
 #define morula_scene_warnings_h
 
+#include <morula/scene/checks.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
 
@@ -20,12 +21,14 @@ namespace Morula
    * or must follow from what the keys say. Empty for a scene in order.
    * Collective; the same on all ranks, every rank gives its own founders and
    * boundary points of a scene that has passed all checks.
+   * @param counts what check_at_surface() has returned
    */
   template <int dim>
   std::vector<std::string>
   scene_warnings(const Scene               &scene,
                  const Founders<dim>       &founders,
                  const SurfacePatches<dim> &surface,
+                 const ConditionCounts     &counts,
                  const MPI_Comm             comm);
 } // namespace Morula
 

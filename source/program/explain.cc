@@ -3,11 +3,9 @@
 
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
-#include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
-#include <morula/scene/warnings.h>
-#include <morula/seeding/seeding.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -231,19 +229,12 @@ namespace Morula
     explain_scene(const Scene &scene, std::ostream &out, const MPI_Comm comm)
     {
       check_memory(scene, initial_size(scene), comm);
-      const Founders<dim> founders =
-        seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
-      const types::particle_index n_proliferating =
-        check_at_cells(scene, founders.positions, comm);
-      const SurfacePatches<dim> surface = seed_surface<dim>(scene.tissue, comm);
-      const ConditionCounts     counts = check_at_surface(scene, surface, comm);
-      const std::vector<std::string> warnings =
-        scene_warnings(scene, founders, surface, counts, comm);
+      const SeededTissue<dim> tissue = seed_tissue<dim>(scene, comm);
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
-        Simulation<dim>(scene, comm, false).n_unknowns();
+        Simulation<dim>(scene, comm, tissue).n_unknowns();
       const SizeEstimate size =
-        estimated_size(scene, founders, comm, n_unknowns);
+        estimated_size(scene, tissue.founders, comm, n_unknowns);
       const double available = physical_memory(comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
@@ -251,18 +242,22 @@ namespace Morula
       std::ostringstream text;
       text << "The scene is valid.\nTissue\n"
            << "  " << scene.tissue.shape << " in " << dim << "-D, "
-           << founders.n_global << " cells, " << counts.points
+           << tissue.founders.n_global << " cells, " << tissue.counts.points
            << " boundary points\n  grid spacing " << scene.grid.spacing
            << " um, cell spacing " << scene.tissue.cell_spacing << " um\n"
            << "  until " << scene.time.end_time << " day in steps of "
            << scene.time.step << " day\n";
       print_method(text, scene);
-      print_effects(text, scene, counts, founders.n_global, n_proliferating);
+      print_effects(text,
+                    scene,
+                    tissue.counts,
+                    tissue.founders.n_global,
+                    tissue.n_proliferating);
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);
       print_size(text, scene, size, available);
-      for (const std::string &warning : warnings)
+      for (const std::string &warning : tissue.warnings)
         text << warning << '\n';
       out << text.str();
     }

@@ -6,9 +6,6 @@
 #include <morula/output/surface_fields.h>
 #include <morula/particles/cell_domain.h>
 #include <morula/particles/surface_refinement.h>
-#include <morula/scene/checks.h>
-#include <morula/scene/size.h>
-#include <morula/scene/warnings.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 
@@ -37,13 +34,30 @@ namespace Morula
   Simulation<dim>::Simulation(const Scene   &scene,
                               const MPI_Comm comm,
                               const bool     resume)
-    : Simulation(scene, comm, resume, effects_of<dim>(scene))
-  {}
+    : Simulation(scene, comm, effects_of<dim>(scene))
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    if (resume)
+      restore();
+    else
+      seed(seed_tissue<dim>(scene, comm));
+    find_typical_stiffness();
+  }
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene             &scene,
+                              const MPI_Comm           comm,
+                              const SeededTissue<dim> &seeded)
+    : Simulation(scene, comm, effects_of<dim>(scene))
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    seed(seeded);
+    find_typical_stiffness();
+  }
 
   template <int dim>
   Simulation<dim>::Simulation(const Scene        &scene,
                               const MPI_Comm      comm,
-                              const bool          resume,
                               SceneEffects<dim> &&effects)
     : scene(scene)
     , comm(comm)
@@ -61,12 +75,12 @@ namespace Morula
              comm,
              BoundaryColumns<dim>(scene.tissue.refine_surface))
     , time_steps(scene.time)
+  {}
+
+  template <int dim>
+  void
+  Simulation<dim>::find_typical_stiffness()
   {
-    const TimerOutput::Scope section(timer, "seeding");
-    if (resume)
-      restore();
-    else
-      seed();
     double            largest = 0.;
     const Cells<dim> &cells   = tissue.cells();
     for (unsigned int p = 0; p < cells.size(); ++p)
@@ -77,14 +91,11 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::seed()
+  Simulation<dim>::seed(const SeededTissue<dim> &seeded)
   {
-    const Founders<dim> founders =
-      seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
-    const SurfacePatches<dim> patches = seed_surface<dim>(scene.tissue, comm);
-    check_at_cells(scene, founders.positions, comm);
-    warnings = scene_warnings(
-      scene, founders, patches, check_at_surface(scene, patches, comm), comm);
+    const Founders<dim>       &founders = seeded.founders;
+    const SurfacePatches<dim> &patches  = seeded.surface;
+    warnings                            = seeded.warnings;
 
     const CellColumns<dim> &columns = tissue.cells().columns();
     PointList<dim>          cells(columns.n_numbers());

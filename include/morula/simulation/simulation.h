@@ -12,6 +12,7 @@
 #include <morula/mechanics/spline_field.h>
 #include <morula/particles/tissue.h>
 #include <morula/scene/scene.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/stop_signals.h>
 #include <morula/simulation/time_steps.h>
@@ -37,6 +38,11 @@ namespace Morula
      * @throws InputError for a scene that cannot be run
      */
     Simulation(const Scene &scene, const MPI_Comm comm, const bool resume);
+
+    /** A new run with what seed_tissue() has made of the same scene. */
+    Simulation(const Scene             &scene,
+               const MPI_Comm           comm,
+               const SeededTissue<dim> &seeded);
 
     /**
      * Runs to End time.
@@ -69,12 +75,13 @@ namespace Morula
   private:
     Simulation(const Scene        &scene,
                const MPI_Comm      comm,
-               const bool          resume,
                SceneEffects<dim> &&effects);
     void
-    seed();
+    seed(const SeededTissue<dim> &seeded);
     void
     restore();
+    void
+    find_typical_stiffness();
     void
     check_resumed_cycle() const; // Step may have changed
 

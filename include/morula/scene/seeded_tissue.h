@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_seeded_tissue_h
+#define morula_scene_seeded_tissue_h
+
+#include <morula/scene/checks.h>
+#include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** The tissue of a scene at t = 0, on this rank, and what the checks of the
+   *  scene have found there. */
+  template <int dim>
+  struct SeededTissue
+  {
+    Founders<dim>       founders;
+    SurfacePatches<dim> surface;
+    /** Founders that proliferate, over all ranks. */
+    types::particle_index n_proliferating = 0;
+    ConditionCounts       counts;
+    /** See scene_warnings(). */
+    std::vector<std::string> warnings;
+  };
+
+  /**
+   * Seeds the tissue, and lets all effects look at it. Both are the longest
+   * work before the first step, so it is done once, for --explain as for a run.
+   * Collective, and all throw together.
+   * @throws InputError for a scene that cannot be run
+   */
+  template <int dim>
+  SeededTissue<dim>
+  seed_tissue(const Scene &scene, const MPI_Comm comm);
+} // namespace Morula
+
+#endif

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/division/directions.h>
 #include <morula/effects/fate/random.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -64,6 +66,81 @@ namespace Morula::Random
     {
       return std::ldexp(static_cast<double>((random_bits >> 11) + 1), -53);
     }
+
+    /** Uniform on the unit sphere (2-D: circle). */
+    template <int dim>
+    Tensor<1, dim>
+    on_sphere(const std::array<std::uint64_t, 2> &random_bits)
+    {
+      const double angle = 2. * numbers::PI * uniform(random_bits[0]);
+
+      Tensor<1, dim> n;
+      if constexpr (dim == 2)
+        {
+          n[0] = std::cos(angle);
+          n[1] = std::sin(angle);
+        }
+      else
+        {
+          // Archimedes: the height is uniform in (-1, 1] and independent of the
+          // angle. With u = (1 + height)/2, the radius is 2 sqrt(u (1-u)).
+          const double u      = uniform(random_bits[1]);
+          const double radius = 2. * std::sqrt(u * (1. - u));
+          n[0]                = radius * std::cos(angle);
+          n[1]                = radius * std::sin(angle);
+          n[2]                = 2. * u - 1.;
+        }
+      return n / n.norm();
+    }
+
+    /**
+     * 1 - cos of the angle to the axis on the sphere in 3-D. The cosine's
+     * distribution function (e^{κ cos} - e^{-κ}) / (e^κ - e^{-κ}) is inverted
+     * exactly, in a form that holds its digits for small and for large κ.
+     */
+    double
+    von_mises_fisher(const double        kappa,
+                     const std::uint64_t seed,
+                     const std::uint64_t key)
+    {
+      const double u = 1. - uniform(bits(seed, key, Draw::axis_spread)[0]);
+      return std::min(2., -std::log1p(u * std::expm1(-2. * kappa)) / kappa);
+    }
+
+    /**
+     * 1 - cos of the angle to the axis on the circle, by the rejection method
+     * of Best and Fisher (1979), which accepts two of three trials or more. The
+     * number of the trial stands in the upper half of the draw's word.
+     */
+    double
+    von_mises(const double        kappa,
+              const std::uint64_t seed,
+              const std::uint64_t key)
+    {
+      // ρ = (τ - √(2 τ)) / (2 κ) with τ = 1 + root, without the differences.
+      const double root = std::sqrt(1. + 4. * kappa * kappa);
+      const double tau  = 1. + root;
+      const double rho  = 2. * kappa * std::sqrt(tau) /
+                         ((std::sqrt(tau) + std::sqrt(2.)) * (root + 1.));
+      // r - 1 of their r
+      const double excess = (1. - rho) * (1. - rho) / (2. * rho);
+      const auto   draw   = static_cast<std::uint32_t>(Draw::axis_spread);
+      for (std::uint32_t trial = 0;; ++trial)
+        {
+          const auto random_bits =
+            bits(seed, key, draw + (trial << 16), Domain::lineage);
+          // z = cos(π u); 1 - f = (r - 1)(1 - z) / (r + z), c = κ (r - f)
+          const double half_sine =
+            std::sin(0.5 * numbers::PI * uniform(random_bits[0]));
+          const double one_minus_z = 2. * half_sine * half_sine;
+          const double one_minus_f =
+            excess * one_minus_z / (2. + excess - one_minus_z);
+          const double c = kappa * (excess + one_minus_f);
+          const double u = uniform(random_bits[1]);
+          if (c * (2. - c) > u || std::log(c / u) + 1. >= c)
+            return one_minus_f;
+        }
+    }
   } // namespace
 
 
@@ -100,25 +177,28 @@ namespace Morula::Random
   Tensor<1, dim>
   direction(const std::uint64_t seed, const std::uint64_t key)
   {
-    const auto   random_bits = bits(seed, key, Draw::axis);
-    const double angle       = 2. * numbers::PI * uniform(random_bits[0]);
+    return on_sphere<dim>(bits(seed, key, Draw::axis));
+  }
 
-    Tensor<1, dim> n;
-    if constexpr (dim == 2)
-      {
-        n[0] = std::cos(angle);
-        n[1] = std::sin(angle);
-      }
-    else
-      {
-        // Archimedes: the height is uniform in (-1, 1] and independent of the
-        // angle. With u = (1 + height)/2, the radius is 2 sqrt(u (1-u)).
-        const double u      = uniform(random_bits[1]);
-        const double radius = 2. * std::sqrt(u * (1. - u));
-        n[0]                = radius * std::cos(angle);
-        n[1]                = radius * std::sin(angle);
-        n[2]                = 2. * u - 1.;
-      }
+
+  template <int dim>
+  Tensor<1, dim>
+  direction_around(const Tensor<1, dim> &axis,
+                   const double          concentration,
+                   const std::uint64_t   seed,
+                   const std::uint64_t   key)
+  {
+    Assert(concentration > 0., ExcInternalError());
+    // Below, the distribution is uniform, above, a spread of a millionth of a
+    // radian: no use needs more, and the formulas hold in between.
+    const double kappa         = std::clamp(concentration, 1e-8, 1e12);
+    const double one_minus_cos = dim == 2 ? von_mises(kappa, seed, key) :
+                                            von_mises_fisher(kappa, seed, key);
+    const double cos           = 1. - one_minus_cos;
+    const double sin          = std::sqrt(one_minus_cos * (2. - one_minus_cos));
+    const Tensor<1, dim> side = Directions::across(
+      axis, on_sphere<dim>(bits(seed, key, Draw::axis_spread_side)));
+    const Tensor<1, dim> n = cos * axis + sin * side;
     return n / n.norm();
   }
 
@@ -127,4 +207,14 @@ namespace Morula::Random
   direction<2>(const std::uint64_t, const std::uint64_t);
   template Tensor<1, 3>
   direction<3>(const std::uint64_t, const std::uint64_t);
+  template Tensor<1, 2>
+  direction_around(const Tensor<1, 2> &,
+                   const double,
+                   const std::uint64_t,
+                   const std::uint64_t);
+  template Tensor<1, 3>
+  direction_around(const Tensor<1, 3> &,
+                   const double,
+                   const std::uint64_t,
+                   const std::uint64_t);
 } // namespace Morula::Random

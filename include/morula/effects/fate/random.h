@@ -21,7 +21,9 @@ namespace Morula::Random
     wait,
     axis,
     first_daughter,
-    second_daughter
+    second_daughter,
+    axis_spread,     // the angle
+    axis_spread_side // which way
   };
 
   /** Key of founder number @p id. */
@@ -44,6 +46,21 @@ namespace Morula::Random
   template <int dim>
   dealii::Tensor<1, dim>
   direction(const std::uint64_t seed, const std::uint64_t key);
+
+  /**
+   * Distributed around a direction as von Mises and Fisher have it, with the
+   * density C exp(κ n·axis) on the unit sphere (2-D: circle), doc/theory.md
+   * (6.3d).
+   * @param axis          unit vector
+   * @param concentration κ > 0: the larger, the nearer to the axis; the mean
+   *        square angle tends to (dim - 1)/κ
+   */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  direction_around(const dealii::Tensor<1, dim> &axis,
+                   const double                  concentration,
+                   const std::uint64_t           seed,
+                   const std::uint64_t           key);
 } // namespace Morula::Random
 
 #endif

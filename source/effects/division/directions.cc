@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/division/directions.h>
+
+#include <cmath>
+
+namespace Morula::Directions
+{
+  namespace
+  {
+    /** @p direction or its opposite, whichever is nearer to @p sign. */
+    template <int dim>
+    Tensor<1, dim>
+    with_sign_of(const Tensor<1, dim> &direction, const Tensor<1, dim> &sign)
+    {
+      return direction * sign < 0. ? -direction : direction;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Tensor<1, dim>
+  across(const Tensor<1, dim> &axis, const Tensor<1, dim> &direction)
+  {
+    const Tensor<1, dim> part   = direction - (direction * axis) * axis;
+    const double         length = part.norm();
+    if (length > 0.)
+      return part / length;
+    unsigned int smallest = 0;
+    for (unsigned int d = 1; d < dim; ++d)
+      if (std::abs(axis[d]) < std::abs(axis[smallest]))
+        smallest = d;
+    Tensor<1, dim> other;
+    other[smallest] = 1.;
+    return across(axis, other);
+  }
+
+
+  template <int dim>
+  std::optional<Tensor<1, dim>>
+  of_largest_stretch(const Tensor<2, dim> &F_e,
+                     const double          least,
+                     const Tensor<1, dim> &sign)
+  {
+    // b_e = V_e^2; the largest eigenvalue comes first.
+    const auto   squares = eigenvectors(symmetrize(F_e * transpose(F_e)));
+    const double ratio   = std::sqrt(squares[0].first / squares[1].first);
+    if (!(ratio > 1. && ratio >= least))
+      return {};
+    return with_sign_of(squares[0].second, sign);
+  }
+
+
+  template <int dim>
+  std::optional<Tensor<1, dim>>
+  of_largest_stress(const SymmetricTensor<2, 3> &stress,
+                    const double                 mu,
+                    const double                 least,
+                    const Tensor<1, dim>        &sign)
+  {
+    SymmetricTensor<2, dim> in_space;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        in_space[i][j] = stress[i][j];
+    const auto   principal = eigenvectors(in_space);
+    const double difference =
+      (principal[0].first - principal[1].first) / (2. * mu);
+    if (!(difference > 0. && 1. + difference >= least))
+      return {};
+    return with_sign_of(principal[0].second, sign);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  carried_normal(const Tensor<2, dim> &F, const Tensor<1, dim> &normal)
+  {
+    const Tensor<1, dim> carried = transpose(invert(F)) * normal;
+    return carried / carried.norm();
+  }
+
+
+#define INSTANTIATE(dim)                                                 \
+  template Tensor<1, dim>                across(const Tensor<1, dim> &,  \
+                                                const Tensor<1, dim> &); \
+  template std::optional<Tensor<1, dim>> of_largest_stretch(             \
+    const Tensor<2, dim> &, const double, const Tensor<1, dim> &);       \
+  template std::optional<Tensor<1, dim>> of_largest_stress(              \
+    const SymmetricTensor<2, 3> &,                                       \
+    const double,                                                        \
+    const double,                                                        \
+    const Tensor<1, dim> &);                                             \
+  template Tensor<1, dim> carried_normal(const Tensor<2, dim> &,         \
+                                         const Tensor<1, dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula::Directions

@@ -92,6 +92,16 @@ if(NOT Boost_FOUND)
     "libboost-program-options-dev; contrib/setup installs it). If it stands "
     "elsewhere, set Boost_ROOT.")
 endif()
+# deal.II brings muParser with it, as a library of its own or bundled.
+find_path(MUPARSER_INCLUDE_DIR muParser.h
+  HINTS ${DEAL_II_INCLUDE_DIRS}
+  PATH_SUFFIXES deal.II/bundled/muparser deal.II/bundled)
+if(NOT MUPARSER_INCLUDE_DIR)
+  message(FATAL_ERROR
+    "muParser's header muParser.h is missing (Debian and Ubuntu: apt-get "
+    "install libmuparser-dev; contrib/setup does so). If it stands elsewhere, "
+    "set MUPARSER_INCLUDE_DIR.")
+endif()
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
 if(NOT RANDOM123_INCLUDE_DIR)
   message(FATAL_ERROR

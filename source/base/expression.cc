@@ -2,96 +2,64 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression.h>
+#include <morula/base/expression_parser.h>
 #include <morula/base/expression_syntax.h>
 #include <morula/base/input_error.h>
 
-#include <deal.II/base/function_parser.h>
-#include <deal.II/base/utilities.h>
-
 #include <boost/algorithm/string.hpp>
-#include <boost/io/ios_state.hpp>
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <iostream>
 #include <sstream>
 
 namespace Morula
 {
-  /**
-   * A FunctionParser that takes the time as an argument: its own is a state of
-   * the object, which threads would share.
-   */
-  class Expression::Parser : public FunctionParser<3>
-  {
-  public:
-    explicit Parser(const std::vector<std::string> &components)
-      : FunctionParser<3>(components.size())
-    {
-      initialize("X,Y,Z,t",
-                 components,
-                 {{"pi", numbers::PI}, {"Pi", numbers::PI}},
-                 /*time_dependent=*/true);
-    }
-
-    double
-    value_at(const Point<3>    &X,
-             const double       t,
-             const unsigned int component) const
-    {
-      return do_value(X, t, component);
-    }
-  };
-
-
   namespace
   {
-    const std::string advice =
-      " The variables are X, Y, Z (um) and t (day), components are separated "
-      "by ';'.";
+    /** What every message about a text ends with. */
+    std::string
+    advice(const Vocabulary &vocabulary)
+    {
+      const bool only_place =
+        vocabulary.variables == place_and_time().variables &&
+        vocabulary.constants.empty();
+      return " The variables are " +
+             (only_place ? "X, Y, Z (um) and t (day)" : vocabulary.names()) +
+             ", components are separated by ';'.";
+    }
+
+    /** What to do about variables that other keys have. */
+    std::string
+    remedy(const std::string &component, const Vocabulary &vocabulary)
+    {
+      std::string names;
+      for (unsigned int i = 0; i < n_variables; ++i)
+        {
+          const auto        variable = static_cast<Variable>(i);
+          const std::string name     = name_of(variable);
+          if (std::find(vocabulary.variables.begin(),
+                        vocabulary.variables.end(),
+                        variable) == vocabulary.variables.end() &&
+              ExpressionSyntax::uses(component, name))
+            {
+              if (i >= static_cast<unsigned int>(Variable::x) &&
+                  i <= static_cast<unsigned int>(Variable::z))
+                return " Write " +
+                       std::string(1,
+                                   static_cast<char>(std::toupper(name[0]))) +
+                       ", the initial position.";
+              names += (names.empty() ? "" : ", ") + name;
+            }
+        }
+      return names.empty() ? "" : " This key has no " + names + ".";
+    }
 
     std::string
     component_name(const unsigned int component, const std::size_t n)
     {
       return n == 1 ? "" : "Component " + std::to_string(component + 1) + ", ";
-    }
-
-    /**
-     * The place in @p component and the reason from what deal.II writes about
-     * muParser's error: "Message:  <...>", ..., "Position: <...>", counted from
-     * 0 and at most one behind the end (deal.II appends a blank).
-     */
-    std::string
-    diagnosis(const std::string &component, const std::string &report)
-    {
-      // What stands in <> behind a name, on its line. Regular expressions would
-      // recurse once for each character of a long line.
-      const auto behind = [&report](const std::string &name) -> std::string {
-        const auto at    = report.find(name);
-        const auto begin = report.find('<', at);
-        if (at == std::string::npos || begin == std::string::npos)
-          return "";
-        const auto end = report.rfind('>', report.find('\n', begin));
-        return end > begin && end != std::string::npos ?
-                 report.substr(begin + 1, end - begin - 1) :
-                 "";
-      };
-      std::string       text;
-      std::size_t       position = 0;
-      const std::string place    = behind("Position:");
-      if (boost::conversion::try_lexical_convert(place, position))
-        text = "character " +
-               std::to_string(
-                 1 + ExpressionSyntax::position_without_blanks(component,
-                                                               position)) +
-               ": ";
-      std::string message = behind("Message:");
-      message             = message.substr(0, message.find(" at position"));
-      if (boost::ends_with(message, " found"))
-        message.erase(message.size() - std::string(" found").size());
-      text += message.empty() ? "it cannot be parsed" : message;
-      return text + ".";
     }
 
     template <int dim>
@@ -102,6 +70,34 @@ namespace Morula
       for (unsigned int d = 0; d < dim; ++d)
         result[d] = X[d];
       return result;
+    }
+
+    /** Sorts the variables and keeps each once. */
+    void
+    make_unique(std::vector<Variable> &variables)
+    {
+      std::sort(variables.begin(), variables.end());
+      variables.erase(std::unique(variables.begin(), variables.end()),
+                      variables.end());
+    }
+
+    /** "inf at (X, Y, Z) = (0, 1, 2) um, t = 3 day, J_e = 0.5." */
+    std::string
+    described(const double                 value,
+              const std::vector<Variable> &used,
+              const VariableValues        &values)
+    {
+      std::ostringstream text;
+      text << value << " at (X, Y, Z) = ("
+           << Point<3>(values[0], values[1], values[2])
+           << ") um, t = " << values[static_cast<unsigned int>(Variable::t)]
+           << " day";
+      for (const Variable variable : used)
+        if (variable > Variable::t)
+          text << ", " << name_of(variable) << " = "
+               << values[static_cast<unsigned int>(variable)];
+      text << '.';
+      return text.str();
     }
 
     /** All components as plain numbers; empty if one is not. */
@@ -121,7 +117,8 @@ namespace Morula
                      const std::string              &text,
                      const std::vector<std::string> &components,
                      const unsigned int              n_max,
-                     const unsigned int              n_min)
+                     const unsigned int              n_min,
+                     const std::string              &advice)
     {
       const std::string number =
         (n_min == n_max ?
@@ -159,10 +156,10 @@ namespace Morula
   Expression::Expression(const std::string &key,
                          const std::string &text,
                          const unsigned int n_components,
-                         const unsigned int min_components)
+                         const unsigned int min_components,
+                         const Vocabulary  &vocabulary)
     : key_(key)
     , text_(text)
-    , uses_Z(ExpressionSyntax::uses(text, "Z"))
   {
     const std::vector<std::string> components =
       ExpressionSyntax::components(text);
@@ -170,35 +167,50 @@ namespace Morula
                      text,
                      components,
                      n_components,
-                     std::min(min_components, n_components));
+                     std::min(min_components, n_components),
+                     advice(vocabulary));
 
     constants = plain_numbers(components);
     if (!constants.empty())
       return;
 
-    std::vector<std::string> readable;
-    for (const std::string &component : components)
-      readable.push_back(ExpressionSyntax::with_blanks(component));
-    parser = std::make_shared<const Parser>(readable);
     for (unsigned int c = 0; c < components.size(); ++c)
-      {
-        // deal.II writes muParser's report to the standard error before it
-        // throws, and only there is the position
-        std::ostringstream report;
-        try
-          {
-            const boost::io::ios_rdbuf_saver saver(std::cerr, report.rdbuf());
-            Parser({readable[c]}).value_at(Point<3>(), 0., 0);
-          }
-        catch (const std::exception &)
-          {
-            throw InputError(key,
-                             text,
-                             "an expression that muParser understands",
-                             component_name(c, components.size()) +
-                               diagnosis(components[c], report.str()) + advice);
-          }
-      }
+      try
+        {
+          parsers.push_back(
+            std::make_shared<const ExpressionParser>(components[c],
+                                                     vocabulary));
+          for (const Variable variable : parsers.back()->used())
+            used_.push_back(variable);
+        }
+      catch (const ExpressionParser::Error &error)
+        {
+          throw InputError(key,
+                           text,
+                           "an expression that muParser understands",
+                           component_name(c, components.size()) +
+                             error.message + remedy(components[c], vocabulary) +
+                             advice(vocabulary));
+        }
+    make_unique(used_);
+  }
+
+
+  Expression
+  Expression::with_types(
+    const std::map<unsigned int, Expression> &of_types) const
+  {
+    Expression result = *this;
+    if (of_types.empty())
+      return result;
+    result.of_types = of_types;
+    for (const auto &[type, expression] : of_types)
+      result.used_.insert(result.used_.end(),
+                          expression.used_.begin(),
+                          expression.used_.end());
+    result.used_.push_back(Variable::type);
+    make_unique(result.used_);
+    return result;
   }
 
 
@@ -208,18 +220,61 @@ namespace Morula
                     const double       t,
                     const unsigned int component) const
   {
-    if (!constants.empty())
+    if (is_constant())
       return constants[component];
     check_dimension(dim);
-    const double value = parser->value_at(in_space(X), t, component);
-    if (!std::isfinite(value))
+    Assert(!depends_on_state(), ExcMessage(key_ + " needs a present cell."));
+    VariableValues values;
+    const Point<3> place = in_space(X);
+    for (unsigned int d = 0; d < 3; ++d)
+      values[d] = place[d];
+    values[static_cast<unsigned int>(Variable::t)] = t;
+    return evaluate(values, component);
+  }
+
+
+  void
+  Expression::set_rule(const ExpressionRule &new_rule)
+  {
+    rule = std::make_shared<const ExpressionRule>(new_rule);
+  }
+
+
+  double
+  Expression::value(const VariableValues &values,
+                    const unsigned int    component) const
+  {
+    if (!of_types.empty())
       {
-        std::ostringstream place;
-        place << "It is " << value << " at (X, Y, Z) = (" << in_space(X)
-              << ") um, t = " << t
-              << " day. Change the expression so that it is finite there.";
-        throw InputError(key_, text_, "a finite value", place.str());
+        const auto own = of_types.find(static_cast<unsigned int>(
+          values[static_cast<unsigned int>(Variable::type)]));
+        if (own != of_types.end())
+          return own->second.value(values, component);
       }
+    const double value = evaluate(values, component);
+    if (rule && !rule->holds(value))
+      throw InputError(key_,
+                       text_,
+                       rule->allowed,
+                       "It is " + described(value, used_, values) + ' ' +
+                         rule->remedy);
+    return value;
+  }
+
+
+  double
+  Expression::evaluate(const VariableValues &values,
+                       const unsigned int    component) const
+  {
+    if (!constants.empty())
+      return constants[component];
+    const double value = parsers[component]->value(values);
+    if (!std::isfinite(value))
+      throw InputError(key_,
+                       text_,
+                       "a finite value",
+                       "It is " + described(value, used_, values) +
+                         " Change the expression so that it is finite there.");
     return value;
   }
 
@@ -235,24 +290,59 @@ namespace Morula
   }
 
 
+  const std::vector<Variable> &
+  Expression::used() const
+  {
+    return used_;
+  }
+
+
+  bool
+  Expression::uses(const Variable variable) const
+  {
+    return std::binary_search(used_.begin(), used_.end(), variable);
+  }
+
+
+  bool
+  Expression::depends_on_state() const
+  {
+    return !used_.empty() && used_.back() > Variable::t;
+  }
+
+
   bool
   Expression::is_constant() const
   {
-    return !constants.empty();
+    return !constants.empty() && of_types.empty();
+  }
+
+
+  std::optional<double>
+  Expression::plain_number() const
+  {
+    return constants.empty() ? std::optional<double>() : constants[0];
+  }
+
+
+  const std::map<unsigned int, Expression> &
+  Expression::types() const
+  {
+    return of_types;
   }
 
 
   bool
   Expression::depends_on_time() const
   {
-    return ExpressionSyntax::uses(text_, "t");
+    return uses(Variable::t);
   }
 
 
   void
   Expression::check_dimension(const unsigned int dim) const
   {
-    if (dim == 2 && uses_Z)
+    if (dim == 2 && (uses(Variable::Z) || uses(Variable::z)))
       throw InputError(
         key_,
         text_,

@@ -2,9 +2,66 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression_key.h>
+#include <morula/base/input_error.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
 
 namespace Morula
 {
+  const std::vector<Variable> &
+  variables_of(const Evaluated evaluated)
+  {
+    using V = Variable;
+    static const std::vector<Variable> founder{V::X, V::Y, V::Z};
+    static const std::vector<Variable> property{V::X,
+                                                V::Y,
+                                                V::Z,
+                                                V::t,
+                                                V::generation,
+                                                V::age,
+                                                V::type_age,
+                                                V::cycle_phase,
+                                                V::type,
+                                                V::growth,
+                                                V::depth,
+                                                V::noise};
+    static const std::vector<Variable> all = [] {
+      std::vector<Variable> list;
+      for (unsigned int i = 0; i < n_variables; ++i)
+        list.push_back(static_cast<Variable>(i));
+      return list;
+    }();
+    switch (evaluated)
+      {
+        case Evaluated::founder:
+          return founder;
+        case Evaluated::place:
+          return place_and_time().variables;
+        case Evaluated::property:
+          return property;
+        default:
+          return all;
+      }
+  }
+
+
+  const char *
+  description_of(const Evaluated evaluated)
+  {
+    switch (evaluated)
+      {
+        case Evaluated::founder:
+          return "once, at t = 0";
+        case Evaluated::event:
+          return "when it happens";
+        default:
+          return "at each step";
+      }
+  }
+
+
   ExpressionKey::ExpressionKey(const std::string &path,
                                const std::string &default_text,
                                const std::string &documentation,
@@ -18,12 +75,22 @@ namespace Morula
 
 
   ExpressionKey &
+  ExpressionKey::require(const std::function<bool(const double)> &holds,
+                         const std::string                       &allowed,
+                         const std::string                       &remedy)
+  {
+    rule = {holds, allowed, remedy};
+    parsed.reset();
+    return *this;
+  }
+
+
+  ExpressionKey &
   ExpressionKey::positive(const std::string &unit, const std::string &remedy)
   {
-    sign           = Sign::positive;
-    unit_of_sign   = unit;
-    remedy_of_sign = remedy;
-    return *this;
+    return require([](const double value) { return value > 0.; },
+                   "a value > 0 " + unit,
+                   remedy);
   }
 
 
@@ -31,9 +98,9 @@ namespace Morula
   ExpressionKey::not_negative(const std::string &unit,
                               const std::string &remedy)
   {
-    positive(unit, remedy);
-    sign = Sign::not_negative;
-    return *this;
+    return require([](const double value) { return value >= 0.; },
+                   "a value >= 0 " + unit,
+                   remedy);
   }
 
 
@@ -54,10 +121,66 @@ namespace Morula
   }
 
 
+  ExpressionKey &
+  ExpressionKey::operator=(const double number)
+  {
+    return *this = Patterns::Tools::to_string(number);
+  }
+
+
+  std::optional<double>
+  ExpressionKey::largest_number(const unsigned int dim) const
+  {
+    const Expression     &of_all  = expression(dim);
+    std::optional<double> largest = of_all.plain_number();
+    for (const auto &[type, own] : of_all.types())
+      largest = std::max(largest, own.plain_number());
+    return largest;
+  }
+
+
   Evaluated
   ExpressionKey::evaluated() const
   {
     return evaluated_;
+  }
+
+
+  bool
+  ExpressionKey::is_of_cells() const
+  {
+    return evaluated_ != Evaluated::founder && evaluated_ != Evaluated::place;
+  }
+
+
+  void
+  ExpressionKey::set_types(const std::map<std::string, double> &names)
+  {
+    types = names;
+    parsed.reset();
+  }
+
+
+  ExpressionKey
+  ExpressionKey::in_section_of_type(const std::string &section) const
+  {
+    ExpressionKey key(section + "/" + path(),
+                      "",
+                      "For cells of this type; empty: as for all.",
+                      evaluated_,
+                      n_components);
+    key.rule = rule;
+    return key;
+  }
+
+
+  void
+  ExpressionKey::set_for_type(const unsigned int type,
+                              const std::string &path,
+                              const std::string &text)
+  {
+    of_types[type] = {path, text};
+    parsed.reset();
   }
 
 
@@ -73,10 +196,25 @@ namespace Morula
   {
     if (!parsed || (n_components > 1 && parsed_for != dim))
       {
-        parsed.emplace(path(),
-                       text_,
-                       n_components,
-                       n_components == 1 ? 1 : dim);
+        // Founders have no t: check() has better words for it.
+        const Vocabulary vocabulary =
+          evaluated_ == Evaluated::founder ?
+            place_and_time() :
+            Vocabulary{variables_of(evaluated_),
+                       is_of_cells() ? types : std::map<std::string, double>()};
+        const auto parse = [&](const std::string &path,
+                               const std::string &text) {
+          Expression expression(
+            path, text, n_components, n_components == 1 ? 1 : dim, vocabulary);
+          if (rule)
+            expression.set_rule(*rule);
+          return expression;
+        };
+        std::map<unsigned int, Expression> expressions;
+        for (const auto &[type, path_and_text] : of_types)
+          expressions.emplace(type,
+                              parse(path_and_text.first, path_and_text.second));
+        parsed     = parse(path(), text_).with_types(expressions);
         parsed_for = dim;
       }
     return *parsed;
@@ -123,17 +261,24 @@ namespace Morula
   {
     if (empty() && default_text().empty())
       return;
-    const Expression &value = expression(dim);
+    check_expression(expression(dim), dim);
+  }
+
+
+  void
+  ExpressionKey::check_expression(const Expression  &value,
+                                  const unsigned int dim) const
+  {
+    for (const auto &[type, own] : value.types())
+      check_expression(own, dim);
     value.check_dimension(dim);
-    if (evaluated_ != Evaluated::step && value.depends_on_time())
-      refuse("an expression of X, Y, Z",
-             "It is evaluated once, at t = 0: remove t.");
-    if (sign == Sign::any || !value.is_constant())
-      return;
-    const double number = value.value(Point<3>(), 0.);
-    if (number < 0. || (number == 0. && sign == Sign::positive))
-      refuse((sign == Sign::positive ? "a value > 0 " : "a value >= 0 ") +
-               unit_of_sign,
-             remedy_of_sign);
+    if (evaluated_ == Evaluated::founder && value.depends_on_time())
+      throw InputError(value.key(),
+                       value.text(),
+                       "an expression of X, Y, Z",
+                       "It is evaluated once, at t = 0: remove t.");
+    const std::optional<double> number = value.plain_number();
+    if (rule && number && !rule->holds(*number))
+      throw InputError(value.key(), value.text(), rule->allowed, rule->remedy);
   }
 } // namespace Morula

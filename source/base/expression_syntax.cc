@@ -5,6 +5,7 @@
 
 #include <boost/algorithm/string.hpp>
 
+#include <cctype>
 #include <regex>
 
 namespace Morula::ExpressionSyntax
@@ -31,6 +32,23 @@ namespace Morula::ExpressionSyntax
     ends_logical(const std::string &s, const std::size_t i)
     {
       return i > 0 && s[i] == s[i - 1] && (s[i] == '&' || s[i] == '|');
+    }
+
+    /** Whether a name may have this character. */
+    bool
+    is_of_name(const char c)
+    {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    }
+
+    /** Whether the blank at @p i stands between a name and a parenthesis. */
+    bool
+    ends_name_of_call(const std::string &s, const std::size_t i)
+    {
+      const std::size_t before = s.find_last_not_of(' ', i);
+      const std::size_t behind = s.find_first_not_of(' ', i);
+      return before != std::string::npos && is_of_name(s[before]) &&
+             behind != std::string::npos && s[behind] == '(';
     }
 
     /** Whether an operator that begins a new comparison stands at @p i. */
@@ -108,32 +126,39 @@ namespace Morula::ExpressionSyntax
   }
 
 
-  std::string
-  with_blanks(const std::string &component)
+  Readable
+  readable(const std::string &component)
   {
-    std::string result;
+    static const std::regex normal("normal *\\(");
+    Readable                result;
+    const auto append = [&](const std::string &text, const std::size_t i) {
+      result.text += text;
+      result.positions.resize(result.text.size(), i);
+    };
     for (std::size_t i = 0; i < component.size(); ++i)
       {
-        result += component[i];
+        const bool begins_name =
+          is_of_name(component[i]) && (i == 0 || !is_of_name(component[i - 1]));
+        std::smatch call;
+        if (begins_name &&
+            std::regex_search(component.begin() + i,
+                              component.end(),
+                              call,
+                              normal,
+                              std::regex_constants::match_continuous))
+          {
+            append("normal(noise, ", i);
+            i += call.length() - 1;
+            continue;
+          }
+        if (component[i] == ' ' && ends_name_of_call(component, i))
+          continue;
+        append({component[i]}, i);
         if (ends_logical(component, i))
-          result += ' ';
+          append(" ", i + 1);
       }
+    result.positions.push_back(component.size());
     return result;
-  }
-
-
-  std::size_t
-  position_without_blanks(const std::string &component,
-                          const std::size_t  position)
-  {
-    std::size_t with = 0; // of character i, in the longer text
-    for (std::size_t i = 0; i < component.size(); ++i)
-      {
-        if (with >= position)
-          return i;
-        with += ends_logical(component, i) ? 2 : 1;
-      }
-    return component.size();
   }
 
 
@@ -147,6 +172,8 @@ namespace Morula::ExpressionSyntax
       return at(i) + "a single '='. Compare with '==', '<=' or '>='.";
     if (const auto i = find_chain(component); i != std::string::npos)
       return at(i) + "a chain of comparisons. Join them: 0 < X && X < 5.";
+    if (const auto i = component.find("**"); i != std::string::npos)
+      return at(i) + "'**'. Write '^' for powers.";
     if (uses(component, "rand") || uses(component, "rand_seed"))
       return "Random numbers would change with every evaluation. Use a function "
              "of X, Y, Z, t; 'Random seed' governs what is random.";

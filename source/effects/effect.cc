@@ -44,9 +44,16 @@ namespace Morula
 
   template <int dim>
   void
-  Effect<dim>::advance(const CellView<dim, double> &,
+  Effect<dim>::advance(const CellView<dim, const double> &,
+                       const CellView<dim, double> &,
                        const double,
                        const double) const
+  {}
+
+
+  template <int dim>
+  void
+  Effect<dim>::check_cell(const PresentCell<dim> &, const double) const
   {}
 
 

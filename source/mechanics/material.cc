@@ -4,6 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/mechanics/material.h>
 
+#include <limits>
 #include <sstream>
 
 namespace Morula
@@ -12,9 +13,13 @@ namespace Morula
     : youngs_modulus("Material/Young's modulus",
                      "1.0",
                      "E; > 0. A number or an expression of X, Y, Z (the "
-                     "cell's initial position, um). Units: kPa.",
-                     Evaluated::founder)
-    , poissons_ratio("Material/Poisson's ratio", 0.4, "nu; -1 < nu < 0.5.")
+                     "cell's initial position, um), or of what the cell is. "
+                     "Units: kPa.",
+                     Evaluated::property)
+    , poissons_ratio("Material/Poisson's ratio",
+                     "0.4",
+                     "nu; -1 < nu < 0.5. A number or an expression, like E.",
+                     Evaluated::property)
     , energy_per("Material/Energy per",
                  "initial volume",
                  "The volume that the elastic energy is counted per: the "
@@ -65,11 +70,12 @@ namespace Morula
   void
   MaterialParameters::review(Review &review) const
   {
+    const double largest = poissons_ratio.largest_number(3).value_or(0.);
     if (volumetric_form() == VolumetricStrain::pointwise &&
-        poissons_ratio > 0.49 - 1e-9)
+        largest > 0.49 - 1e-9)
       review.warn(
         poissons_ratio.path(),
-        as_text(poissons_ratio),
+        as_text(largest),
         "with Volumetric strain = pointwise such tissue locks: in Cook's "
         "membrane the energy is 1 % low at 0.49, 2 % at 0.499, and the run "
         "fails at 0.4999 (doc/hard-cases.md, stiffness).",
@@ -95,23 +101,45 @@ namespace Morula
 
   template <int dim>
   void
-  require_stiffness(const Expression &youngs_modulus, const Point<dim> &X)
+  require_elastic(const MaterialParameters &material, const Point<dim> &X)
   {
-    const double value = youngs_modulus.value(X, 0.);
-    if (value > 0.)
-      return;
-    std::ostringstream place;
-    place << "It is " << value << " kPa at (" << X
-          << ") um. Make it positive all over the tissue.";
-    throw InputError(youngs_modulus.key(),
-                     youngs_modulus.text(),
-                     "a value > 0 kPa",
-                     place.str());
+    const auto require = [&X](const ExpressionKey &key,
+                              const double         smallest,
+                              const double         largest,
+                              const std::string   &allowed,
+                              const std::string   &unit,
+                              const std::string   &remedy) {
+      const Expression &expression = key.expression(dim);
+      if (expression.depends_on_state() || expression.depends_on_time())
+        return;
+      const double value = expression.value(X, 0.);
+      if (value > smallest && value < largest)
+        return;
+      std::ostringstream place;
+      place << "It is " << value << unit << " at (" << X << ") um. " << remedy
+            << " all over the tissue.";
+      throw InputError(expression.key(),
+                       expression.text(),
+                       allowed,
+                       place.str());
+    };
+    require(material.youngs_modulus,
+            0.,
+            std::numeric_limits<double>::infinity(),
+            "a value > 0 kPa",
+            " kPa",
+            "Make it positive");
+    require(material.poissons_ratio,
+            -1.,
+            0.5,
+            "a number > -1 and < 0.5",
+            "",
+            "Keep it in this range");
   }
 
 
   template void
-  require_stiffness(const Expression &, const Point<2> &);
+  require_elastic(const MaterialParameters &, const Point<2> &);
   template void
-  require_stiffness(const Expression &, const Point<3> &);
+  require_elastic(const MaterialParameters &, const Point<3> &);
 } // namespace Morula

@@ -17,21 +17,19 @@ namespace Morula
     void
     check_founders(const Scene &scene, const Preview<dim> &at)
     {
-      const Expression stiffness =
-        scene.material.youngs_modulus.expression(dim);
       for (const Point<dim> &X : at.founders)
-        require_stiffness(stiffness, X);
+        require_elastic(scene.material, X);
       const SceneEffects<dim> effects = effects_of<dim>(scene);
-      if (effects.growth_law)
-        effects.growth_law->check(at);
-      if (effects.division_rule)
-        effects.division_rule->check(at);
+      if (effects.development.law)
+        effects.development.law->check(at);
+      if (effects.development.rule)
+        effects.development.rule->check(at);
       for (const auto &fate : effects.fates)
         fate->check(at);
       for (const auto &[name, force] : effects.forces)
         force->check(at);
-      if (effects.cycle)
-        effects.cycle->check(at.founders, scene.time.step);
+      if (effects.development.cycle)
+        effects.development.cycle->check(at.founders, scene.time.step);
     }
 
     /** Number of founders, over all ranks, that proliferate. Refuses a cell
@@ -70,7 +68,7 @@ namespace Morula
     template <int dim>
     Acting<dim>
     check_points(const BoundaryConditions<dim> &conditions,
-                 const Expression              &stiffness,
+                 const MaterialParameters      &material,
                  const Preview<dim>            &at)
     {
       for (const auto &[name, condition] : conditions.list())
@@ -86,7 +84,7 @@ namespace Morula
           const SurfaceCondition kind = conditions.condition(X, N);
           const unsigned int     k    = conditions.winner(X, N);
           if (kind == SurfaceCondition::fixed || kind == SurfaceCondition::slip)
-            require_stiffness(stiffness, X);
+            require_elastic(material, X);
           acting.fixed += kind == SurfaceCondition::fixed;
           for (unsigned int c = 0; c < n; ++c)
             {
@@ -151,11 +149,8 @@ namespace Morula
     const Preview<dim>            at = preview<dim>(
       scene, no_founders, surface.positions, surface.normals, comm);
     Acting<dim> acting;
-    everywhere(comm, [&] {
-      acting = check_points(conditions,
-                            scene.material.youngs_modulus.expression(dim),
-                            at);
-    });
+    everywhere(comm,
+               [&] { acting = check_points(conditions, scene.material, at); });
 
     ConditionCounts counts;
     counts.points =

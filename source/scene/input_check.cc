@@ -74,10 +74,11 @@ namespace Morula
     try_effect(const Scene &scene, const Choice<Interface> &choice)
     {
       choice.keys().check_each(dim);
-      CellColumns<dim> columns;
+      CellColumns<dim>  columns;
+      StateColumns<dim> state;
       columns.need_growth();
-      choice.template make<dim>(
-        EffectSetting<dim>{scene.random_seed, scene.time.slack(), columns});
+      choice.template make<dim>(EffectSetting<dim>{
+        scene.random_seed, scene.time.slack(), columns, state});
     }
 
     /** Checks the effect that the scene names and makes it, for what it

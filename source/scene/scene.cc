@@ -201,34 +201,41 @@ namespace Morula
   effects_of(const Scene &scene)
   {
     SceneEffects<dim> effects;
+    effects.state.use(scene.material.youngs_modulus);
+    effects.state.use(scene.material.poissons_ratio);
+    DevelopmentEffects<dim> &development = effects.development;
     if (scene.has_growth())
       effects.columns.need_growth();
     if (scene.has_proliferation())
       {
-        CycleColumns<dim>{effects.columns}; // declares them
-        effects.cycle.emplace(scene.cell_cycle,
-                              scene.random_seed,
-                              scene.time.slack());
+        const auto &cycle = development.cycle.emplace(scene.cell_cycle,
+                                                      scene.random_seed,
+                                                      scene.time.slack(),
+                                                      effects.state);
+        development.clock.emplace(effects.columns,
+                                  cycle.has_own_duration(),
+                                  cycle.has_own_hazard());
       }
     const EffectSetting<dim> setting{scene.random_seed,
                                      scene.time.slack(),
-                                     effects.columns};
+                                     effects.columns,
+                                     effects.state};
     const auto               make = [&](const auto &choice) {
       const unsigned int n = effects.columns.n_numbers();
       auto               effect = choice.template make<dim>(setting);
       if (effects.columns.n_numbers() > n)
-        effects.with_state.push_back(effect.get());
+        development.with_state.push_back(effect.get());
       return effect;
     };
 
     const Catalogue &catalogue = scene.catalogue;
     if (scene.has_growth())
-      effects.growth_law =
+      development.law =
         make(*find_choice(catalogue.growth_laws, scene.growth_law));
     if (scene.has_proliferation())
       if (const auto *rule = find_choice(catalogue.division_rules,
                                          scene.cell_cycle.division_axis))
-        effects.division_rule = make(*rule);
+        development.rule = make(*rule);
     for (const auto &choice : catalogue.fates)
       if (choice.keys().is_on())
         effects.fates.push_back(make(choice));
@@ -238,6 +245,7 @@ namespace Morula
     for (const auto &choice : catalogue.boundary_conditions)
       if (choice.keys().is_on())
         effects.conditions.push_back({choice.name(), make(choice)});
+    effects.state.declare(effects.columns);
     return effects;
   }
 

@@ -55,7 +55,7 @@ namespace Morula
     const double t = scene.time.end_time;
     const double V = std::pow(scene.tissue.cell_spacing.value(), dim);
     const SceneEffects<dim>         effects = effects_of<dim>(scene);
-    const GrowthLaw<dim> *const     law     = effects.growth_law.get();
+    const GrowthLaw<dim> *const     law     = effects.development.law.get();
     std::optional<Descendants<dim>> descendants;
     if (scene.has_proliferation())
       descendants.emplace(scene.cell_cycle, t);

@@ -62,12 +62,12 @@ namespace Morula
 
     const Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);
-    if (effects.growth_law)
-      effects.growth_law->review(at, review);
+    if (effects.development.law)
+      effects.development.law->review(at, review);
     if (scene.has_proliferation())
       review_cell_cycle(scene.cell_cycle, at, review);
-    if (effects.division_rule)
-      effects.division_rule->review(at, review);
+    if (effects.development.rule)
+      effects.development.rule->review(at, review);
     for (const auto &fate : effects.fates)
       fate->review(at, review);
     for (const auto &[name, force] : effects.forces)

@@ -229,12 +229,12 @@ namespace Morula
                             const RigidModes<dim>  &rigid_modes,
                             Equilibrium::Vector    &u)
   {
-    if (growth.present())
+    if (development.present())
       {
         const TimerOutput::Scope section(timer, "growth");
         everywhere(comm, [&]() {
           growth_of_step =
-            growth.of_step(tissue, time_steps.time(), time_steps.next());
+            development.of_step(tissue, time_steps.time(), time_steps.next());
         });
       }
     MaterialPoints<dim> points;
@@ -462,14 +462,14 @@ namespace Morula
   void
   Simulation<dim>::divide()
   {
-    if (growth.cycle() == nullptr)
+    if (development.cycle() == nullptr)
       return;
     const TimerOutput::Scope        section(timer, "division");
     const std::vector<unsigned int> due =
-      cells_due(tissue, growth, time_steps.time());
+      cells_due(tissue, development, time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
     if (row.dividing > 0)
-      births = Morula::divide(tissue, growth, due, next_id);
+      births = Morula::divide(tissue, development, due, next_id);
   }
 
   template <int dim>

@@ -93,16 +93,13 @@ namespace Morula
     if (!reason.empty())
       give_up(reason + ".");
 
+    development.commit(tissue,
+                       growth_of_step,
+                       time_steps.time(),
+                       time_steps.next());
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
-        for (const Effect<dim> *effect : with_state)
-          effect->advance(cell, time_steps.time(), time_steps.next());
-        if (growth.present())
-          growth.commit(cell,
-                        time_steps.time(),
-                        time_steps.next(),
-                        growth_of_step.current[p]);
         // doc/theory.md (1.1)
         Tensor<2, dim> F = cells.deformations[p] * cell.F();
         if (!volumes.empty())

@@ -64,14 +64,15 @@ namespace Morula
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , material(scene.material)
     , boundary_conditions(std::move(effects.conditions), scene.nitsche)
-    , growth(std::move(effects.growth_law),
-             std::move(effects.cycle),
-             std::move(effects.division_rule))
+    , development(std::move(effects.development),
+                  effects.columns,
+                  effects.state,
+                  material,
+                  scene.random_seed)
     , fates(std::move(effects.fates))
     , forces(std::move(effects.forces))
-    , with_state(std::move(effects.with_state))
     , tissue(scene.grid,
-             effects.columns,
+             development.columns(),
              comm,
              BoundaryColumns<dim>(scene.tissue.refine_surface))
     , time_steps(scene.time)
@@ -83,9 +84,12 @@ namespace Morula
   {
     double            largest = 0.;
     const Cells<dim> &cells   = tissue.cells();
+    const auto        reader  = development.reader(time_steps.time());
     for (unsigned int p = 0; p < cells.size(); ++p)
-      largest =
-        std::max(largest, material.youngs_modulus(cells.founder_position(p)));
+      largest = std::max(largest,
+                         material.depends_on_state() ?
+                           youngs_modulus(present_cell(p, reader).lame()) :
+                           material.youngs_modulus(cells.founder_position(p)));
     typical_stiffness = Utilities::MPI::max(largest, comm);
   }
 
@@ -107,9 +111,7 @@ namespace Morula
         const auto          id  = founders.first_id + i;
         std::vector<double> row = columns.founder(X, founders.volumes[i]);
         const CellView<dim, double> cell(make_array_view(row), columns);
-        growth.initialize(id, cell);
-        for (const Effect<dim> *effect : with_state)
-          effect->begin(cell);
+        development.initialize(id, cell, scene.time.step);
         cells.add(id, X, make_array_view(row));
         births.push_back({cells.ids.back(), -1, 0, 0., X});
       }
@@ -184,13 +186,14 @@ namespace Morula
   void
   Simulation<dim>::check_resumed_cycle() const
   {
-    if (growth.cycle() == nullptr)
+    if (development.cycle() == nullptr)
       return;
     std::vector<Point<dim>> founders;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       founders.push_back(tissue.cells().founder_position(p));
-    everywhere(comm,
-               [&]() { growth.cycle()->check(founders, scene.time.step); });
+    everywhere(comm, [&]() {
+      development.cycle()->check(founders, scene.time.step);
+    });
   }
 
   template <int dim>
@@ -225,36 +228,32 @@ namespace Morula
   }
 
   template <int dim>
-  unsigned int
-  Simulation<dim>::phase(const CellView<dim, const double> &cell) const
+  PresentCell<dim>
+  Simulation<dim>::present_cell(const unsigned int     p,
+                                const CellReader<dim> &reader) const
   {
-    constexpr unsigned int does_not_proliferate = 9;
-    return growth.cycle() == nullptr ?
-             does_not_proliferate :
-             growth.cycle()->phase_number(growth.clock(cell),
-                                          cell.founder_position(),
-                                          time_steps.time());
+    const Cells<dim> &cells = tissue.cells();
+    return {cells[p], cells.id(p), cells.position(p), reader};
   }
 
   template <int dim>
   bool
-  Simulation<dim>::is_held(const CellView<dim, const double> &cell) const
+  Simulation<dim>::is_held(const PresentCell<dim> &cell) const
   {
-    return growth.cycle() != nullptr &&
-           growth.cycle()->is_held(growth.clock(cell),
-                                   cell.founder_position(),
-                                   time_steps.time(),
-                                   cell.elastic_volume_ratio());
+    const CellCycle<dim> *cycle = development.cycle();
+    return cycle != nullptr &&
+           cycle->is_held(development.clock(cell.cell()),
+                          CellAt<dim>(cell, time_steps.time()),
+                          time_steps.time(),
+                          cell.cell().elastic_volume_ratio());
   }
 
   template <int dim>
   CellQuantities
-  Simulation<dim>::quantities(const CellView<dim, const double> &cell) const
+  Simulation<dim>::quantities(const unsigned int p) const
   {
-    return cell_quantities(cell,
-                           material.material(),
-                           material.lame_at(cell.founder_position()),
-                           material.per_grown_volume());
+    const CellReader<dim> reader = development.reader(time_steps.time());
+    return present_cell(p, reader).quantities();
   }
 
   template <int dim>
@@ -264,14 +263,15 @@ namespace Morula
     StatisticsRow     state;
     TissueSums<dim>   sums;
     LongestCell<dim>  longest(scene.grid.spacing);
-    std::uint64_t     held  = 0;
-    const Cells<dim> &cells = tissue.cells();
+    std::uint64_t     held   = 0;
+    const Cells<dim> &cells  = tissue.cells();
+    const auto        reader = development.reader(time_steps.time());
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto cell = cells[p];
-        sums.add_cell(quantities(cell), cells.position(p));
+        const PresentCell<dim> cell = present_cell(p, reader);
+        sums.add_cell(cell.quantities(), cell.position());
         held += is_held(cell);
-        longest.add(cell_domain<dim>(cells.position(p), cell));
+        longest.add(cell_domain<dim>(cell.position(), cell.cell()));
       }
     for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
       sums.add_boundary_point(tissue.boundary_points().position(p));
@@ -343,18 +343,22 @@ namespace Morula
     if (files->writes_points() && files->output_due(t, last))
       {
         const TimerOutput::Scope section(timer, "output");
-        const bool               has_checkpoint =
-          growth.cycle() != nullptr && growth.cycle()->has_checkpoint();
+        const bool has_checkpoint = development.cycle() != nullptr &&
+                                    development.cycle()->has_checkpoint();
         const Cells<dim>          &cells  = tissue.cells();
         const BoundaryPoints<dim> &points = tissue.boundary_points();
         CellFields<dim> table(t, cells.size(), cells.columns(), has_checkpoint);
+        const auto      reader = development.reader(t);
         for (unsigned int p = 0; p < cells.size(); ++p)
-          table.add(cells.id(p),
-                    cells[p],
-                    cells.position(p),
-                    phase(cells[p]),
-                    is_held(cells[p]),
-                    quantities(cells[p]));
+          {
+            const PresentCell<dim> cell = present_cell(p, reader);
+            table.add(cells.id(p),
+                      cells[p],
+                      cells.position(p),
+                      reader.phase(cells[p]),
+                      is_held(cell),
+                      cell.quantities());
+          }
         SurfaceFields<dim> surface(t, points.columns());
         for (unsigned int p = 0; p < points.size(); ++p)
           surface.add(points.id(p), points[p], points.position(p));

@@ -44,7 +44,9 @@ namespace Morula
     {
       const auto     cell = tissue.cells()[i];
       PointData<dim> data{};
-      data.lame = material.lame_at(cell.founder_position());
+      data.lame = growth.lame.empty() ?
+                    material.lame_at(cell.founder_position()) :
+                    growth.lame[i];
       if (growth.present)
         {
           data.current  = elastic_state(cell, growth.current[i], material);

@@ -81,7 +81,7 @@ namespace Step2
   {
     const Lame lame = Morula::lame(
       scene.material.youngs_modulus.expression(dim).value(Point<dim>(), 0.),
-      scene.material.poissons_ratio);
+      scene.material.poissons_ratio.expression(dim).value(Point<dim>(), 0.));
 
     std::ostringstream sine, displacement, force;
     sine.precision(16);

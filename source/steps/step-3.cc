@@ -53,7 +53,7 @@ namespace Step3
     double             volume = 0., trace = 0., size = 0.;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        const CellQuantities cell = simulation.quantities(tissue.cells()[p]);
+        const CellQuantities cell = simulation.quantities(p);
         volume += cell.volume;
         trace += cell.volume * dealii::trace(cell.stress);
         size += cell.volume * cell.stress.norm();

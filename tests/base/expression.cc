@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <thread>
 
 using namespace Morula;
 
@@ -194,23 +193,6 @@ TEST(Expression, RefusesValuesThatAreNotFinite)
                      {"Section/Key", "1/X + log(t)", "finite", "5 6", "t = "});
       }
   EXPECT_THROW(value("1/0"), InputError);
-}
-
-
-TEST(Expression, CanBeEvaluatedByManyThreadsAtDifferentTimes)
-{
-  const Expression         e(key, "X + t");
-  std::vector<int>         wrong(4, 0);
-  std::vector<std::thread> threads;
-  for (unsigned int n = 0; n < wrong.size(); ++n)
-    threads.emplace_back([&e, &wrong, n] {
-      for (unsigned int i = 0; i < 20000; ++i)
-        if (e.value(Point<3>(i, 0., 0.), 1e6 * n) != i + 1e6 * n)
-          ++wrong[n];
-    });
-  for (std::thread &thread : threads)
-    thread.join();
-  EXPECT_EQ(wrong, std::vector<int>(wrong.size(), 0));
 }
 
 

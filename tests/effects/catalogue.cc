@@ -101,7 +101,7 @@ namespace
   double
   expected_volume_ratio(const Scene &scene)
   {
-    return effects_of<dim>(scene).growth_law->expected_volume_ratio(
+    return effects_of<dim>(scene).development.law->expected_volume_ratio(
       Point<dim>(), 1.);
   }
 } // namespace
@@ -117,7 +117,7 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
   EXPECT_NO_THROW(scene.check());
   EXPECT_EQ(expected_volume_ratio<2>(scene), 3.);
   EXPECT_EQ(expected_volume_ratio<3>(scene), 3.);
-  EXPECT_NE(effects_of<3>(scene).division_rule, nullptr);
+  EXPECT_NE(effects_of<3>(scene).development.rule, nullptr);
 
   // Values belong to one scene.
   EXPECT_EQ(catalogue().growth_laws.back().keys().list()[0]->text(), "2");
@@ -151,8 +151,8 @@ TEST(Catalogue, LeavesTheLibrarysOwnEffectsAlone)
                             "Proliferation/Law=cell cycle"});
   EXPECT_NO_THROW(scene.check());
   EXPECT_NEAR(expected_volume_ratio<2>(scene), 1.21, 1e-12);
-  EXPECT_EQ(effects_of<2>(scene).division_rule, nullptr);
-  EXPECT_EQ(effects_of<2>(read({})).growth_law, nullptr);
+  EXPECT_EQ(effects_of<2>(scene).development.rule, nullptr);
+  EXPECT_EQ(effects_of<2>(read({})).development.law, nullptr);
 }
 
 

@@ -4,7 +4,7 @@
 #ifndef morula_tests_effects_small_tissue_h
 #define morula_tests_effects_small_tissue_h
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/particles/tissue.h>
 
@@ -54,7 +54,7 @@ namespace Morula
   PointList<dim>
   founders(const std::vector<Point<dim>> &positions,
            const double                   V0,
-           const CellGrowth<dim>         &growth,
+           const CellDevelopment<dim>    &growth,
            const Deformation             &deformation)
   {
     const CellColumns<dim> &columns = growth.columns();
@@ -83,14 +83,12 @@ namespace Morula
   /** Moves no cell, grows them over (t0, t1], as a step does. */
   template <int dim>
   void
-  grow(Tissue<dim>           &tissue,
-       const CellGrowth<dim> &growth,
-       const double           t0,
-       const double           t1)
+  grow(Tissue<dim>                &tissue,
+       const CellDevelopment<dim> &growth,
+       const double                t0,
+       const double                t1)
   {
-    const auto of_step = growth.of_step(tissue, t0, t1);
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      growth.commit(tissue.cell(p), t0, t1, of_step.current[p]);
+    growth.commit(tissue, growth.of_step(tissue, t0, t1), t0, t1);
   }
 
   /** All cells of all ranks: position and row by id. */

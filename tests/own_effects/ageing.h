@@ -42,11 +42,12 @@ namespace Own
     {}
 
     void
-    advance(const CellView<dim, double> &cell,
-            const double                 t0,
-            const double                 t1) const override
+    advance(const CellView<dim, const double> &before,
+            const CellView<dim, double>       &after,
+            const double                       t0,
+            const double                       t1) const override
     {
-      cell.set(age, cell.get(age) + t1 - t0);
+      after.set(age, before.get(age) + t1 - t0);
     }
 
   private:

@@ -63,12 +63,14 @@ namespace Own
     }
 
     void
-    advance(const CellView<dim, double> &cell,
-            const double                 t0,
-            const double                 t1) const override
+    advance(const CellView<dim, const double> &before,
+            const CellView<dim, double>       &after,
+            const double                       t0,
+            const double                       t1) const override
     {
-      cell.set(dose,
-               cell.get(dose) + taken_up(cell.founder_position(), t1 - t0));
+      after.set(dose,
+                before.get(dose) +
+                  taken_up(before.founder_position(), t1 - t0));
     }
 
   private:

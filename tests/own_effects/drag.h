@@ -23,7 +23,7 @@ namespace Own
     ExpressionKey load{"Load",
                        "0; 0; 0",
                        "Force per initial area. Units: kPa.",
-                       Evaluated::step,
+                       Evaluated::place,
                        3};
 
     using Keys::list;

@@ -19,7 +19,7 @@ namespace Own
     ExpressionKey density{"Density",
                           "0; 0; 0",
                           "Force per initial volume. Units: kPa/um.",
-                          Evaluated::step,
+                          Evaluated::place,
                           3};
 
     bool

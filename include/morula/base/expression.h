@@ -4,11 +4,16 @@
 #ifndef morula_base_expression_h
 #define morula_base_expression_h
 
+#include <morula/base/variable.h>
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +21,27 @@ namespace Morula
 {
   using namespace dealii;
 
+  class ExpressionParser;
+
+  /** What the values of an expression must be. */
+  struct ExpressionRule
+  {
+    std::function<bool(const double)> holds;
+    /** A noun phrase. */
+    std::string allowed;
+    /** A full sentence. */
+    std::string remedy;
+  };
+
   /**
-   * A user's muParser expression in X, Y, Z (a cell's or a boundary point's
-   * initial position, µm) and t (day), with one or more components separated
-   * by ';'. In 2-D there is no Z. Functions and operators are those of
-   * deal.II's FunctionParser; `pi` is defined. Plain numbers are recognised and
-   * cost little to evaluate. Copies share the parser; evaluation is
-   * thread-safe.
+   * A user's muParser expression, with one or more components separated by ';'.
+   * Its variables are those of its vocabulary: X, Y, Z (a founder's or a
+   * boundary point's initial position, µm) and t (day), or more where it speaks
+   * of a present cell. In 2-D there is no Z and no z. Functions and operators
+   * are those of deal.II's FunctionParser; `pi` is defined. So are hill(s,
+   * half, n), ramp(s, a, b) and, where there is a noise, normal(mean,
+   * deviation). Plain numbers are recognised and cost little to evaluate.
+   * Copies share the parser; evaluation is not thread-safe.
    *
    * What muParser would take silently for something else is refused: a comma
    * outside parentheses, an assignment, a chain such as 0 < X < 5. So is
@@ -44,10 +63,17 @@ namespace Morula
       const std::string &key,
       const std::string &text,
       const unsigned int n_components   = 1,
-      const unsigned int min_components = numbers::invalid_unsigned_int);
+      const unsigned int min_components = numbers::invalid_unsigned_int,
+      const Vocabulary  &vocabulary     = place_and_time());
+
+    /** The same expression, but others for some types of cells, by the type's
+     *  number. */
+    Expression
+    with_types(const std::map<unsigned int, Expression> &of_types) const;
 
     /**
-     * The value of one component at the initial position @p X and time @p t.
+     * The value of one component at the initial position @p X and time @p t, of
+     * an expression that speaks of no more.
      * @throws InputError if the value is not finite, or if Z occurs in 2-D
      */
     template <int dim>
@@ -64,17 +90,47 @@ namespace Morula
     Tensor<1, dim>
     vector(const Point<dim> &X, const double t) const;
 
-    /** Whether all components are plain numbers. */
+    /** Sets what value() requires of cells. */
+    void
+    set_rule(const ExpressionRule &rule);
+
+    /** The value of one component with these values of the variables in used().
+     *  @throws InputError if it is not finite, or not what the rule says */
+    double
+    value(const VariableValues &values, const unsigned int component = 0) const;
+
+    /** The variables in the text, or in that of any type. */
+    const std::vector<Variable> &
+    used() const;
+
+    /** Whether the variable is in used(). */
+    bool
+    uses(const Variable variable) const;
+
+    /** Whether it speaks of more than X, Y, Z and t. */
+    bool
+    depends_on_state() const;
+
+    /** Whether all components are plain numbers, the same for all types. */
     bool
     is_constant() const;
+
+    /** The first component, if all of this text are plain numbers, whatever the
+     *  types' are. */
+    std::optional<double>
+    plain_number() const;
+
+    /** The expressions of types that have another one. */
+    const std::map<unsigned int, Expression> &
+    types() const;
 
     /** Whether t occurs in the text. */
     bool
     depends_on_time() const;
 
     /**
-     * Refuses Z in two dimensions: it would be 0 at all cells, and Z > 40 would
-     * hold nowhere without a word.
+     * Refuses Z and z in two dimensions: they would be 0 at all cells, and Z >
+     * 40 would hold nowhere without a word.
      * @throws InputError
      */
     void
@@ -89,13 +145,18 @@ namespace Morula
     text() const;
 
   private:
-    class Parser;
+    /** The value, whatever the rule says. @throws InputError */
+    double
+    evaluate(const VariableValues &values, const unsigned int component) const;
 
-    std::string                   key_;
-    std::string                   text_;
-    std::vector<double>           constants; // empty: ask the parser
-    bool                          uses_Z;
-    std::shared_ptr<const Parser> parser;
+    std::string                           key_;
+    std::string                           text_;
+    std::vector<double>                   constants; // empty: ask the parsers
+    std::vector<Variable>                 used_;
+    std::map<unsigned int, Expression>    of_types;
+    std::shared_ptr<const ExpressionRule> rule;
+    /** One for each component. */
+    std::vector<std::shared_ptr<const ExpressionParser>> parsers;
   };
 } // namespace Morula
 

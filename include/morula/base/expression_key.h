@@ -7,20 +7,39 @@
 #include <morula/base/expression.h>
 #include <morula/base/key.h>
 
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace Morula
 {
-  /** When the expression of a key is evaluated. */
+  /** When the expression of a key is evaluated, and so what it can speak of. */
   enum class Evaluated
   {
-    /** Once, for a founder or a boundary point at t = 0: without t. */
+    /** Once, for a founder or a boundary point at t = 0: X, Y, Z. */
     founder,
-    /** When something happens to a cell, at its founder's place: without t. */
+    /** In every step, at its end, for a place on the surface or in the body: X,
+     *  Y, Z, t. */
+    place,
+    /** When something happens to a cell: all variables, of that moment. */
     event,
-    /** In every step, at its end: with t. */
-    step
+    /** In every step: all variables, of its beginning. */
+    step,
+    /** In every step, for what the stress depends on: no variables that depend
+     *  on the deformation. */
+    property
   };
+
+  /** What an expression can speak of. */
+  const std::vector<Variable> &
+  variables_of(const Evaluated evaluated);
+
+  /** "at each step", ... */
+  const char *
+  description_of(const Evaluated evaluated);
 
   /** A key whose value is an Expression, which is parsed once. */
   class ExpressionKey : public AnyKey
@@ -36,13 +55,20 @@ namespace Morula
                   const Evaluated    evaluated,
                   const unsigned int n_components = 1);
 
-    /** Refuses a plain number <= 0. @param unit e.g. "kPa", for the message */
+    /** Refuses values <= 0: plain numbers at once, others where they occur.
+     *  @param unit e.g. "kPa", for the message */
     ExpressionKey &
     positive(const std::string &unit, const std::string &remedy);
 
-    /** Refuses a plain number < 0. */
+    /** Refuses values < 0. */
     ExpressionKey &
     not_negative(const std::string &unit, const std::string &remedy);
+
+    /** Refuses values for which the rule does not hold. */
+    ExpressionKey &
+    require(const std::function<bool(const double)> &rule,
+            const std::string                       &allowed,
+            const std::string                       &remedy);
 
     /** Names the symbol that --explain uses. */
     ExpressionKey &
@@ -52,9 +78,39 @@ namespace Morula
     ExpressionKey &
     operator=(const std::string &text);
 
+    /** Takes a number. */
+    ExpressionKey &
+    operator=(const double number);
+
+    /** The largest of the plain numbers that stand for any type of cell; none
+     *  if there are only expressions. */
+    std::optional<double>
+    largest_number(const unsigned int dim) const;
+
     /** When it is evaluated. */
     Evaluated
     evaluated() const;
+
+    /** Whether it is evaluated for cells again and again, so that it may speak
+     *  of their types, and be another one for some types. */
+    bool
+    is_of_cells() const;
+
+    /** Names that the text may have: the types of cells, with their numbers. */
+    void
+    set_types(const std::map<std::string, double> &types);
+
+    /** The key in the section of a type of cells, where it is empty if the type
+     *  has no value of its own. */
+    ExpressionKey
+    in_section_of_type(const std::string &section) const;
+
+    /** Takes another text for cells of a type, by its number.
+     *  @param path of the key that says so */
+    void
+    set_for_type(const unsigned int type,
+                 const std::string &path,
+                 const std::string &text);
 
     /** Whether there is no text. */
     bool
@@ -91,18 +147,17 @@ namespace Morula
     }
 
   private:
-    enum class Sign
-    {
-      any,
-      positive,
-      not_negative
-    };
+    /** Refuses what the value alone shows to be wrong. */
+    void
+    check_expression(const Expression &value, const unsigned int dim) const;
 
-    Evaluated    evaluated_;
-    unsigned int n_components;
-    std::string  text_;
-    Sign         sign = Sign::any;
-    std::string  unit_of_sign, remedy_of_sign;
+    Evaluated                     evaluated_;
+    unsigned int                  n_components;
+    std::string                   text_;
+    std::map<std::string, double> types;
+    /** Path and text, by the type's number. */
+    std::map<unsigned int, std::pair<std::string, std::string>> of_types;
+    std::optional<ExpressionRule>                               rule;
 
     // The value, parsed: made of text_ alone.
     mutable std::optional<Expression> parsed;

@@ -17,19 +17,23 @@ namespace Morula::ExpressionSyntax
   bool
   uses(const std::string &text, const std::string &name);
 
-  /**
-   * One component with a blank behind each && and ||. deal.II adds the
-   * operators & and | to muParser's own, which then reads the || of X<1||Y<1 as
-   * | and |Y.
-   */
-  std::string
-  with_blanks(const std::string &component);
+  /** A component as muParser reads it well. */
+  struct Readable
+  {
+    std::string text;
+    /** Where each of its characters, and its end, stands in the component,
+     *  counted from 0. */
+    std::vector<std::size_t> positions;
+  };
 
-  /** Where a character of with_blanks() stands in the component itself, both
-   *  counted from 0. */
-  std::size_t
-  position_without_blanks(const std::string &component,
-                          const std::size_t  position);
+  /**
+   * One component with a blank behind each && and ||: deal.II adds the
+   * operators & and | to muParser's own, which then reads the || of X<1||Y<1 as
+   * | and |Y. Without blanks between a function and its parenthesis, where
+   * muParser allows none. And with normal(noise, a, b) for normal(a, b).
+   */
+  Readable
+  readable(const std::string &component);
 
   /**
    * What muParser would accept in one component although it means something

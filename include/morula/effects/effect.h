@@ -6,6 +6,7 @@
 
 #include <morula/base/key.h>
 #include <morula/base/review.h>
+#include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/base/point.h>
@@ -45,6 +46,9 @@ namespace Morula
     details() const;
   };
 
+  template <int dim>
+  class PresentCell;
+
   /** What a scene tells to every effect whose constructor wants to know. */
   template <int dim>
   struct EffectSetting
@@ -57,6 +61,9 @@ namespace Morula
      *  own, and keeps the handles. They are saved and resumed with the others.
      */
     CellColumns<dim> &columns;
+    /** The state of cells that expressions speak of: an effect takes its
+     *  expressions of cells from here. */
+    StateColumns<dim> &state;
   };
 
   /**
@@ -97,14 +104,22 @@ namespace Morula
     begin(const CellView<dim, double> &cell) const;
 
     /**
-     * Sets the effect's columns of a cell to the end @p t1 (day) of a step; all
-     * others, and its own until it writes them, are those of @p t0. Only called
-     * where the effect has columns, once for each step that is done.
+     * Sets the effect's columns of a cell at the end @p t1 (day) of a step.
+     * Only called where the effect has columns, in every attempt of a step.
+     * @param before the cell at @p t0
+     * @param after  the same cell: what this effect does not write, others may
+     *               have written already
      */
     virtual void
-    advance(const CellView<dim, double> &cell,
-            const double                 t0,
-            const double                 t1) const;
+    advance(const CellView<dim, const double> &before,
+            const CellView<dim, double>       &after,
+            const double                       t0,
+            const double                       t1) const;
+
+    /** Refuses what the effect cannot do with a founder in its state at t = 0,
+     *  in steps of @p step days. @throws InputError */
+    virtual void
+    check_cell(const PresentCell<dim> &founder, const double step) const;
 
     /**
      * Refuses what the effect cannot do at these founders and boundary points,

@@ -31,7 +31,7 @@ namespace Morula
     explicit MaterialParameters(const Materials &materials = Materials());
 
     ExpressionKey    youngs_modulus; // kPa
-    Key<double>      poissons_ratio;
+    ExpressionKey    poissons_ratio;
     Key<std::string> energy_per;
     Key<std::string> volumetric_strain;
     Key<std::string> law;
@@ -72,11 +72,20 @@ namespace Morula
     return {E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu))};
   }
 
+  /** Young's modulus, kPa. */
+  inline double
+  youngs_modulus(const Lame &lame)
+  {
+    return lame.mu * (3. * lame.lambda + 2. * lame.mu) /
+           (lame.lambda + lame.mu);
+  }
+
   /** Refuses a Young's modulus that is not positive at @p X, initial position
-   * in µm, at t = 0. @throws InputError */
+   *  in µm, at t = 0, or a Poisson's ratio out of range, where they depend on
+   * no more than the place. @throws InputError */
   template <int dim>
   void
-  require_stiffness(const Expression &youngs_modulus, const Point<dim> &X);
+  require_elastic(const MaterialParameters &material, const Point<dim> &X);
 } // namespace Morula
 
 #endif

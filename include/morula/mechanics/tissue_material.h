@@ -9,7 +9,7 @@
 
 namespace Morula
 {
-  /** The material of the tissue, by initial position. */
+  /** The material of the tissue, by initial position or by what cells are. */
   class TissueMaterial
   {
   public:
@@ -17,7 +17,7 @@ namespace Morula
      *          that there is not */
     explicit TissueMaterial(const MaterialParameters &parameters)
       : E(parameters.youngs_modulus.expression(3))
-      , nu(parameters.poissons_ratio)
+      , nu(parameters.poissons_ratio.expression(3))
       , per_grown_volume_(parameters.per_grown_volume())
       , volumetric_form_(parameters.volumetric_form())
       , material_(parameters.chosen_material())
@@ -30,11 +30,34 @@ namespace Morula
       return *material_;
     }
 
-    /** Whether it is the same everywhere. */
+    /** Whether it is the same everywhere, at any time. */
     bool
     is_uniform() const
     {
-      return E.is_constant();
+      return E.is_constant() && nu.is_constant();
+    }
+
+    /** Whether it depends on more than the initial position: then only a
+     *  present cell tells. */
+    bool
+    depends_on_state() const
+    {
+      return E.depends_on_state() || E.depends_on_time() ||
+             nu.depends_on_state() || nu.depends_on_time();
+    }
+
+    /** E, kPa. */
+    const Expression &
+    youngs_modulus() const
+    {
+      return E;
+    }
+
+    /** ν. */
+    const Expression &
+    poissons_ratio() const
+    {
+      return nu;
     }
 
     /** Young's modulus at the initial position @p X (µm), kPa. */
@@ -50,7 +73,7 @@ namespace Morula
     Lame
     lame_at(const Point<dim> &X) const
     {
-      return lame(youngs_modulus(X), nu);
+      return lame(youngs_modulus(X), nu.value(X, 0.));
     }
 
     /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
@@ -67,8 +90,7 @@ namespace Morula
     }
 
   private:
-    Expression                      E;
-    double                          nu;
+    Expression                      E, nu;
     bool                            per_grown_volume_;
     VolumetricStrain                volumetric_form_;
     std::shared_ptr<const Material> material_;

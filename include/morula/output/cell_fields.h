@@ -4,43 +4,13 @@
 #ifndef morula_output_cell_fields_h
 #define morula_output_cell_fields_h
 
-#include <morula/mechanics/material.h>
+#include <morula/mechanics/cell_quantities.h>
 #include <morula/output/declared_fields.h>
 #include <morula/output/point_fields.h>
 #include <morula/particles/cell_state.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
 namespace Morula
 {
-  /** What the output says about a cell's mechanics. */
-  struct CellQuantities
-  {
-    /** V⁰, µm^dim. */
-    double initial_volume;
-    /** V = V⁰ det F, µm^dim. */
-    double volume;
-    /** det F_g. */
-    double growth_volume_ratio;
-    /** J_e. */
-    double elastic_volume_ratio;
-    /** Ψ of equation (14), kPa. */
-    double energy_density;
-    /**
-     * Cauchy stress σ = W τ / V, kPa, where W is V⁰ or, per grown volume,
-     * V⁰ det F_g. In 2-D with the σ_zz of plane strain.
-     */
-    SymmetricTensor<2, 3> stress;
-  };
-
-  /** Those of one cell. */
-  template <int dim>
-  CellQuantities
-  cell_quantities(const CellView<dim, const double> &cell,
-                  const Material                    &material,
-                  const Lame                        &lame,
-                  const bool                         per_grown_volume);
-
   /**
    * The table behind cells-NNNN.csv and cells-NNNN.vtu. The latter also gets
    * pressure (-tr σ / 3), the principal stresses (largest first), and the

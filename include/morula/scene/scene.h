@@ -6,6 +6,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/catalogue.h>
+#include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
@@ -159,16 +160,13 @@ namespace Morula
 
     /** What they need in a cell. */
     CellColumns<dim> columns;
+    /** Which variables their expressions use. */
+    StateColumns<dim> state;
 
-    std::unique_ptr<const GrowthLaw<dim>>         growth_law; // or null
-    std::optional<CellCycle<dim>>                 cycle;
-    std::unique_ptr<const DivisionRule<dim>>      division_rule; // or null
-    std::vector<std::unique_ptr<const Fate<dim>>> fates;
-    std::vector<NamedForce>                       forces;
+    DevelopmentEffects<dim>                              development;
+    std::vector<std::unique_ptr<const Fate<dim>>>        fates;
+    std::vector<NamedForce>                              forces;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;
-
-    /** Those that have columns of their own, in the order above. */
-    std::vector<const Effect<dim> *> with_state;
   };
 
   /** Makes all effects of a scene. @throws InputError */

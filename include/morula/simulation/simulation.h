@@ -4,7 +4,7 @@
 #ifndef morula_simulation_simulation_h
 #define morula_simulation_simulation_h
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/grid/piece_watch.h>
 #include <morula/mechanics/momentum_balance.h>
@@ -64,9 +64,10 @@ namespace Morula
     const StatisticsRow &
     last_row() const;
 
-    /** Mechanics of a cell of the present state, as in cells-NNNN.csv. */
+    /** Mechanics of cell number @p p of the present state, in the order of
+     *  Tissue::cells(), as in cells-NNNN.csv. */
     CellQuantities
-    quantities(const CellView<dim, const double> &cell) const;
+    quantities(const unsigned int p) const;
 
     /** Size of the first step's equations, for --explain. Collective. */
     unsigned int
@@ -164,12 +165,12 @@ namespace Morula
     [[noreturn]] void
     give_up_step(const std::string &reason);
 
-    /** As in cells-NNNN.csv. */
-    unsigned int
-    phase(const CellView<dim, const double> &cell) const;
+    /** Cell number p of the present state. */
+    PresentCell<dim>
+    present_cell(const unsigned int p, const CellReader<dim> &reader) const;
     /** At the size checkpoint, now. */
     bool
-    is_held(const CellView<dim, const double> &cell) const;
+    is_held(const PresentCell<dim> &cell) const;
 
     const Scene    scene;
     const MPI_Comm comm;
@@ -178,12 +179,10 @@ namespace Morula
 
     const TissueMaterial                                material;
     const BoundaryConditions<dim>                       boundary_conditions;
-    const CellGrowth<dim>                               growth;
+    const CellDevelopment<dim>                          development;
     const std::vector<std::unique_ptr<const Fate<dim>>> fates;
     const std::vector<typename SceneEffects<dim>::NamedForce> forces;
-    /** Of all effects, those that have columns of their own. */
-    const std::vector<const Effect<dim> *> with_state;
-    double                                 typical_stiffness = 0.; // kPa
+    double typical_stiffness = 0.; // kPa
 
     Tissue<dim>           tissue;
     TimeSteps             time_steps;

@@ -4,7 +4,7 @@
 #ifndef morula_simulation_step_points_h
 #define morula_simulation_step_points_h
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>

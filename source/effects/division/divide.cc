@@ -19,18 +19,16 @@ namespace Morula
     template <int dim>
     std::vector<DividingCell<dim>>
     dividing_cells(const Tissue<dim>               &tissue,
-                   const CellGrowth<dim>           &growth,
+                   const CellDevelopment<dim>      &development,
                    const std::vector<unsigned int> &due)
     {
       const Cells<dim>              &cells = tissue.cells();
       std::vector<DividingCell<dim>> list;
       for (const unsigned int p : due)
-        list.push_back(
-          {cells.id(p),
-           cells.position(p),
-           growth.cycle()->placement_axis(growth.clock(cells[p]),
-                                          cells[p].elastic_deformation()),
-           std::pow(cells.volume(p), 1. / dim)});
+        list.push_back({cells.id(p),
+                        cells.position(p),
+                        development.placement_axis(cells[p]),
+                        std::pow(cells.volume(p), 1. / dim)});
       return list;
     }
 
@@ -85,16 +83,16 @@ namespace Morula
 
   template <int dim>
   std::vector<unsigned int>
-  cells_due(const Tissue<dim>     &tissue,
-            const CellGrowth<dim> &growth,
-            const double           t)
+  cells_due(const Tissue<dim>          &tissue,
+            const CellDevelopment<dim> &development,
+            const double                t)
   {
     const Cells<dim>         &cells = tissue.cells();
     std::vector<unsigned int> due;
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (growth.cycle()->divides(growth.clock(cells[p]),
-                                  cells.founder_position(p),
-                                  t))
+      if (development.cycle()->divides(development.clock(cells[p]),
+                                       cells.founder_position(p),
+                                       t))
         due.push_back(p);
     return due;
   }
@@ -102,15 +100,15 @@ namespace Morula
   template <int dim>
   std::vector<Birth<dim>>
   divide(Tissue<dim>                     &tissue,
-         const CellGrowth<dim>           &growth,
+         const CellDevelopment<dim>      &development,
          const std::vector<unsigned int> &due,
          types::particle_index           &next_id)
   {
     const MPI_Comm          comm     = tissue.communicator();
     const Cells<dim>       &cells    = tissue.cells();
     const CellColumns<dim> &columns  = cells.columns();
-    const CellCycle<dim>   &cycle    = *growth.cycle();
-    const auto              dividing = dividing_cells(tissue, growth, due);
+    const CellCycle<dim>   &cycle    = *development.cycle();
+    const auto              dividing = dividing_cells(tissue, development, due);
     double                  longest  = 0.;
     for (const auto &cell : dividing)
       longest = std::max(longest, cell.length);
@@ -125,9 +123,9 @@ namespace Morula
 
     std::vector<DivisionEvent> events;
     for (const unsigned int p : due)
-      events.push_back(
-        {cycle.division_time(growth.clock(cells[p]), cells.founder_position(p)),
-         cells.id(p)});
+      events.push_back({cycle.division_time(development.clock(cells[p]),
+                                            cells.founder_position(p)),
+                        cells.id(p)});
     const auto first_ids = number_daughters(events, next_id, comm);
 
     PointList<dim>          daughters(columns.n_numbers());
@@ -136,12 +134,12 @@ namespace Morula
       {
         const auto         mother     = cells[due[k]];
         const unsigned int generation = mother.generation() + 1;
-        const auto [minus, plus]      = cycle.daughters(growth.clock(mother));
+        const auto [minus, plus] = cycle.daughters(development.clock(mother));
         for (unsigned int which = 0; which < 2; ++which)
           {
             std::vector<double>         row = columns.daughter(mother.row());
             const CellView<dim, double> daughter(make_array_view(row), columns);
-            growth.set_clock(daughter, which == 0 ? minus : plus);
+            development.set_clock(daughter, which == 0 ? minus : plus);
             daughter.set(columns.parent, static_cast<int>(events[k].mother));
             daughter.set(columns.generation, generation);
 
@@ -160,13 +158,13 @@ namespace Morula
     return births;
   }
 
-#define INSTANTIATE(dim)                                                   \
-  template std::vector<unsigned int> cells_due(const Tissue<dim> &,        \
-                                               const CellGrowth<dim> &,    \
-                                               const double);              \
-  template std::vector<Birth<dim>>   divide(Tissue<dim> &,                 \
-                                            const CellGrowth<dim> &,       \
-                                            const std::vector<unsigned> &, \
+#define INSTANTIATE(dim)                                                     \
+  template std::vector<unsigned int> cells_due(const Tissue<dim> &,          \
+                                               const CellDevelopment<dim> &, \
+                                               const double);                \
+  template std::vector<Birth<dim>>   divide(Tissue<dim> &,                   \
+                                            const CellDevelopment<dim> &,    \
+                                            const std::vector<unsigned> &,   \
                                             types::particle_index &);
   INSTANTIATE(2)
   INSTANTIATE(3)

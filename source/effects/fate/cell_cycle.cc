@@ -3,9 +3,11 @@
 
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Morula
 {
@@ -24,58 +26,84 @@ namespace Morula
 
 
   template <int dim>
+  CellAt<dim>::CellAt(const PresentCell<dim> &cell, const double t)
+    : X(cell.cell().founder_position())
+    , cell(&cell)
+    , t(t)
+  {}
+
+
+  template <int dim>
+  double
+  CellAt<dim>::value(const Expression &expression) const
+  {
+    return depends_on_more_than_place(expression) ? cell->value(expression, t) :
+                                                    expression.value(X, 0.);
+  }
+
+
+  template <int dim>
   CycleState<dim>
   CellCycle<dim>::founder(const types::particle_index id,
-                          const Point<dim>           &X) const
+                          const CellAt<dim>          &at) const
   {
     CycleState<dim> state;
     state.growth_pre = unit_symmetric_tensor<dim>();
     state.key        = Random::founder_key(seed, id);
 
-    if (!(where.value(X, 0.) > 0.))
+    if (!(at.value(where) > 0.))
       return state;
 
     state.phase = CyclePhase::waiting;
-    if (start_together)
+    // Types that do not proliferate have a rate of 0, and do not start.
+    if (start_together && !(has_own_hazard() && at.value(exit_rate) == 0.))
       // A wait that ends at once: the checkpoint, where there is one that a
       // cell at rest does not pass, holds.
-      return advance(state, X, 0., 0., 1.);
+      return advance(state, at, 0., 0., 1.);
 
-    state.event_time = draw_wait(state.key, X);
+    wait(state, at, 0.);
     return state;
   }
 
 
   template <int dim>
   CycleState<dim>
-  CellCycle<dim>::advance(CycleState<dim>   state,
-                          const Point<dim> &X,
-                          const double      t0,
-                          const double      t1,
-                          const double      J_e) const
+  CellCycle<dim>::advance(CycleState<dim>    state,
+                          const CellAt<dim> &at,
+                          const double       t0,
+                          const double       t1,
+                          const double       J_e) const
   {
     if (state.phase == CyclePhase::divided)
       {
         // G1 is (T/2, T]: a cycle that ends at t1 is left in the next step.
-        const double cycle_end = state.event_time + duration.value(X, 0.);
+        const double cycle_end = state.event_time + cycle_duration(state, at);
         if (cycle_end < t1 - slack)
           {
             // doc/theory.md (6.3)
             state.growth_pre =
               stretched_along(state.axis, 1., state.growth_pre);
-            state.axis       = Tensor<1, dim>();
-            state.phase      = CyclePhase::waiting;
-            state.event_time = cycle_end + draw_wait(state.key, X);
+            state.axis  = Tensor<1, dim>();
+            state.phase = CyclePhase::waiting;
+            wait(state, at, cycle_end);
+            integrate_hazard(state, at, cycle_end, t1);
           }
       }
+    else if (state.phase == CyclePhase::waiting)
+      integrate_hazard(state, at, t0, t1);
 
     // J_e is that of the step's start also for a wait that ends within the
     // step, and a wait that ended before has been held.
     if (state.phase == CyclePhase::waiting && state.event_time <= t1 + slack &&
-        passes_checkpoint(X, J_e))
+        passes_checkpoint(at, J_e))
       {
         state.phase      = CyclePhase::growing;
         state.event_time = std::max(state.event_time, t0);
+        if (has_own_duration())
+          {
+            state.duration = at.value(duration);
+            check_step(state.duration, t1 - t0);
+          }
         state.axis =
           random_axis ? Random::direction<dim>(seed, state.key) : fixed_axis;
       }
@@ -87,28 +115,28 @@ namespace Morula
   template <int dim>
   bool
   CellCycle<dim>::divides(const CycleState<dim> &state,
-                          const Point<dim>      &X,
+                          const CellAt<dim>     &at,
                           const double           t1) const
   {
     return state.phase == CyclePhase::growing &&
-           division_time(state, X) <= t1 + slack;
+           division_time(state, at) <= t1 + slack;
   }
 
 
   template <int dim>
   double
   CellCycle<dim>::division_time(const CycleState<dim> &state,
-                                const Point<dim>      &X) const
+                                const CellAt<dim>     &at) const
   {
     Assert(state.phase == CyclePhase::growing, ExcInternalError());
-    return state.event_time + 0.5 * duration.value(X, 0.);
+    return state.event_time + 0.5 * cycle_duration(state, at);
   }
 
 
   template <int dim>
   Tensor<2, dim>
   CellCycle<dim>::growth(const CycleState<dim> &state,
-                         const Point<dim>      &X,
+                         const CellAt<dim>     &at,
                          const double           t) const
   {
     if (state.phase != CyclePhase::growing &&
@@ -117,7 +145,7 @@ namespace Morula
 
     // The clamp cuts off nothing but what the slack admits.
     const double theta_minus_1 =
-      std::clamp((t - state.event_time) / duration.value(X, 0.), 0., 1.);
+      std::clamp((t - state.event_time) / cycle_duration(state, at), 0., 1.);
     return stretched_along(state.axis, theta_minus_1, state.growth_pre);
   }
 
@@ -164,19 +192,19 @@ namespace Morula
   template <int dim>
   bool
   CellCycle<dim>::is_held(const CycleState<dim> &state,
-                          const Point<dim>      &X,
+                          const CellAt<dim>     &at,
                           const double           t,
                           const double           J_e) const
   {
     return state.phase == CyclePhase::waiting &&
-           state.event_time <= t + slack && !passes_checkpoint(X, J_e);
+           state.event_time <= t + slack && !passes_checkpoint(at, J_e);
   }
 
 
   template <int dim>
   unsigned int
   CellCycle<dim>::phase_number(const CycleState<dim> &state,
-                               const Point<dim>      &X,
+                               const CellAt<dim>     &at,
                                const double           t) const
   {
     if (state.phase == CyclePhase::never)
@@ -184,7 +212,7 @@ namespace Morula
     if (state.phase == CyclePhase::waiting)
       return 0;
 
-    const double T   = duration.value(X, 0.);
+    const double T   = cycle_duration(state, at);
     const double age = t - state.event_time;
     if (std::abs(age - 0.5 * T) <= slack)
       return 3;
@@ -196,21 +224,72 @@ namespace Morula
 
   template <int dim>
   bool
-  CellCycle<dim>::passes_checkpoint(const Point<dim> &X, const double J_e) const
+  CellCycle<dim>::passes_checkpoint(const CellAt<dim> &at,
+                                    const double       J_e) const
   {
-    const double threshold = size_checkpoint.value(X, 0.);
+    const double threshold = at.value(size_checkpoint);
     return threshold == 0. || J_e > threshold;
   }
 
 
   template <int dim>
   double
-  CellCycle<dim>::draw_wait(const std::uint64_t key, const Point<dim> &X) const
+  CellCycle<dim>::cycle_duration(const CycleState<dim> &state,
+                                 const CellAt<dim>     &at) const
   {
-    return Random::exponential(seed, key, exit_rate.value(X, 0.));
+    return has_own_duration() ? state.duration : at.value(duration);
   }
 
 
+  template <int dim>
+  void
+  CellCycle<dim>::wait(CycleState<dim>   &state,
+                       const CellAt<dim> &at,
+                       const double       t) const
+  {
+    state.hazard = 0.;
+    state.event_time =
+      has_own_hazard() ?
+        std::numeric_limits<double>::infinity() :
+        t + Random::exponential(seed, state.key, at.value(exit_rate));
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::integrate_hazard(CycleState<dim>   &state,
+                                   const CellAt<dim> &at,
+                                   const double       t0,
+                                   const double       t1) const
+  {
+    if (!has_own_hazard() || std::isfinite(state.event_time))
+      return;
+    const double rate  = at.value(exit_rate);
+    const double until = Random::exponential(seed, state.key, 1.);
+    if (state.hazard + rate * (t1 - t0) >= until)
+      state.event_time = t0 + (until - state.hazard) / rate;
+    state.hazard += rate * (t1 - t0);
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::has_own_duration() const
+  {
+    return own_duration;
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::has_own_hazard() const
+  {
+    return own_hazard;
+  }
+
+
+  template class CellAt<2>;
+  template class CellAt<3>;
   template class CellCycle<2>;
   template class CellCycle<3>;
 } // namespace Morula

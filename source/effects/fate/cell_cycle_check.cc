@@ -4,6 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -59,7 +60,9 @@ namespace Morula
   {
     const Expression &duration = parameters.duration.expression(dim);
     const Expression &where    = parameters.where.expression(dim);
-    double            shortest = std::numeric_limits<double>::max();
+    if (depends_on_more_than_place(duration))
+      return;
+    double shortest = std::numeric_limits<double>::max();
     for (const Point<dim> &X : scene.founders)
       if (where.value(X, 0.) > 0.)
         shortest = std::min(shortest, duration.value(X, 0.));
@@ -80,15 +83,35 @@ namespace Morula
   CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
                             const std::uint64_t        seed,
                             const double               slack)
-    : duration(parameters.duration.expression(dim))
-    , exit_rate(parameters.exit_rate.expression(dim))
-    , size_checkpoint(parameters.size_checkpoint.expression(dim))
+    : CellCycle(parameters, seed, slack, StateColumns<dim>())
+  {}
+
+
+  template <int dim>
+  CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
+                            const std::uint64_t        seed,
+                            const double               slack,
+                            StateColumns<dim>        &&own)
+    : CellCycle(parameters, seed, slack, own)
+  {}
+
+
+  template <int dim>
+  CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
+                            const std::uint64_t        seed,
+                            const double               slack,
+                            StateColumns<dim>         &state)
+    : duration(state.use(parameters.duration))
+    , exit_rate(state.use(parameters.exit_rate))
+    , size_checkpoint(state.use(parameters.size_checkpoint))
     , where(parameters.where.expression(dim))
     , start_together(parameters.start == "together")
     , random_axis(parameters.division_axis != "fixed")
     , axis_follows_rotation(parameters.axis_follows_rotation)
     , seed(seed)
     , slack(slack)
+    , own_duration(depends_on_more_than_place(duration))
+    , own_hazard(depends_on_more_than_place(exit_rate))
   {
     if (!random_axis)
       fixed_axis = unit_fixed_axis<dim>(parameters);
@@ -103,60 +126,94 @@ namespace Morula
     double shortest = std::numeric_limits<double>::infinity();
     for (const Point<dim> &X : founders)
       if (where.value(X, 0.) > 0.)
-        {
-          const double T = duration.value(X, 0.);
-          if (!(T > 0.))
-            throw InputError(duration.key(),
-                             duration.text(),
-                             "a positive duration in days" + value_at(T, X),
-                             "Make it positive wherever cells proliferate, or "
-                             "exclude these cells by 'Where'.");
-          shortest = std::min(shortest, T);
-
-          const double rate = exit_rate.value(X, 0.);
-          if (!(rate >= 0.))
-            throw InputError(exit_rate.key(),
-                             exit_rate.text(),
-                             "a rate per day that is not negative" +
-                               value_at(rate, X),
-                             "Use 0 for cells that never leave G0.");
-
-          const double threshold = size_checkpoint.value(X, 0.);
-          if (!(threshold >= 0.))
-            throw InputError(size_checkpoint.key(),
-                             size_checkpoint.text(),
-                             "a volume ratio that is not negative" +
-                               value_at(threshold, X),
-                             "Use 0 for no checkpoint.");
-        }
-
-    if (step > 0.5 * shortest + slack)
-      {
-        std::ostringstream value, limit;
-        value << step;
-        limit << "at most half the shortest cell cycle, " << 0.5 * shortest
-              << " day";
-        throw InputError(TimeParameters::step_path,
-                         value.str(),
-                         limit.str(),
-                         "Shorten the step, or lengthen " + duration.key() +
-                           ".");
-      }
+        shortest = std::min(shortest, checked_duration(X, X, false));
+    check_step(shortest, step);
   }
 
 
-  template CellCycle<2>::CellCycle(const CellCycleParameters &,
-                                   const std::uint64_t,
-                                   const double);
-  template CellCycle<3>::CellCycle(const CellCycleParameters &,
-                                   const std::uint64_t,
-                                   const double);
-  template void
-  CellCycle<2>::check(const std::vector<Point<2>> &, const double) const;
-  template void
-  CellCycle<3>::check(const std::vector<Point<3>> &, const double) const;
-  template void
-  review_cell_cycle(const CellCycleParameters &, const Preview<2> &, Review &);
-  template void
-  review_cell_cycle(const CellCycleParameters &, const Preview<3> &, Review &);
+  template <int dim>
+  void
+  CellCycle<dim>::check_cell(const CellAt<dim> &founder,
+                             const double       step) const
+  {
+    const Point<dim> X = founder.present()->cell().founder_position();
+    if (where.value(X, 0.) > 0.)
+      check_step(checked_duration(founder, X, true), step);
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::checked_duration(const CellAt<dim> &at,
+                                   const Point<dim>  &X,
+                                   const bool         in_its_state) const
+  {
+    // What depends on its state is left to check_cell(), the rest to check().
+    const auto value = [&](const Expression &expression) {
+      return depends_on_more_than_place(expression) == in_its_state ?
+               at.value(expression) :
+               std::numeric_limits<double>::quiet_NaN();
+    };
+    const double T = value(duration);
+    if (T <= 0.)
+      throw InputError(duration.key(),
+                       duration.text(),
+                       "a positive duration in days" + value_at(T, X),
+                       "Make it positive wherever cells proliferate, or "
+                       "exclude these cells by 'Where'.");
+
+    const double rate = value(exit_rate);
+    if (rate < 0.)
+      throw InputError(exit_rate.key(),
+                       exit_rate.text(),
+                       "a rate per day that is not negative" +
+                         value_at(rate, X),
+                       "Use 0 for cells that never leave G0.");
+
+    const double threshold = value(size_checkpoint);
+    if (threshold < 0.)
+      throw InputError(size_checkpoint.key(),
+                       size_checkpoint.text(),
+                       "a volume ratio that is not negative" +
+                         value_at(threshold, X),
+                       "Use 0 for no checkpoint.");
+    return std::isnan(T) ? std::numeric_limits<double>::infinity() : T;
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::check_step(const double shortest, const double step) const
+  {
+    if (step <= 0.5 * shortest + slack)
+      return;
+    std::ostringstream value, limit;
+    value << step;
+    limit << "at most half the shortest cell cycle, " << 0.5 * shortest
+          << " day";
+    throw InputError(TimeParameters::step_path,
+                     value.str(),
+                     limit.str(),
+                     "Shorten the step, or lengthen " + duration.key() + ".");
+  }
+
+
+#define INSTANTIATE(dim)                                                      \
+  template CellCycle<dim>::CellCycle(const CellCycleParameters &,             \
+                                     const std::uint64_t,                     \
+                                     const double);                           \
+  template CellCycle<dim>::CellCycle(const CellCycleParameters &,             \
+                                     const std::uint64_t,                     \
+                                     const double,                            \
+                                     StateColumns<dim> &);                    \
+  template void CellCycle<dim>::check(const std::vector<Point<dim>> &,        \
+                                      const double) const;                    \
+  template void CellCycle<dim>::check_cell(const CellAt<dim> &, const double) \
+    const;                                                                    \
+  template void review_cell_cycle(const CellCycleParameters &,                \
+                                  const Preview<dim> &,                       \
+                                  Review &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

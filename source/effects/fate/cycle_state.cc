@@ -6,7 +6,9 @@
 namespace Morula
 {
   template <int dim>
-  CycleColumns<dim>::CycleColumns(CellColumns<dim> &columns)
+  CycleColumns<dim>::CycleColumns(CellColumns<dim> &columns,
+                                  const bool        own_duration,
+                                  const bool        own_hazard)
   {
     columns.need_growth();
     columns.need_lineage();
@@ -14,7 +16,7 @@ namespace Morula
       {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
     event_time = columns.template add<double>(
       {"event_time", "day", "end of the G0 wait, or onset of S"});
-    lineage_key = columns.template add<std::uint64_t>(
+    lineage_key_ = columns.template add<std::uint64_t>(
       {"lineage_key", "", "key of the random numbers"});
     division_axis = columns.template add<Tensor<1, dim>>(
       {"division_axis", "", "n_s of the running cycle"});
@@ -23,6 +25,20 @@ namespace Morula
        "",
        "F_g of the cycle before the onset of S",
        Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    if (own_duration)
+      duration = columns.template add<double>(
+        {"cycle_duration", "day", "T of the running cycle"});
+    if (own_hazard)
+      hazard = columns.template add<double>(
+        {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
+  }
+
+
+  template <int dim>
+  std::uint64_t
+  CycleColumns<dim>::lineage_key(const CellView<dim, const double> &cell) const
+  {
+    return cell.get(lineage_key_);
   }
 
 
@@ -32,9 +48,11 @@ namespace Morula
   {
     return {cell.get(phase),
             cell.get(event_time),
-            cell.get(lineage_key),
+            cell.get(lineage_key_),
             cell.get(division_axis),
-            cell.get(growth_pre)};
+            cell.get(growth_pre),
+            duration.exists() ? cell.get(duration) : 0.,
+            hazard.exists() ? cell.get(hazard) : 0.};
   }
 
 
@@ -45,9 +63,13 @@ namespace Morula
   {
     cell.set(phase, state.phase);
     cell.set(event_time, state.event_time);
-    cell.set(lineage_key, state.key);
+    cell.set(lineage_key_, state.key);
     cell.set(division_axis, state.axis);
     cell.set(growth_pre, state.growth_pre);
+    if (duration.exists())
+      cell.set(duration, state.duration);
+    if (hazard.exists())
+      cell.set(hazard, state.hazard);
   }
 
 

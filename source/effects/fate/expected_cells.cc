@@ -51,7 +51,12 @@ namespace Morula
   double
   Descendants<dim>::expected(const Point<dim> &X)
   {
-    if (!(where.value(X, 0.) > 0.) || checkpoint.value(X, 0.) > 0.)
+    if (!(where.value(X, 0.) > 0.))
+      return 1.;
+    for (const Expression *expression : {&duration, &rate, &checkpoint})
+      if (depends_on_more_than_place(*expression))
+        return 1.;
+    if (checkpoint.value(X, 0.) > 0.)
       return 1.;
     const std::pair<double, double> here = {duration.value(X, 0.),
                                             rate.value(X, 0.)};

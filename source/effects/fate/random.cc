@@ -173,6 +173,27 @@ namespace Morula::Random
   }
 
 
+  double
+  transition_threshold(const std::uint64_t seed,
+                       const std::uint64_t key,
+                       const unsigned int  n_changes,
+                       const unsigned int  which)
+  {
+    const std::uint32_t draw =
+      static_cast<std::uint32_t>(Draw::transition) * (1 + n_changes) + which;
+    return std::abs(
+      std::log(uniform(bits(seed, key, draw, Domain::lineage)[0])));
+  }
+
+
+  double
+  noise(const std::uint64_t seed, const std::uint64_t key)
+  {
+    const std::uint64_t random_bits = bits(seed, key, Draw::noise)[0];
+    return std::ldexp(static_cast<double>(random_bits >> 11) + 0.5, -53);
+  }
+
+
   template <int dim>
   Tensor<1, dim>
   direction(const std::uint64_t seed, const std::uint64_t key)

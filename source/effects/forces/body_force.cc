@@ -14,7 +14,7 @@ namespace Morula
                     "0; 0; 0",
                     "Force per initial volume: functions of X, Y, Z, t "
                     "separated by ';'. Units: kPa/um.",
-                    Evaluated::step,
+                    Evaluated::place,
                     3)
   {}
 

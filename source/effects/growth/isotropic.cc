@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/growth/isotropic.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -38,22 +39,37 @@ namespace Morula
 
 
   template <int dim>
+  IsotropicGrowth<dim>::IsotropicGrowth(
+    const IsotropicGrowthParameters &parameters,
+    const EffectSetting<dim>        &setting)
+    : theta(setting.state.use(parameters.stretch))
+  {}
+
+
+  template <int dim>
+  double
+  IsotropicGrowth<dim>::checked(const double      value,
+                                const Point<dim> &X,
+                                const double      t) const
+  {
+    if (value > 0.)
+      return value;
+    std::ostringstream place;
+    place << "It is " << value << " at the cell from (" << X
+          << ") um, t = " << t
+          << " day. Choose a stretch that stays positive until End time.";
+    throw InputError(theta.key(),
+                     theta.text(),
+                     "a value > 0 (a ratio of lengths)",
+                     place.str());
+  }
+
+
+  template <int dim>
   double
   IsotropicGrowth<dim>::stretch(const Point<dim> &X, const double t) const
   {
-    const double value = theta.value(X, t);
-    if (value <= 0.)
-      {
-        std::ostringstream place;
-        place << "It is " << value << " at the cell from (" << X
-              << ") um, t = " << t
-              << " day. Choose a stretch that stays positive until End time.";
-        throw InputError(theta.key(),
-                         theta.text(),
-                         "a value > 0 (a ratio of lengths)",
-                         place.str());
-      }
-    return value;
+    return checked(theta.value(X, t), X, t);
   }
 
 
@@ -63,8 +79,14 @@ namespace Morula
                                const double /*t0*/,
                                const double t1) const
   {
-    return stretch(cell.founder_position, t1) *
-           Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    const Tensor<2, dim> I(unit_symmetric_tensor<dim>());
+    const Point<dim>    &X = cell.founder_position;
+    if (!theta.depends_on_state())
+      return stretch(X, t1) * I;
+    // Before there are cells, nobody knows.
+    return cell.present == nullptr ?
+             I :
+             checked(cell.present->value(theta, t1), X, t1) * I;
   }
 
 
@@ -73,7 +95,7 @@ namespace Morula
   IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
                                               const double      t) const
   {
-    return std::pow(stretch(X, t), dim);
+    return theta.depends_on_state() ? 1. : std::pow(stretch(X, t), dim);
   }
 
 

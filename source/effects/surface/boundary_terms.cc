@@ -60,25 +60,39 @@ namespace Morula
       return points;
     }
 
-    /** F_g at t and t + dt. */
+    /** F_g at t and t + dt, and λ and μ. */
     template <int dim>
-    using BothGrowths = std::tuple<Tensor<2, dim>, Tensor<2, dim>>;
+    using CellState =
+      std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
 
-    /** Of the cells nearest to points. */
+    /** Of the cells nearest to points. Cells that do not grow, or have a
+     * stiffness by their place, need not tell. */
     template <int dim>
-    std::vector<BothGrowths<dim>>
-    nearest_growth(const std::vector<Point<dim>> &queries,
+    std::vector<CellState<dim>>
+    nearest_states(const std::vector<Point<dim>> &queries,
                    const Tissue<dim>             &tissue,
                    const GrowthOfStep<dim>       &growth)
     {
+      const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
       return nearest_values(
         queries,
         tissue.cells(),
         [&](const unsigned int p) {
-          return BothGrowths<dim>(growth.previous[p], growth.current[p]);
+          const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
+          return CellState<dim>(growth.present ? growth.previous[p] : identity,
+                                growth.present ? growth.current[p] : identity,
+                                lame.lambda,
+                                lame.mu);
         },
         Ties::mean,
         tissue.grid());
+    }
+
+    template <int dim>
+    Lame
+    lame_of(const CellState<dim> &state)
+    {
+      return {std::get<2>(state), std::get<3>(state)};
     }
 
     /** State of a boundary point with its F and a cell's F_g. */
@@ -123,10 +137,10 @@ namespace Morula
     std::vector<Point<dim>> queries;
     for (const unsigned int p : groups.points)
       queries.push_back(store.position(p));
-    const std::vector<double>     attached = attachment(queries, tissue);
-    std::vector<BothGrowths<dim>> nearest;
-    if (growth.present)
-      nearest = nearest_growth(queries, tissue, growth);
+    const std::vector<double>   attached = attachment(queries, tissue);
+    std::vector<CellState<dim>> nearest;
+    if (growth.present || !growth.lame.empty())
+      nearest = nearest_states(queries, tissue, growth);
 
     std::vector<typename Nitsche<dim>::Condition> list;
     std::vector<ElasticState<dim>>                current, previous;
@@ -144,8 +158,11 @@ namespace Morula
         condition.position_scale = std::max(x.norm(), target.norm());
         condition.area           = area.norm();
         condition.normal         = area / area.norm();
-        condition.lame           = material.lame_at(X);
         condition.trust          = attached[k];
+        condition.lame =
+          growth.lame.empty() ? material.lame_at(X) : lame_of(nearest[k]);
+        const double E = growth.lame.empty() ? material.youngs_modulus(X) :
+                                               youngs_modulus(condition.lame);
 
         const Tensor<2, dim> F = point.F();
         if (!growth.present)
@@ -154,13 +171,14 @@ namespace Morula
                                   material.per_grown_volume()));
         else
           {
-            const auto &[at_t, at_end] = nearest[k];
-            previous.push_back(state(F, at_t, material.per_grown_volume()));
-            current.push_back(state(F, at_end, material.per_grown_volume()));
+            previous.push_back(
+              state(F, std::get<0>(nearest[k]), material.per_grown_volume()));
+            current.push_back(
+              state(F, std::get<1>(nearest[k]), material.per_grown_volume()));
           }
         // Without trust there is no traction that the penalty must hold down.
         condition.penalty = conditions.nitsche().penalty(
-          material.youngs_modulus(X),
+          E,
           condition.lame,
           condition.trust > 0. ?
             stiffness(current.back(), condition, material) :

@@ -14,7 +14,7 @@ namespace Morula
                    "0; 0; 0",
                    "Displacement of the fixed points: functions of "
                    "X, Y, Z, t separated by ';'. Units: um.",
-                   Evaluated::step,
+                   Evaluated::place,
                    3)
   {}
 

@@ -52,7 +52,8 @@ namespace Morula
                             const bool                all_is_fixed,
                             Review                   &review) const
   {
-    const double least = NitschePenalty::least(material.poissons_ratio);
+    const double least = NitschePenalty::least(
+      material.poissons_ratio.largest_number(3).value_or(0.));
     if (material.volumetric_form() == VolumetricStrain::pointwise &&
         form == "symmetric" && review.has_set(penalty) && penalty < least)
       review.warn(penalty.path(),

@@ -16,7 +16,7 @@ namespace Morula
                "0",
                "Pressure that follows the surface, a function of "
                "X, Y, Z, t; positive pushes inward. Units: kPa.",
-               Evaluated::step)
+               Evaluated::place)
   {}
 
 

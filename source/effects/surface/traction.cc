@@ -16,7 +16,7 @@ namespace Morula
                "0; 0; 0",
                "Traction per initial area (dead load): functions of "
                "X, Y, Z, t separated by ';'. Units: kPa.",
-               Evaluated::step,
+               Evaluated::place,
                3)
   {}
 

@@ -29,12 +29,12 @@ namespace
     using Cells = std::map<types::particle_index,
                            std::pair<Point<dim>, std::vector<double>>>;
 
-    const CellGrowth<dim>   growth;
-    Tissue<dim>             tissue;
-    Cells                   before, after;
-    types::particle_index   next_id;
-    std::vector<Birth<dim>> births;
-    std::size_t             n_due;
+    const CellDevelopment<dim> growth;
+    Tissue<dim>                tissue;
+    Cells                      before, after;
+    types::particle_index      next_id;
+    std::vector<Birth<dim>>    births;
+    std::size_t                n_due;
 
     Division(const std::string &start, const double t, const MPI_Comm comm)
       : growth({}, cell_cycle<dim>(start))
@@ -116,12 +116,12 @@ namespace
   void
   check_inheritance()
   {
-    const Division<dim>     division("waiting", 0.9, MPI_COMM_WORLD);
-    const CellGrowth<dim>  &growth = division.growth;
-    const std::size_t       n      = division.before.size();
-    std::set<int>           mothers;
-    std::set<std::uint64_t> keys;
-    double                  last_time = 0.;
+    const Division<dim>         division("waiting", 0.9, MPI_COMM_WORLD);
+    const CellDevelopment<dim> &growth = division.growth;
+    const std::size_t           n      = division.before.size();
+    std::set<int>               mothers;
+    std::set<std::uint64_t>     keys;
+    double                      last_time = 0.;
     for (const auto &[id, cell] : division.after)
       {
         const auto view  = division.view(cell);
@@ -228,7 +228,7 @@ TEST(Divide,
 // A single cell has no walls: equation (20) of the paper.
 TEST(Divide, ASingleCell)
 {
-  const CellGrowth<3> growth({}, cell_cycle<3>("together"));
+  const CellDevelopment<3> growth({}, cell_cycle<3>("together"));
   Tissue<3>  tissue(GridParameters(), growth.columns(), MPI_COMM_WORLD);
   const auto unstrained = [](const Point<3> &) { return unit_tensor<3>(); };
   tissue.place(only_first_rank(

@@ -76,12 +76,12 @@ namespace
   struct Problem
   {
     const BoundaryConditions<dim>     conditions;
-    const CellGrowth<dim>             growth;
+    const CellDevelopment<dim>        growth;
     Tissue<dim>                       tissue;
     std::unique_ptr<SplineSpace<dim>> space;
 
     Problem(const Given          &parameters,
-            CellGrowth<dim>       growth_of_cells,
+            CellDevelopment<dim>  growth_of_cells,
             const Tensor<1, dim> &moved = Tensor<1, dim>(),
             const Tensor<2, dim> &F     = unit_tensor<dim>())
       : conditions(conditions_of<dim>(parameters))
@@ -159,7 +159,7 @@ namespace
     parameters.fixed.where        = at_top;
     parameters.fixed.displacement = "2*t; -t; 0";
     parameters.nitsche.penalty    = 1e3;
-    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    const Problem<dim> problem(parameters, CellDevelopment<dim>({}, {}));
     Tensor<1, dim>     U;
     U[0] = 1.;
     U[1] = -0.5;
@@ -200,7 +200,7 @@ namespace
     Tensor<1, dim> moved;
     moved[0] = 1e-3;
     const Problem<dim> problem(parameters,
-                               CellGrowth<dim>({}, {}),
+                               CellDevelopment<dim>({}, {}),
                                moved,
                                squeeze * unit_tensor<dim>());
     const double       a_t = area * std::pow(squeeze, dim - 1);
@@ -228,7 +228,7 @@ namespace
     Tensor<1, dim> moved;
     moved[0] = 1e-3;
     const Problem<dim> problem(parameters,
-                               CellGrowth<dim>({}, {}),
+                               CellDevelopment<dim>({}, {}),
                                moved,
                                1.01 * unit_tensor<dim>());
     const double       a_t      = area * std::pow(1.01, dim - 1);
@@ -253,7 +253,7 @@ namespace
     Tensor<1, dim> moved;
     moved[0] = 0.7;
     moved[1] = -0.4;
-    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}), moved);
+    const Problem<dim> problem(parameters, CellDevelopment<dim>({}, {}), moved);
     Tensor<1, dim>     gap; // fixed: moved - displacement; slip: along y
     gap[0]          = -0.3;
     gap[1]          = -2.4 + moved[1];
@@ -279,11 +279,11 @@ namespace
     Tensor<2, dim> F = unit_tensor<dim>();
     F[0][0]          = 1.1;
     F[0][1]          = 0.2;
-    const Problem<dim> problem(parameters,
-                               CellGrowth<dim>(isotropic_growth<dim>(stretch),
-                                               {}),
-                               Tensor<1, dim>(),
-                               F);
+    const Problem<dim> problem(
+      parameters,
+      CellDevelopment<dim>(isotropic_growth<dim>(stretch), {}),
+      Tensor<1, dim>(),
+      F);
     for (const bool grown : {false, true})
       for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
         {
@@ -337,7 +337,7 @@ namespace
     F[0][1]                = 0.2;
     const Problem<dim> problem(
       parameters,
-      CellGrowth<dim>(std::make_unique<ShearedGrowth<dim>>(), {}),
+      CellDevelopment<dim>(std::make_unique<ShearedGrowth<dim>>(), {}),
       Tensor<1, dim>(),
       F);
     for (const GrowthAt at : {GrowthAt::previous, GrowthAt::current})
@@ -380,7 +380,7 @@ namespace
         Tensor<1, dim> moved;
         moved[0] = distance;
         const Problem<dim> problem(parameters,
-                                   CellGrowth<dim>({}, {}),
+                                   CellDevelopment<dim>({}, {}),
                                    moved,
                                    F);
         Point<dim>         x;
@@ -407,7 +407,7 @@ namespace
     F[1][1]                      = 1.5;
     F[0][1]                      = 0.3;
     const Problem<dim> problem(parameters,
-                               CellGrowth<dim>({}, {}),
+                               CellDevelopment<dim>({}, {}),
                                Tensor<1, dim>(),
                                F);
     const auto         traction =
@@ -435,7 +435,7 @@ namespace
     parameters.fixed.where    = at_top;
     parameters.slip.where     = "Y > 80 || Y < -80";
     parameters.traction.where = "X < -80";
-    const Problem<dim> problem(parameters, CellGrowth<dim>({}, {}));
+    const Problem<dim> problem(parameters, CellDevelopment<dim>({}, {}));
     const auto         list =
       supports(problem.conditions, problem.tissue, *problem.space);
     EXPECT_EQ(Utilities::MPI::sum<unsigned int>(list.size(), MPI_COMM_WORLD),

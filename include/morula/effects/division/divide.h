@@ -4,7 +4,7 @@
 #ifndef morula_effects_division_divide_h
 #define morula_effects_division_divide_h
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 #include <morula/particles/birth.h>
 #include <morula/particles/tissue.h>
 
@@ -16,9 +16,9 @@ namespace Morula
    *  divide at or before @p t (day). Only with a cell cycle. */
   template <int dim>
   std::vector<unsigned int>
-  cells_due(const Tissue<dim>     &tissue,
-            const CellGrowth<dim> &growth,
-            const double           t);
+  cells_due(const Tissue<dim>          &tissue,
+            const CellDevelopment<dim> &development,
+            const double                t);
 
   /**
    * Divides each of these cells into two. The daughters stand where
@@ -31,7 +31,7 @@ namespace Morula
   template <int dim>
   std::vector<Birth<dim>>
   divide(Tissue<dim>                     &tissue,
-         const CellGrowth<dim>           &growth,
+         const CellDevelopment<dim>      &development,
          const std::vector<unsigned int> &due,
          types::particle_index           &next_id);
 } // namespace Morula

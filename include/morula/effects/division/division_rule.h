@@ -24,6 +24,18 @@ namespace Morula
     /** Unit vector, uniformly distributed and the cell's own: what Division
      *  axis = random would take. */
     Tensor<1, dim> random;
+    /** Its state at the beginning of the step; null before there are cells. */
+    const PresentCell<dim> *present = nullptr;
+  };
+
+  /** What the direction of an axis is given in. */
+  enum class AxisFrame
+  {
+    /** The body as it was at t = 0: n_s itself. */
+    reference,
+    /** The present one: n_s is what the deformation will carry to it, and the
+     *  daughters are placed along the direction that n_s is carried to. */
+    present
   };
 
   /**
@@ -39,6 +51,10 @@ namespace Morula
      *  with the same cell where a step is halved. */
     virtual Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const = 0;
+
+    /** What axis() is given in. */
+    virtual AxisFrame
+    frame() const;
 
     /** Asks for the axes of the founders. */
     void

@@ -6,6 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
+#include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/particles/property_pool.h>
@@ -18,6 +19,9 @@
 namespace Morula
 {
   using namespace dealii;
+
+  template <int dim>
+  class PresentCell;
 
   /** Section "Proliferation/Cell cycle". */
   struct CellCycleParameters : public Keys
@@ -64,6 +68,49 @@ namespace Morula
     std::uint64_t  key        = 0;  // of the random numbers, from the lineage
     Tensor<1, dim> axis;            // n_s of the running cycle
     Tensor<2, dim> growth_pre;      // F_g,cycle before the onset of S
+    /** T of the running cycle, day, if cells store it; else 0. */
+    double duration = 0.;
+    /** The rate that cells leave G0 with, integrated since the wait began, if
+     *  cells store it. */
+    double hazard = 0.;
+  };
+
+  /** Whether only a present cell tells the value. */
+  inline bool
+  depends_on_more_than_place(const Expression &expression)
+  {
+    return expression.depends_on_state() || expression.depends_on_time();
+  }
+
+  /** Where the expressions of a cell cycle are evaluated: at a founder's place,
+   *  or for a present cell. */
+  template <int dim>
+  class CellAt
+  {
+  public:
+    /** At a founder's place, for expressions that speak of no more. */
+    CellAt(const Point<dim> &X)
+      : X(X)
+    {}
+
+    /** For a cell at time @p t (day). Both must outlive this. */
+    CellAt(const PresentCell<dim> &cell, const double t);
+
+    /** The value of an expression. @throws InputError */
+    double
+    value(const Expression &expression) const;
+
+    /** The present cell, or null. */
+    const PresentCell<dim> *
+    present() const
+    {
+      return cell;
+    }
+
+  private:
+    Point<dim>              X;
+    const PresentCell<dim> *cell = nullptr;
+    double                  t    = 0.;
   };
 
   /** Where a cell's clock stands: the columns that the cell cycle needs. */
@@ -71,8 +118,18 @@ namespace Morula
   class CycleColumns
   {
   public:
-    /** Declares them, with all that a growing and dividing cell needs. */
-    explicit CycleColumns(CellColumns<dim> &columns);
+    /**
+     * Declares them, with all that a growing and dividing cell needs.
+     * @param own_duration whether every cell has a T of its own
+     * @param own_hazard   whether the rate of leaving G0 changes
+     */
+    explicit CycleColumns(CellColumns<dim> &columns,
+                          const bool        own_duration = false,
+                          const bool        own_hazard   = false);
+
+    /** The key of the cell's random numbers. */
+    std::uint64_t
+    lineage_key(const CellView<dim, const double> &cell) const;
 
     /** A cell's clock. */
     CycleState<dim>
@@ -86,9 +143,11 @@ namespace Morula
   private:
     Column<CyclePhase>     phase;
     Column<double>         event_time;
-    Column<std::uint64_t>  lineage_key;
+    Column<std::uint64_t>  lineage_key_;
     Column<Tensor<1, dim>> division_axis;
     Column<Tensor<2, dim>> growth_pre;
+    Column<double>         duration;
+    Column<double>         hazard;
   };
 
   /**
@@ -103,8 +162,12 @@ namespace Morula
    * As J_th goes to zero this becomes no checkpoint. Each cell draws at most
    * one wait and one axis, from its own key.
    *
-   * Expressions are evaluated at the founder's initial position @p X, passed
-   * to every call, at t = 0.
+   * Expressions are evaluated at the founder's initial position, or for the
+   * present cell if they depend on its state: @p at, passed to every call. T is
+   * that of the onset of S. A rate of leaving G0 that depends on the state is
+   * integrated over the steps; the cell leaves when the integral reaches a
+   * number that is exponentially distributed with mean 1: the same draw as that
+   * of a constant rate.
    */
   template <int dim>
   class CellCycle
@@ -118,6 +181,26 @@ namespace Morula
     CellCycle(const CellCycleParameters &parameters,
               const std::uint64_t        seed,
               const double               slack);
+
+    /** The same with the scene's columns of state, for expressions that depend
+     *  on it. */
+    CellCycle(const CellCycleParameters &parameters,
+              const std::uint64_t        seed,
+              const double               slack,
+              StateColumns<dim>         &state);
+
+    /** Whether every cell has a T of its own, since it depends on its state. */
+    bool
+    has_own_duration() const;
+
+    /** Whether the rate of leaving G0 depends on the cell's state. */
+    bool
+    has_own_hazard() const;
+
+    /** Refuses numbers of a founder in its state at t = 0: see check().
+     *  @throws InputError */
+    void
+    check_cell(const CellAt<dim> &founder, const double step) const;
 
     /**
      * Refuses a time step too long for the cycle (above T/2 for the smallest T
@@ -134,7 +217,7 @@ namespace Morula
      * cell that does not pass the size checkpoint at rest (J_th >= 1) is held.
      */
     CycleState<dim>
-    founder(const types::particle_index id, const Point<dim> &X) const;
+    founder(const types::particle_index id, const CellAt<dim> &at) const;
 
     /**
      * The state at @p t1 of a cell that is in @p state at @p t0 and does not
@@ -143,21 +226,21 @@ namespace Morula
      * @param J_e elastic volume ratio at @p t0, for the size checkpoint
      */
     CycleState<dim>
-    advance(CycleState<dim>   state,
-            const Point<dim> &X,
-            const double      t0,
-            const double      t1,
-            const double      J_e) const;
+    advance(CycleState<dim>    state,
+            const CellAt<dim> &at,
+            const double       t0,
+            const double       t1,
+            const double       J_e) const;
 
     /** Whether a cell in (advanced) @p state divides at or before @p t1. */
     bool
     divides(const CycleState<dim> &state,
-            const Point<dim>      &X,
+            const CellAt<dim>     &at,
             const double           t1) const;
 
     /** Exact time of the division of a `growing` cell, day. */
     double
-    division_time(const CycleState<dim> &state, const Point<dim> &X) const;
+    division_time(const CycleState<dim> &state, const CellAt<dim> &at) const;
 
     /**
      * F_g of the cycle at @p t, doc/theory.md (6.2), equation (15) of the
@@ -166,7 +249,7 @@ namespace Morula
      */
     Tensor<2, dim>
     growth(const CycleState<dim> &state,
-           const Point<dim>      &X,
+           const CellAt<dim>     &at,
            const double           t) const;
 
     /** The daughters' states, -n_s daughter first. */
@@ -188,7 +271,7 @@ namespace Morula
     /** Whether the cell waits at @p t only because of the size checkpoint. */
     bool
     is_held(const CycleState<dim> &state,
-            const Point<dim>      &X,
+            const CellAt<dim>     &at,
             const double           t,
             const double           J_e) const;
 
@@ -198,16 +281,44 @@ namespace Morula
      */
     unsigned int
     phase_number(const CycleState<dim> &state,
-                 const Point<dim>      &X,
+                 const CellAt<dim>     &at,
                  const double           t) const;
 
   private:
     /** Whether J_e is above the threshold, or there is none. */
     bool
-    passes_checkpoint(const Point<dim> &X, const double J_e) const;
+    passes_checkpoint(const CellAt<dim> &at, const double J_e) const;
 
+    /** T of the cell's cycle, day. */
     double
-    draw_wait(const std::uint64_t key, const Point<dim> &X) const;
+    cycle_duration(const CycleState<dim> &state, const CellAt<dim> &at) const;
+
+    /** T of a cell from @p X; refuses its numbers that depend on its state, or
+     *  the others. */
+    double
+    checked_duration(const CellAt<dim> &at,
+                     const Point<dim>  &X,
+                     const bool         in_its_state) const;
+
+    /** Refuses steps in which a cell could divide twice. */
+    void
+    check_step(const double shortest, const double step) const;
+
+    /** Begins to wait at @p t, day. */
+    void
+    wait(CycleState<dim> &state, const CellAt<dim> &at, const double t) const;
+
+    /** Ends the wait in (t0, t1], if the hazard says so. */
+    void
+    integrate_hazard(CycleState<dim>   &state,
+                     const CellAt<dim> &at,
+                     const double       t0,
+                     const double       t1) const;
+
+    CellCycle(const CellCycleParameters &parameters,
+              const std::uint64_t        seed,
+              const double               slack,
+              StateColumns<dim>        &&own);
 
     Expression     duration, exit_rate, size_checkpoint, where;
     bool           start_together;
@@ -216,6 +327,7 @@ namespace Morula
     bool           axis_follows_rotation;
     std::uint64_t  seed;
     double         slack;
+    bool           own_duration, own_hazard;
   };
 } // namespace Morula
 

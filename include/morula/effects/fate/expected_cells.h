@@ -35,7 +35,8 @@ namespace Morula
 
     /**
      * The number for a founder at @p X, the founder included. With a size
-     * checkpoint, whose effect only the run can tell, 1: a lower bound.
+     * checkpoint, or numbers that depend on the cells' state, 1: a lower bound,
+     * as only the run can tell.
      * @throws InputError where an expression has no value
      */
     double

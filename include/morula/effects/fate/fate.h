@@ -18,9 +18,10 @@ namespace Morula
   {
   public:
     void
-    advance(const CellView<dim, double> &cell,
-            const double                 t0,
-            const double                 t1) const override = 0;
+    advance(const CellView<dim, const double> &before,
+            const CellView<dim, double>       &after,
+            const double                       t0,
+            const double                       t1) const override = 0;
   };
 } // namespace Morula
 

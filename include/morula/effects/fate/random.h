@@ -22,8 +22,11 @@ namespace Morula::Random
     axis,
     first_daughter,
     second_daughter,
-    axis_spread,     // the angle
-    axis_spread_side // which way
+    axis_spread,      // the angle
+    axis_spread_side, // which way
+    noise,
+    // and from here on, one for each entry into a type and each way out of it
+    transition = 0x1000
   };
 
   /** Key of founder number @p id. */
@@ -41,6 +44,19 @@ namespace Morula::Random
   exponential(const std::uint64_t seed,
               const std::uint64_t key,
               const double        rate);
+
+  /** Exponentially distributed with mean 1: when the hazard of transition
+   * number
+   *  @p which of the cell's type ends it, after @p n_changes of type. */
+  double
+  transition_threshold(const std::uint64_t seed,
+                       const std::uint64_t key,
+                       const unsigned int  n_changes,
+                       const unsigned int  which);
+
+  /** Uniform in (0, 1), the cell's own. */
+  double
+  noise(const std::uint64_t seed, const std::uint64_t key);
 
   /** Uniform on the unit sphere (2-D: circle). */
   template <int dim>

@@ -34,6 +34,11 @@ namespace Morula
     /** @throws InputError for an expression that cannot be parsed */
     explicit IsotropicGrowth(const Parameters &parameters);
 
+    /** With a stretch that may depend on the cells' state. @throws InputError
+     */
+    IsotropicGrowth(const Parameters         &parameters,
+                    const EffectSetting<dim> &setting);
+
     /**
      * The growth stretch θ at time @p t.
      * @throws InputError if it is not positive
@@ -50,6 +55,10 @@ namespace Morula
     expected_volume_ratio(const Point<dim> &X, const double t) const override;
 
   private:
+    /** Refuses a stretch that is not positive. */
+    double
+    checked(const double value, const Point<dim> &X, const double t) const;
+
     Expression theta;
   };
 } // namespace Morula

@@ -4,7 +4,7 @@
 #ifndef morula_effects_surface_boundary_terms_h
 #define morula_effects_surface_boundary_terms_h
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/held_motion.h>
 #include <morula/mechanics/material_points.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/growth/cell_growth.h>
+#include <morula/effects/development.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace
   template <int dim>
   struct Ball : public Tissue<dim>
   {
-    Ball(const CellGrowth<dim> &growth, const bool strained)
+    Ball(const CellDevelopment<dim> &growth, const bool strained)
       : Tissue<dim>(GridParameters(), growth.columns(), MPI_COMM_SELF)
     {
       this->place(founders(ball_points(Point<dim>(), 60., 20.),
@@ -35,8 +35,8 @@ namespace
   void
   check_isotropic()
   {
-    const CellGrowth<dim> growth(isotropic_growth<dim>("1 + t*(1 + X/100)"),
-                                 {});
+    const CellDevelopment<dim> growth(
+      isotropic_growth<dim>("1 + t*(1 + X/100)"), {});
     EXPECT_TRUE(growth.present());
     EXPECT_EQ(growth.cycle(), nullptr);
     Ball<dim>  tissue(growth, true);
@@ -73,9 +73,9 @@ namespace
   void
   check_cycle()
   {
-    const CellGrowth<dim> growth({}, cell_cycle<dim>("together"));
-    Ball<dim>             tissue(growth, false);
-    const Cells<dim>     &cells = tissue.cells();
+    const CellDevelopment<dim> growth({}, cell_cycle<dim>("together"));
+    Ball<dim>                  tissue(growth, false);
+    const Cells<dim>          &cells = tissue.cells();
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const auto cell = cells[p];
@@ -101,12 +101,12 @@ namespace
   void
   check_both()
   {
-    const CellGrowth<dim> both(isotropic_growth<dim>("1 + t"),
-                               cell_cycle<dim>("waiting"));
-    const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
-    Ball<dim>             tissue(both, false);
-    Ball<dim>             other(cycle, false);
-    unsigned int          n_growing = 0;
+    const CellDevelopment<dim> both(isotropic_growth<dim>("1 + t"),
+                                    cell_cycle<dim>("waiting"));
+    const CellDevelopment<dim> cycle({}, cell_cycle<dim>("waiting"));
+    Ball<dim>                  tissue(both, false);
+    Ball<dim>                  other(cycle, false);
+    unsigned int               n_growing = 0;
     for (const double t : {0., 0.2, 0.4, 0.6})
       {
         grow(tissue, both, t, t + 0.2);
@@ -148,12 +148,12 @@ namespace
   void
   check_law_with_memory()
   {
-    const CellGrowth<dim> both(std::make_unique<const Compounding<dim>>(),
-                               cell_cycle<dim>("waiting"));
-    const CellGrowth<dim> cycle({}, cell_cycle<dim>("waiting"));
-    Ball<dim>             tissue(both, false);
-    Ball<dim>             other(cycle, false);
-    double                factor = 1.;
+    const CellDevelopment<dim> both(std::make_unique<const Compounding<dim>>(),
+                                    cell_cycle<dim>("waiting"));
+    const CellDevelopment<dim> cycle({}, cell_cycle<dim>("waiting"));
+    Ball<dim>                  tissue(both, false);
+    Ball<dim>                  other(cycle, false);
+    double                     factor = 1.;
     for (const double t : {0., 0.2, 0.4, 0.6})
       {
         grow(tissue, both, t, t + 0.2);
@@ -188,11 +188,10 @@ namespace
   {
     for (const std::string start : {"together", "waiting"})
       {
-        const CellGrowth<dim> growth({},
-                                     cell_cycle<dim>(start),
-                                     std::make_unique<const AlongXOrY<dim>>());
-        Ball<dim>             tissue(growth, false);
-        unsigned int          n_growing = 0;
+        const CellDevelopment<dim> growth(
+          {}, cell_cycle<dim>(start), std::make_unique<const AlongXOrY<dim>>());
+        Ball<dim>    tissue(growth, false);
+        unsigned int n_growing = 0;
         for (const double t : {0., 0.2, 0.4})
           {
             grow(tissue, growth, t, t + 0.2);
@@ -216,9 +215,9 @@ namespace
   void
   check_checkpoint()
   {
-    const CellGrowth<dim> growth({}, cell_cycle<dim>("together", "1.05"));
-    Ball<dim>             tissue(growth, true);
-    std::vector<double>   J;
+    const CellDevelopment<dim> growth({}, cell_cycle<dim>("together", "1.05"));
+    Ball<dim>                  tissue(growth, true);
+    std::vector<double>        J;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       J.push_back(determinant(tissue.cells().F(p)));
     const auto n_large = std::count_if(J.begin(), J.end(), [](const double j) {
@@ -237,7 +236,7 @@ namespace
   void
   check_none()
   {
-    const CellGrowth<dim> growth({}, {});
+    const CellDevelopment<dim> growth({}, {});
     EXPECT_FALSE(growth.present());
     Ball<dim>  tissue(growth, true);
     const auto before = all_cells(tissue);

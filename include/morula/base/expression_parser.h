@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_expression_parser_h
+#define morula_base_expression_parser_h
+
+#include <morula/base/variable.h>
+
+#include <muParser.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Whether no expression has a variable, function or constant of this name.
+   */
+  bool
+  is_free_name(const std::string &name);
+
+  /**
+   * One component of an expression, as muParser evaluates it, with deal.II's
+   * functions and operators and hill(), ramp() and normal(). Not thread-safe.
+   */
+  class ExpressionParser
+  {
+  public:
+    /** What is wrong with a text. */
+    struct Error
+    {
+      /** A full sentence, with the place in the text. */
+      std::string message;
+    };
+
+    /** @throws Error if muParser does not understand the text */
+    ExpressionParser(const std::string &text, const Vocabulary &vocabulary);
+    ExpressionParser(const ExpressionParser &) = delete;
+    ExpressionParser &
+    operator=(const ExpressionParser &) = delete;
+
+    /** The variables in the text. */
+    const std::vector<Variable> &
+    used() const;
+
+    /** The value, which may be infinite or no number. */
+    double
+    value(const VariableValues &values) const;
+
+  private:
+    // muParser reads the variables at these places.
+    mutable VariableValues places{};
+    mu::Parser             parser;
+    std::vector<Variable>  used_;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_variable_h
+#define morula_base_variable_h
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** What expressions can have as variables. The names in scenes are those of
+   *  the enumerators; doc/glossary.md lists their units. */
+  enum class Variable : unsigned int
+  {
+    /** Initial position of a founder or boundary point, µm. */
+    X,
+    Y,
+    Z,
+    /** Time, day. */
+    t,
+    /** Present position of a cell, µm. */
+    x,
+    y,
+    z,
+    /** Number of divisions since the founder. */
+    generation,
+    /** Time since birth, day. */
+    age,
+    /** Time since the cell has had its type, day. */
+    type_age,
+    /** As the column `phase` of cells-NNNN.csv. */
+    cycle_phase,
+    /** Number of the cell's type, from 0. */
+    type,
+    /** V, µm^dim. */
+    volume,
+    /** det F_g. */
+    growth,
+    /** det F_e. */
+    J_e,
+    /** -tr σ / 3, kPa. */
+    pressure,
+    /** The largest principal stress, kPa. */
+    tension,
+    /** The von Mises stress, kPa. */
+    shear,
+    /** Ψ, kPa. */
+    energy,
+    /** Distance of the founder from the surface at t = 0, µm. */
+    depth,
+    /** Uniform in (0, 1), the cell's own for its life. */
+    noise
+  };
+
+  /** Number of variables. */
+  constexpr unsigned int n_variables =
+    static_cast<unsigned int>(Variable::noise) + 1;
+
+  /** A value for each variable; what an expression does not use is not read. */
+  using VariableValues = std::array<double, n_variables>;
+
+  /** Name of a variable in scenes. */
+  const char *
+  name_of(const Variable variable);
+
+  /** What an expression may speak of. */
+  struct Vocabulary
+  {
+    std::vector<Variable> variables;
+    /** Named numbers, e.g. the types of cells. */
+    std::map<std::string, double> constants = {};
+
+    /** The names, separated by blanks. */
+    std::string
+    names() const;
+  };
+
+  /** X, Y, Z and t: what is known of any place at any time. */
+  const Vocabulary &
+  place_and_time();
+} // namespace Morula
+
+#endif

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_development_h
+#define morula_effects_development_h
+
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/growth/growth_law.h>
+#include <morula/effects/state/present_cell.h>
+#include <morula/mechanics/tissue_material.h>
+#include <morula/particles/tissue.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace Morula
+{
+  /** What all cells of a rank become over one step, in the order of
+   *  Tissue::cells(). */
+  template <int dim>
+  struct GrowthOfStep
+  {
+    bool                        present = false; // else nothing grows
+    std::vector<Tensor<2, dim>> previous;        // F_g at t
+    std::vector<Tensor<2, dim>> current;         // F_g at t + dt
+    /** λ and μ at t + dt where they depend on the cells' state; else empty. */
+    std::vector<Lame> lame;
+    /** The cells' rows at t + dt, one after the other, but for F; empty where
+     *  commit() computes them anew. */
+    std::vector<double> rows;
+  };
+
+  /** The effects that decide what becomes of a cell. */
+  template <int dim>
+  struct DevelopmentEffects
+  {
+    /** Or null. */
+    std::unique_ptr<const GrowthLaw<dim>> law;
+    std::optional<CellCycle<dim>>         cycle;
+    /** Where the cycle keeps its clock; as present as the cycle. */
+    std::optional<CycleColumns<dim>> clock;
+    /** Of the axes of cycles; null: those that the cycle draws. */
+    std::unique_ptr<const DivisionRule<dim>> rule;
+    /** All effects that have columns of their own; they stand elsewhere. */
+    std::vector<const Effect<dim> *> with_state = {};
+  };
+
+  /**
+   * All that becomes of a cell in a step before anything moves: its clock, what
+   * effects keep in columns, and F_g, the law's part times the cycle's: (6.1),
+   * (6.2). Pure functions of the committed state. Knows nothing of the balance
+   * of momentum.
+   */
+  template <int dim>
+  class CellDevelopment
+  {
+  public:
+    /**
+     * @param columns  of the cells, all declared
+     * @param state    which of them are behind variables of expressions
+     * @param material of the tissue
+     */
+    CellDevelopment(DevelopmentEffects<dim>  effects,
+                    const CellColumns<dim>  &columns,
+                    const StateColumns<dim> &state,
+                    const TissueMaterial    &material,
+                    const std::uint64_t      random_seed);
+
+    /** With these effects alone, in cells of the default material. */
+    CellDevelopment(std::unique_ptr<const GrowthLaw<dim>>    law,
+                    std::optional<CellCycle<dim>>            cycle,
+                    std::unique_ptr<const DivisionRule<dim>> rule = nullptr);
+
+    /** Whether anything grows. */
+    bool
+    grows() const;
+
+    /** Whether anything becomes of cells. */
+    bool
+    present() const;
+
+    /** The cell cycle, or null. */
+    const CellCycle<dim> *
+    cycle() const;
+
+    /** The columns of cells that develop so. */
+    const CellColumns<dim> &
+    columns() const;
+
+    /** The columns behind the variables of expressions. */
+    const StateColumns<dim> &
+    state() const;
+
+    /** How to read cells that are in their state of time @p t, day. */
+    CellReader<dim>
+    reader(const double t) const;
+
+    /** A cell's clock. Only with a cycle. */
+    CycleState<dim>
+    clock(const CellView<dim, const double> &cell) const;
+
+    /** Sets a cell's clock. Only with a cycle. */
+    void
+    set_clock(const CellView<dim, double> &cell,
+              const CycleState<dim>       &state) const;
+
+    /**
+     * Sets a founder's columns, at t = 0, and refuses what effects cannot do
+     * with it.
+     * @param step of the run, day
+     * @throws InputError
+     */
+    void
+    initialize(const types::particle_index  id,
+               const CellView<dim, double> &cell,
+               const double                 step = 0.) const;
+
+    /** What becomes of the cells in (t0, t1]. @throws InputError */
+    GrowthOfStep<dim>
+    of_step(const Tissue<dim> &tissue, const double t0, const double t1) const;
+
+    /** Sets all columns but F to the end of the step, where F is still that at
+     *  @p t0. */
+    void
+    commit(Tissue<dim>             &tissue,
+           const GrowthOfStep<dim> &of_step,
+           const double             t0,
+           const double             t1) const;
+
+    /** Unit direction along which the daughters of a cell are placed. */
+    Tensor<1, dim>
+    placement_axis(const CellView<dim, const double> &cell) const;
+
+  private:
+    /** The clock at t1 of a cell in its state at t0, as in
+     *  CellCycle::advance(). */
+    CycleState<dim>
+    next_clock(const PresentCell<dim> &cell,
+               const double            t0,
+               const double            t1) const;
+
+    /** Gives a cycle that begins between these states the rule's axis. */
+    void
+    choose_axis(const CycleState<dim>  &before,
+                const PresentCell<dim> &cell,
+                const double            t,
+                CycleState<dim>        &after) const;
+
+    /** F_g at t1 of a cell in its state at t0. */
+    Tensor<2, dim>
+    growth(const PresentCell<dim> &cell,
+           const CycleState<dim>  &next,
+           const double            t0,
+           const double            t1) const;
+
+    /** F_g without the cycle's part, at the time @p t of the state. */
+    Tensor<2, dim>
+    growth_of_law(const CellView<dim, const double> &cell,
+                  const double                       t) const;
+
+    /** Sets all columns of @p after but F. */
+    void
+    develop(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const;
+
+    DevelopmentEffects<dim> effects;
+    CellColumns<dim>        columns_;
+    StateColumns<dim>       state_;
+    TissueMaterial          material;
+    std::uint64_t           random_seed;
+    bool                    keeps_rows;
+  };
+} // namespace Morula
+
+#endif

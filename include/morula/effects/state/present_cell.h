@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_state_present_cell_h
+#define morula_effects_state_present_cell_h
+
+#include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/state/state_columns.h>
+#include <morula/mechanics/cell_quantities.h>
+#include <morula/mechanics/tissue_material.h>
+
+#include <deal.II/particles/property_pool.h>
+
+#include <cstdint>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** What the cells of a scene have in common at one moment, for those who read
+   *  their variables. Refers to objects that must outlive it. */
+  template <int dim>
+  struct CellReader
+  {
+    /** Where cells keep their state. */
+    const StateColumns<dim> &columns;
+    /** What they are made of. */
+    const TissueMaterial &material;
+    /** Their clocks; null without a cell cycle. */
+    const CycleColumns<dim> *clock;
+    /** Null without a cell cycle. */
+    const CellCycle<dim> *cycle;
+    /** Of the scene. */
+    std::uint64_t random_seed;
+    /** When the cells are in their state, day. */
+    double time;
+
+    /** As in cells-NNNN.csv. */
+    unsigned int
+    phase(const CellView<dim, const double> &cell) const;
+  };
+
+  /**
+   * A cell in its state at one moment, as effects and their expressions see it.
+   * What it says is computed when it is first asked for. Does not own the
+   * cell's row, nor the reader.
+   */
+  template <int dim>
+  class PresentCell
+  {
+  public:
+    /**
+     * @param position x, µm
+     * @param reader   must outlive this
+     */
+    PresentCell(const CellView<dim, const double> &cell,
+                const types::particle_index        id,
+                const Point<dim>                  &position,
+                const CellReader<dim>             &reader);
+
+    /** The cell with all its columns. */
+    const CellView<dim, const double> &
+    cell() const;
+
+    /** x, µm. */
+    const Point<dim> &
+    position() const;
+
+    /** Number of the type; 0 where the scene has no types. */
+    unsigned int
+    type() const;
+
+    /** Key of the cell's random numbers. */
+    std::uint64_t
+    lineage_key() const;
+
+    /** Outward unit normal of the surface near the founder, at t = 0, where
+     *  StateColumns::need_surface_normal() asked for it. */
+    Tensor<1, dim>
+    surface_normal() const;
+
+    /** F_e, equation (1.3). */
+    Tensor<2, dim>
+    elastic() const;
+
+    /** Volumes, Ψ and the true stress σ, kPa. */
+    const CellQuantities &
+    quantities() const;
+
+    /** λ and μ, kPa. @throws InputError for E or ν out of range */
+    Lame
+    lame() const;
+
+    /** The value of an expression that came from StateColumns::use(), at time
+     *  @p t (day). @throws InputError if it is not finite */
+    double
+    value(const Expression  &expression,
+          const double       t,
+          const unsigned int component = 0) const;
+
+    /** The first dim components. @throws InputError */
+    Tensor<1, dim>
+    vector(const Expression &expression, const double t) const;
+
+    /** The value of an expression if the cell had grown isotropically by the
+     *  factor @p ratio in volume while F stayed: what a confined cell would
+     *  feel. @throws InputError */
+    double
+    value_if_grown(const Expression &expression,
+                   const double      t,
+                   const double      ratio) const;
+
+  private:
+    /** Sets the values that are in the list, if they are not yet known. */
+    void
+    provide(const std::vector<Variable> &variables, const double t) const;
+    double
+    compute(const Variable variable, const double t) const;
+
+    CellView<dim, const double> cell_;
+    types::particle_index       id;
+    Point<dim>                  position_;
+    const CellReader<dim>      &reader;
+    mutable VariableValues      values;
+    mutable std::uint32_t       known = 0; // a bit for each variable
+    mutable CellQuantities      quantities_;
+    mutable bool                has_quantities = false;
+  };
+} // namespace Morula
+
+#endif

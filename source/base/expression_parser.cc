@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/expression_parser.h>
+#include <morula/base/expression_syntax.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <boost/algorithm/string.hpp>
+#include <boost/math/special_functions/erf.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** What deal.II's FunctionParser takes for true: what rounds to another
+     *  integer than 0. */
+    bool
+    is_true(const double value)
+    {
+      return std::abs(value) >= 0.5;
+    }
+
+    double
+    rounded(const double value)
+    {
+      return std::trunc(value < 0. ? value - 0.5 : value + 0.5);
+    }
+
+    /** s^n / (half^n + s^n), 0 for s <= 0. */
+    double
+    hill(const double s, const double half, const double n)
+    {
+      return s > 0. ? 1. / (1. + std::pow(half / s, n)) : 0.;
+    }
+
+    /** 0 up to a, 1 from b on, linear in between. */
+    double
+    ramp(const double s, const double a, const double b)
+    {
+      return std::clamp((s - a) / (b - a), 0., 1.);
+    }
+
+    /** The value of a normally distributed number whose distribution function
+     *  is @p noise there. */
+    double
+    normal(const double noise, const double mean, const double deviation)
+    {
+      return mean +
+             deviation * std::sqrt(2.) * boost::math::erf_inv(2. * noise - 1.);
+    }
+
+    /** Adds what deal.II's FunctionParser has besides muParser's own. */
+    void
+    add_functions(mu::Parser &parser)
+    {
+      parser.DefineConst("pi", dealii::numbers::PI);
+      parser.DefineConst("Pi", dealii::numbers::PI);
+      parser.DefineOprt(
+        "|",
+        +[](const double a, const double b) {
+          return double(is_true(a) || is_true(b));
+        },
+        1);
+      parser.DefineOprt(
+        "&",
+        +[](const double a, const double b) {
+          return double(is_true(a) && is_true(b));
+        },
+        2);
+      parser.DefineFun(
+        "if", +[](const double a, const double b, const double c) {
+          return is_true(a) ? b : c;
+        });
+      const auto define = [&parser](const char *name, double (*f)(double)) {
+        parser.DefineFun(name, f);
+      };
+      define("int", rounded);
+      define("ceil", [](const double a) { return std::ceil(a); });
+      define("floor", [](const double a) { return std::floor(a); });
+      define("cot", [](const double a) { return 1. / std::tan(a); });
+      define("csc", [](const double a) { return 1. / std::sin(a); });
+      define("sec", [](const double a) { return 1. / std::cos(a); });
+      define("log", [](const double a) { return std::log(a); });
+      define("erfc", [](const double a) { return std::erfc(a); });
+      parser.DefineFun(
+        "pow", +[](const double a, const double b) { return std::pow(a, b); });
+      parser.DefineFun("hill", hill);
+      parser.DefineFun("ramp", ramp);
+    }
+  } // namespace
+
+
+  bool
+  is_free_name(const std::string &name)
+  {
+    for (unsigned int i = 0; i < n_variables; ++i)
+      if (name == name_of(static_cast<Variable>(i)))
+        return false;
+    mu::Parser parser;
+    add_functions(parser);
+    return name != "normal" && parser.GetFunDef().count(name) == 0 &&
+           parser.GetConst().count(name) == 0;
+  }
+
+
+  ExpressionParser::ExpressionParser(const std::string &text,
+                                     const Vocabulary  &vocabulary)
+  {
+    add_functions(parser);
+    for (const Variable variable : vocabulary.variables)
+      {
+        double *const place = &places[static_cast<unsigned int>(variable)];
+        parser.DefineVar(name_of(variable), place);
+        // normal(mean, deviation) takes the cell's own number.
+        if (variable == Variable::noise)
+          parser.DefineFun("normal", normal);
+      }
+    for (const auto &[name, value] : vocabulary.constants)
+      parser.DefineConst(name, value);
+    const ExpressionSyntax::Readable readable =
+      ExpressionSyntax::readable(text);
+    try
+      {
+        parser.SetExpr(readable.text);
+        parser.Eval(); // GetUsedVar() takes unknown functions for variables
+        for (const auto &[name, place] : parser.GetUsedVar())
+          {
+            const auto variable =
+              std::find_if(vocabulary.variables.begin(),
+                           vocabulary.variables.end(),
+                           [&name = name](const Variable v) {
+                             return name == name_of(v);
+                           });
+            if (variable != vocabulary.variables.end())
+              used_.push_back(*variable);
+          }
+      }
+    catch (const mu::Parser::exception_type &error)
+      {
+        std::string message = error.GetMsg();
+        message             = message.substr(0, message.find(" at position"));
+        if (boost::ends_with(message, " found"))
+          message.erase(message.size() - std::string(" found").size());
+        const std::size_t place =
+          std::min<std::size_t>(error.GetPos(), readable.text.size());
+        throw Error{"character " +
+                    std::to_string(1 + readable.positions[place]) + ": " +
+                    message + "."};
+      }
+    std::sort(used_.begin(), used_.end());
+  }
+
+
+  const std::vector<Variable> &
+  ExpressionParser::used() const
+  {
+    return used_;
+  }
+
+
+  double
+  ExpressionParser::value(const VariableValues &values) const
+  {
+    for (const Variable variable : used_)
+      {
+        const auto i = static_cast<unsigned int>(variable);
+        places[i]    = values[i];
+      }
+    return parser.Eval();
+  }
+} // namespace Morula

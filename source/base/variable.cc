@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/variable.h>
+
+namespace Morula
+{
+  const char *
+  name_of(const Variable variable)
+  {
+    constexpr std::array<const char *, n_variables> names = {
+      {"X",      "Y",          "Z",    "t",        "x",           "y",
+       "z",      "generation", "age",  "type_age", "cycle_phase", "type",
+       "volume", "growth",     "J_e",  "pressure", "tension",     "shear",
+       "energy", "depth",      "noise"}};
+    return names[static_cast<unsigned int>(variable)];
+  }
+
+
+  std::string
+  Vocabulary::names() const
+  {
+    std::string text;
+    for (const Variable variable : variables)
+      text += (text.empty() ? "" : ", ") + std::string(name_of(variable));
+    for (const auto &[name, value] : constants)
+      text += ", " + name;
+    return text;
+  }
+
+
+  const Vocabulary &
+  place_and_time()
+  {
+    static const Vocabulary vocabulary{
+      {Variable::X, Variable::Y, Variable::Z, Variable::t}};
+    return vocabulary;
+  }
+} // namespace Morula

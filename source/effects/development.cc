@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/development.h>
+#include <morula/effects/fate/random.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace Morula
+{
+  template <int dim>
+  CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
+                                        const CellColumns<dim>  &columns,
+                                        const StateColumns<dim> &state,
+                                        const TissueMaterial    &material,
+                                        const std::uint64_t      random_seed)
+    : effects(std::move(effects))
+    , columns_(columns)
+    , state_(state)
+    , material(material)
+    , random_seed(random_seed)
+  {
+    keeps_rows = !this->effects.with_state.empty() || state_.any_in_use();
+  }
+
+  template <int dim>
+  CellDevelopment<dim>::CellDevelopment(
+    std::unique_ptr<const GrowthLaw<dim>>    law,
+    std::optional<CellCycle<dim>>            cycle,
+    std::unique_ptr<const DivisionRule<dim>> rule)
+    : CellDevelopment(DevelopmentEffects<dim>(),
+                      CellColumns<dim>(),
+                      StateColumns<dim>(),
+                      TissueMaterial(MaterialParameters()),
+                      0)
+  {
+    if (law)
+      columns_.need_growth();
+    if (cycle)
+      effects.clock.emplace(columns_,
+                            cycle->has_own_duration(),
+                            cycle->has_own_hazard());
+    effects.law   = std::move(law);
+    effects.cycle = std::move(cycle);
+    effects.rule  = std::move(rule);
+  }
+
+  template <int dim>
+  bool
+  CellDevelopment<dim>::grows() const
+  {
+    return effects.law || effects.cycle;
+  }
+
+  template <int dim>
+  bool
+  CellDevelopment<dim>::present() const
+  {
+    return grows() || keeps_rows;
+  }
+
+  template <int dim>
+  const CellCycle<dim> *
+  CellDevelopment<dim>::cycle() const
+  {
+    return effects.cycle ? &*effects.cycle : nullptr;
+  }
+
+  template <int dim>
+  const CellColumns<dim> &
+  CellDevelopment<dim>::columns() const
+  {
+    return columns_;
+  }
+
+  template <int dim>
+  const StateColumns<dim> &
+  CellDevelopment<dim>::state() const
+  {
+    return state_;
+  }
+
+  template <int dim>
+  CellReader<dim>
+  CellDevelopment<dim>::reader(const double t) const
+  {
+    return {state_,
+            material,
+            effects.clock ? &*effects.clock : nullptr,
+            cycle(),
+            random_seed,
+            t};
+  }
+
+  template <int dim>
+  CycleState<dim>
+  CellDevelopment<dim>::clock(const CellView<dim, const double> &cell) const
+  {
+    return effects.clock->load(cell);
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::set_clock(const CellView<dim, double> &cell,
+                                  const CycleState<dim>       &state) const
+  {
+    effects.clock->store(state, cell);
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::initialize(const types::particle_index  id,
+                                   const CellView<dim, double> &cell,
+                                   const double                 step) const
+  {
+    const CellReader<dim>  reader = this->reader(0.);
+    const Point<dim>       X      = cell.founder_position();
+    const PresentCell<dim> founder(cell, id, X, reader);
+    if (effects.cycle)
+      {
+        // The key first: it is behind the noise.
+        CycleState<dim> state;
+        state.key = Random::founder_key(random_seed, id);
+        set_clock(cell, state);
+        const CellAt<dim> at(founder, 0.);
+        if (step > 0.)
+          effects.cycle->check_cell(at, step);
+        state = effects.cycle->founder(id, at);
+        choose_axis(CycleState<dim>(), founder, 0., state);
+        set_clock(cell, state);
+      }
+    for (const Effect<dim> *effect : effects.with_state)
+      effect->begin(cell);
+    if (step > 0.)
+      {
+        if (effects.law)
+          effects.law->check_cell(founder, step);
+        if (effects.rule)
+          effects.rule->check_cell(founder, step);
+      }
+  }
+
+  template <int dim>
+  CycleState<dim>
+  CellDevelopment<dim>::next_clock(const PresentCell<dim> &cell,
+                                   const double            t0,
+                                   const double            t1) const
+  {
+    const CycleState<dim> before = clock(cell.cell());
+    CycleState<dim>       after =
+      effects.cycle->advance(before,
+                             CellAt<dim>(cell, t0),
+                             t0,
+                             t1,
+                             cell.cell().elastic_volume_ratio());
+    choose_axis(before, cell, t0, after);
+    return after;
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::choose_axis(const CycleState<dim>  &before,
+                                    const PresentCell<dim> &cell,
+                                    const double            t,
+                                    CycleState<dim>        &after) const
+  {
+    if (!effects.rule || after.phase != CyclePhase::growing ||
+        before.phase == CyclePhase::growing)
+      return;
+    const CellView<dim, const double> &view = cell.cell();
+    Tensor<1, dim>                     axis = effects.rule->axis(
+      {view.founder_position(), view.elastic_deformation(), after.axis, &cell});
+    if (effects.rule->frame() == AxisFrame::present)
+      axis = invert(view.elastic_deformation() * growth_of_law(view, t)) * axis;
+    after.axis = axis / axis.norm();
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::growth_of_law(const CellView<dim, const double> &cell,
+                                      const double t) const
+  {
+    const Tensor<2, dim> F_g = cell.growth();
+    if (!effects.cycle)
+      return F_g;
+    const CycleState<dim> state = clock(cell);
+    if (state.phase == CyclePhase::never)
+      return F_g;
+    return F_g *
+           invert(effects.cycle->growth(state, cell.founder_position(), t));
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::growth(const PresentCell<dim> &cell,
+                               const CycleState<dim>  &next,
+                               const double            t0,
+                               const double            t1) const
+  {
+    const CellView<dim, const double> &view = cell.cell();
+    const Point<dim>                   X    = view.founder_position();
+    Tensor<2, dim>                     of_cycle(unit_symmetric_tensor<dim>());
+    Tensor<2, dim>                     of_law = view.growth(); // at t0
+    if (effects.cycle)
+      {
+        if (effects.law)
+          of_law = of_law * invert(effects.cycle->growth(clock(view), X, t0));
+        of_cycle = effects.cycle->growth(next, X, t1);
+      }
+    if (!effects.law)
+      return of_cycle;
+    return effects.law->growth(
+             {X, of_law, view.elastic_deformation(), &view, &cell}, t0, t1) *
+           of_cycle;
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
+                                const CellView<dim, double> &after,
+                                const double                 t0,
+                                const double                 t1) const
+  {
+    CycleState<dim> next;
+    if (effects.cycle)
+      {
+        next = next_clock(before, t0, t1);
+        set_clock(after, next);
+      }
+    for (const Effect<dim> *effect : effects.with_state)
+      effect->advance(before.cell(), after, t0, t1);
+    if (grows())
+      after.set(columns_.growth, growth(before, next, t0, t1));
+  }
+
+  template <int dim>
+  GrowthOfStep<dim>
+  CellDevelopment<dim>::of_step(const Tissue<dim> &tissue,
+                                const double       t0,
+                                const double       t1) const
+  {
+    GrowthOfStep<dim> result;
+    result.present = grows();
+    if (!present())
+      return result;
+    const Cells<dim>     &cells      = tissue.cells();
+    const CellReader<dim> reader     = this->reader(t0);
+    const CellReader<dim> after_step = this->reader(t1);
+    if (keeps_rows)
+      result.rows.reserve(cells.size() * columns_.n_numbers());
+    if (grows())
+      {
+        result.previous.reserve(cells.size());
+        result.current.reserve(cells.size());
+      }
+    std::vector<double> row;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const auto             cell = cells[p];
+        const PresentCell<dim> before(cell,
+                                      cells.id(p),
+                                      cells.position(p),
+                                      reader);
+        if (grows())
+          result.previous.push_back(cell.growth());
+        if (!keeps_rows)
+          {
+            const CycleState<dim> next =
+              effects.cycle ? next_clock(before, t0, t1) : CycleState<dim>();
+            result.current.push_back(growth(before, next, t0, t1));
+            continue;
+          }
+        row.assign(cell.row().begin(), cell.row().end());
+        const CellView<dim, double> after(make_array_view(row), columns_);
+        develop(before, after, t0, t1);
+        if (grows())
+          result.current.push_back(after.growth());
+        if (material.depends_on_state())
+          result.lame.push_back(
+            PresentCell<dim>(after, cells.id(p), cells.position(p), after_step)
+              .lame());
+        result.rows.insert(result.rows.end(), row.begin(), row.end());
+      }
+    return result;
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::commit(Tissue<dim>             &tissue,
+                               const GrowthOfStep<dim> &of_step,
+                               const double             t0,
+                               const double             t1) const
+  {
+    if (!present())
+      return;
+    const CellReader<dim> reader = this->reader(t0);
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const CellView<dim, double> cell = tissue.cell(p);
+        if (keeps_rows)
+          {
+            const auto row =
+              of_step.rows.begin() + std::size_t(p) * columns_.n_numbers();
+            std::copy(row, row + columns_.n_numbers(), cell.row().begin());
+            continue;
+          }
+        if (effects.cycle)
+          set_clock(cell,
+                    next_clock(PresentCell<dim>(cell,
+                                                tissue.cells().id(p),
+                                                tissue.cells().position(p),
+                                                reader),
+                               t0,
+                               t1));
+        cell.set(columns_.growth, of_step.current[p]);
+      }
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  CellDevelopment<dim>::placement_axis(
+    const CellView<dim, const double> &cell) const
+  {
+    const CycleState<dim> state = clock(cell);
+    if (!effects.rule || effects.rule->frame() == AxisFrame::reference)
+      return effects.cycle->placement_axis(state, cell.elastic_deformation());
+    // The running cycle stretches n_s along itself.
+    const Tensor<1, dim> carried =
+      cell.F() * (invert(state.growth_pre) * state.axis);
+    return carried / carried.norm();
+  }
+
+  template class CellDevelopment<2>;
+  template class CellDevelopment<3>;
+} // namespace Morula

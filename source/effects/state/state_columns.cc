@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/state/state_columns.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  template <int dim>
+  StateColumns<dim>::StateColumns(const std::vector<std::string> &types)
+    : types(types)
+  {}
+
+
+  template <int dim>
+  Expression
+  StateColumns<dim>::use(const ExpressionKey &key)
+  {
+    const Expression &expression = key.expression(dim);
+    for (const Variable variable : expression.used())
+      if (!uses(variable))
+        used.insert(std::upper_bound(used.begin(), used.end(), variable),
+                    variable);
+    return expression;
+  }
+
+
+  template <int dim>
+  void
+  StateColumns<dim>::need_surface_normal()
+  {
+    needs_normal = true;
+  }
+
+
+  template <int dim>
+  void
+  StateColumns<dim>::declare(CellColumns<dim> &columns)
+  {
+    if (!types.empty())
+      type = columns.template add<unsigned int>(
+        {"type", "", "number of the cell's type", 0, AtDivision::copied, true});
+    if (uses(Variable::type_age))
+      type_since = columns.template add<double>(
+        {"type_since", "day", "when the cell got its type", 0.});
+    if (uses(Variable::age))
+      birth_time = columns.template add<double>(
+        {"birth_time", "day", "when the cell was born", 0.});
+    if (uses(Variable::depth))
+      depth = columns.template add<double>({"depth",
+                                            "um",
+                                            "distance of the founder from the "
+                                            "surface at t = 0",
+                                            0.,
+                                            AtDivision::copied,
+                                            true});
+    if (needs_normal)
+      surface_normal = columns.template add<Tensor<1, dim>>(
+        {"surface_normal", "", "of the surface near the founder, at t = 0"});
+  }
+
+
+  template <int dim>
+  bool
+  StateColumns<dim>::uses(const Variable variable) const
+  {
+    return std::binary_search(used.begin(), used.end(), variable);
+  }
+
+
+  template <int dim>
+  bool
+  StateColumns<dim>::any_in_use() const
+  {
+    return !types.empty() || (!used.empty() && used.back() > Variable::t);
+  }
+
+
+  template <int dim>
+  const std::vector<std::string> &
+  StateColumns<dim>::type_names() const
+  {
+    return types;
+  }
+
+
+  template class StateColumns<2>;
+  template class StateColumns<3>;
+} // namespace Morula

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_relaxation_h
+#define morula_mechanics_relaxation_h
+
+#include <morula/mechanics/material.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** How the shear of a piece of tissue relaxes, at one moment. */
+  struct Flow
+  {
+    /** τ_r, day; > 0. In it the shear stress of held tissue falls to 1/e. */
+    double relaxation_time;
+    /** The von Mises stress of τ up to which nothing flows, kPa; 0: none. */
+    double yield_stress = 0.;
+    /** Number of equal parts into which a step is cut. */
+    unsigned int passes = 1;
+  };
+
+  /** The von Mises stress √(3/2) |dev τ| of the Kirchhoff stress, kPa. In 2-D
+   *  dev is the deviator in the plane: doc/theory.md (8.6). */
+  template <int dim>
+  double
+  von_mises_stress(const Tensor<2, dim> &F_e,
+                   const Lame           &lame,
+                   const Material       &material);
+
+  /**
+   * The flow of tissue whose shape is held for @p dt (day), by backward Euler
+   * in closed form: doc/theory.md (8.1), (8.2), (8.3), (8.4). Stable for any @p
+   * dt; for @p dt → ∞ the complete relaxation of what is above the yield
+   * stress.
+   *
+   * @param F_e elastic part of the deformation gradient, det F_e > 0
+   * @return D, symmetric and positive definite with det D = 1: F_e becomes F_e
+   *         D⁻¹, so that F stays where D is multiplied to what stands right of
+   *         F_e
+   */
+  template <int dim>
+  SymmetricTensor<2, dim>
+  flow_of_step(const Tensor<2, dim> &F_e,
+               const Lame           &lame,
+               const Material       &material,
+               const Flow           &flow,
+               const double          dt);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/relaxation.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Principal values of b_e or C_e, divided by J_e^(2/dim): their product is
+     *  1. */
+    template <int dim>
+    using Isochoric = std::array<double, dim>;
+
+
+    /** c / (v + (1 - v) c), scaled to the product 1: doc/theory.md (8.3) with g
+     * = (1 - v) / v, which may be infinite. */
+    template <int dim>
+    Isochoric<dim>
+    relaxed(const Isochoric<dim> &c, const double v)
+    {
+      Isochoric<dim> result;
+      double         product = 1.;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          result[i] = c[i] / (v + (1. - v) * c[i]);
+          product *= result[i];
+        }
+      const double scale = std::pow(product, -1. / dim);
+      for (double &value : result)
+        value *= scale;
+      return result;
+    }
+
+
+    /** Gives the von Mises stress of a point whose volume is held. */
+    template <int dim>
+    class ShearStress
+    {
+    public:
+      ShearStress(const double J, const Lame &lame, const Material &material)
+        : J(J)
+        , factor(std::pow(J, 2. / dim))
+        , lame(lame)
+        , material(material)
+      {}
+
+      double
+      operator()(const Isochoric<dim> &c) const
+      {
+        double trace = 0.;
+        for (const double value : c)
+          trace += value;
+        double square = 0.; // of dev c
+        for (const double value : c)
+          square += (value - trace / dim) * (value - trace / dim);
+        const double log_J = std::log(J);
+        const double alpha = material
+                               .response({factor * trace - dim,
+                                          factor * trace + dim,
+                                          J,
+                                          log_J,
+                                          log_J,
+                                          lame.lambda,
+                                          lame.mu})
+                               .alpha;
+        return std::sqrt(1.5 * square) * alpha * factor;
+      }
+
+    private:
+      double          J, factor;
+      const Lame     &lame;
+      const Material &material;
+    };
+
+
+    /**
+     * v of relaxed() for backward Euler over @p dt: τ_r / (τ_r + dt), but with
+     * a yield stress the root of doc/theory.md (8.5). Between complete
+     * relaxation, where the stress is below the yield stress, and none, where
+     * it is above, there is a root, and only one where the stress falls as c
+     * relaxes.
+     */
+    template <int dim>
+    double
+    what_stays(const Isochoric<dim>   &c,
+               const ShearStress<dim> &stress,
+               const Flow             &flow,
+               const double            dt)
+    {
+      const double tau = flow.relaxation_time;
+      const double v   = tau / (tau + dt);
+      if (flow.yield_stress <= 0.)
+        return v;
+      if (stress(c) <= flow.yield_stress)
+        return 1.;
+      const auto residual = [&](const double v) {
+        const double m = stress(relaxed<dim>(c, v));
+        return (1. - v) * tau * m - v * dt * (m - flow.yield_stress);
+      };
+      std::uintmax_t iterations = 100;
+      const auto [below, above] = boost::math::tools::toms748_solve(
+        residual,
+        v,
+        1.,
+        residual(v),
+        -dt * (stress(c) - flow.yield_stress),
+        boost::math::tools::eps_tolerance<double>(),
+        iterations);
+      return 0.5 * (below + above);
+    }
+  } // namespace
+
+
+  template <int dim>
+  double
+  von_mises_stress(const Tensor<2, dim> &F_e,
+                   const Lame           &lame,
+                   const Material       &material)
+  {
+    const double   J = determinant(F_e);
+    const auto     c = eigenvalues(symmetrize(transpose(F_e) * F_e));
+    Isochoric<dim> isochoric;
+    for (unsigned int i = 0; i < dim; ++i)
+      isochoric[i] = c[i] * std::pow(J, -2. / dim);
+    return ShearStress<dim>(J, lame, material)(isochoric);
+  }
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  flow_of_step(const Tensor<2, dim> &F_e,
+               const Lame           &lame,
+               const Material       &material,
+               const Flow           &flow,
+               const double          dt)
+  {
+    const auto C       = eigenvectors(symmetrize(transpose(F_e) * F_e));
+    double     product = 1.; // J_e²
+    for (const auto &[value, vector] : C)
+      product *= value;
+    Isochoric<dim> before;
+    for (unsigned int i = 0; i < dim; ++i)
+      before[i] = C[i].first * std::pow(product, -1. / dim);
+
+    Isochoric<dim>         after = before;
+    const ShearStress<dim> stress(std::sqrt(product), lame, material);
+    for (unsigned int pass = 0; pass < flow.passes; ++pass)
+      {
+        const double v = what_stays<dim>(after, stress, flow, dt / flow.passes);
+        if (v < 1.)
+          after = relaxed<dim>(after, v);
+      }
+
+    // Exactly the identity where nothing flows.
+    SymmetricTensor<2, dim> D = unit_symmetric_tensor<dim>();
+    for (unsigned int i = 0; i < dim; ++i)
+      D += (std::sqrt(before[i] / after[i]) - 1.) *
+           symmetrize(outer_product(C[i].second, C[i].second));
+    return D;
+  }
+
+
+  template double
+  von_mises_stress(const Tensor<2, 2> &, const Lame &, const Material &);
+  template double
+  von_mises_stress(const Tensor<2, 3> &, const Lame &, const Material &);
+  template SymmetricTensor<2, 2>
+  flow_of_step(const Tensor<2, 2> &,
+               const Lame &,
+               const Material &,
+               const Flow &,
+               const double);
+  template SymmetricTensor<2, 3>
+  flow_of_step(const Tensor<2, 3> &,
+               const Lame &,
+               const Material &,
+               const Flow &,
+               const double);
+} // namespace Morula

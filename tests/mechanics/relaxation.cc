@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/relaxation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "common/body_on_grid.h"
+#include "common/materials.h"
+#include "common/own_law.h"
+
+using namespace Morula;
+
+namespace
+{
+  const Lame constants = lame(1., 0.4);
+
+  template <int dim>
+  Tensor<2, dim>
+  diagonal(const std::vector<double> &values)
+  {
+    Tensor<2, dim> F;
+    for (unsigned int i = 0; i < dim; ++i)
+      F[i][i] = values[i];
+    return F;
+  }
+
+  /** F_e after relaxation. */
+  template <int dim>
+  Tensor<2, dim>
+  relax(const Tensor<2, dim> &F_e,
+        const Flow           &flow,
+        const double          dt,
+        const std::string    &law = "neo-Hookean")
+  {
+    return F_e * invert(Tensor<2, dim>(flow_of_step<dim>(
+                   F_e, constants, material_of_test(law), flow, dt)));
+  }
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  left_strain(const Tensor<2, dim> &F_e)
+  {
+    return symmetrize(F_e * transpose(F_e));
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  some_strain(std::mt19937 &generator)
+  {
+    return unit_tensor<dim>() + 0.3 * random_tensor<2, dim>(generator);
+  }
+
+  /** A rotation. */
+  template <int dim>
+  Tensor<2, dim>
+  some_rotation(std::mt19937 &generator)
+  {
+    const Tensor<2, dim> F     = some_strain<dim>(generator);
+    const auto           pairs = eigenvectors(left_strain(F));
+    Tensor<2, dim>       R;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        R[i][j] = pairs[i].second[j];
+    return determinant(R) > 0. ? R : -1. * R;
+  }
+
+  template <int dim>
+  double
+  stress_of(const Tensor<2, dim> &F_e, const std::string &law = "neo-Hookean")
+  {
+    return von_mises_stress(F_e, constants, material_of_test(law));
+  }
+} // namespace
+
+
+// The values are those of scipy's solve_ivp for db/dt = -(b - tr b / 3) b, and
+// of N steps b / (1 + b / N), scaled to det b = 1.
+TEST(Relaxation, OfAHeldStretchHasOrderOne)
+{
+  const Tensor<2, 3> F_e =
+    diagonal<3>({1.5, 1. / std::sqrt(1.5), 1. / std::sqrt(1.5)});
+  const double limit = 1.29161856;
+  const auto   b     = [&](const unsigned int passes) {
+    return left_strain(relax(F_e, {0.7, 0., passes}, 0.7));
+  };
+  EXPECT_NEAR(b(1)[0][0], 1.44153805, 1e-8);
+  EXPECT_NEAR(b(1)[1][1], 0.83288865, 1e-8);
+  EXPECT_NEAR(b(4)[0][0], 1.33598027, 1e-8);
+  EXPECT_NEAR(b(16)[0][0], 1.30326544, 1e-8);
+  EXPECT_NEAR(b(16)[1][1], 0.87595856, 1e-8);
+  const double error_1 = b(1024)[0][0] - limit, error_2 = b(2048)[0][0] - limit;
+  EXPECT_NEAR(error_1 / error_2, 2., 0.01);
+  EXPECT_LE(error_2, 1e-4);
+  EXPECT_NEAR(b(4096)[2][2], 0.87989907, 1e-4);
+}
+
+
+TEST(Relaxation, PassesAreShorterSteps)
+{
+  std::mt19937       generator(1);
+  const Tensor<2, 3> F_e = some_strain<3>(generator);
+  Tensor<2, 3>       one_by_one(F_e);
+  for (unsigned int i = 0; i < 5; ++i)
+    one_by_one = relax(one_by_one, {0.3, 0.01}, 0.02);
+  EXPECT_LE((relax(F_e, {0.3, 0.01, 5}, 0.1) - one_by_one).norm(), 1e-13);
+}
+
+
+TEST(Relaxation, OfTheStrainInThePlane)
+{
+  // solve_ivp of db/dt = -(b - tr b / 2) b from (2.25, 1 / 2.25).
+  const Tensor<2, 2> F_e = diagonal<2>({1.5, 1. / 1.5});
+  const auto         b   = left_strain(relax(F_e, {1., 0., 4096}, 1.));
+  EXPECT_NEAR(b[0][0], 1.32962327, 1e-4);
+  EXPECT_NEAR(b[1][1], 0.75209273, 1e-4);
+}
+
+
+TEST(Relaxation, OfSmallStrainsIsExponential)
+{
+  const auto check = [](const auto &F_e) {
+    constexpr int dim    = std::decay_t<decltype(F_e)>::dimension;
+    const auto    before = deviator(left_strain<dim>(F_e));
+    const auto    after =
+      deviator(left_strain<dim>(relax<dim>(F_e, {0.4, 0., 10000}, 0.6)));
+    EXPECT_LE((after - std::exp(-1.5) * before).norm(), 1e-3 * before.norm());
+  };
+  std::mt19937 generator(2);
+  check(unit_tensor<2>() + 1e-4 * random_tensor<2, 2>(generator));
+  check(unit_tensor<3>() + 1e-4 * random_tensor<2, 3>(generator));
+}
+
+
+namespace
+{
+  template <int dim>
+  void
+  check_tensor()
+  {
+    std::mt19937 generator(3);
+    for (unsigned int trial = 0; trial < 50; ++trial)
+      for (const double yield_stress : {0., 0.05})
+        {
+          const Tensor<2, dim> F_e = some_strain<dim>(generator);
+          const Tensor<2, dim> Q   = some_rotation<dim>(generator);
+          const Tensor<2, dim> R   = some_rotation<dim>(generator);
+          const Flow           flow{0.3, yield_stress};
+          const auto           D = [&](const Tensor<2, dim> &F_e) {
+            return flow_of_step<dim>(F_e, constants, neo_hookean(), flow, 0.1);
+          };
+          EXPECT_NEAR(determinant(D(F_e)), 1., 1e-14);
+          // Nothing changes where somebody looks at it from another side, and
+          // the tensor turns with the configuration that it belongs to.
+          EXPECT_LE((D(Q * F_e) - D(F_e)).norm(), 1e-13);
+          const Tensor<2, dim> turned(D(F_e * R));
+          EXPECT_LE((R * turned * transpose(R) - Tensor<2, dim>(D(F_e))).norm(),
+                    1e-13);
+          // b_e keeps its directions, and J_e.
+          const auto after = relax(F_e, flow, 0.1);
+          EXPECT_NEAR(determinant(after), determinant(F_e), 1e-14);
+          const Tensor<2, dim> b(left_strain(F_e)), new_b(left_strain(after));
+          EXPECT_LE((b * new_b - new_b * b).norm(), 1e-13);
+          EXPECT_LE(stress_of(after), stress_of(F_e));
+        }
+  }
+} // namespace
+
+
+TEST(Relaxation, KeepsVolumeDirectionsAndFrames)
+{
+  MORULA_BOTH_DIMENSIONS(check_tensor);
+}
+
+
+TEST(Relaxation, SolvesTheEquationOfBackwardEuler)
+{
+  // The inverse of b̄ grows by dt / τ_r times the identity, but for its scale.
+  std::mt19937       generator(4);
+  const Tensor<2, 3> F_e   = some_strain<3>(generator);
+  const Tensor<2, 3> after = relax(F_e, {0.3}, 0.12);
+  const double       J     = determinant(F_e);
+  const Tensor<2, 3> old_b =
+    Tensor<2, 3>(left_strain(F_e)) / std::pow(J, 2. / 3.);
+  const Tensor<2, 3> new_b =
+    Tensor<2, 3>(left_strain(after)) / std::pow(J, 2. / 3.);
+  const Tensor<2, 3> inverse = invert(old_b) + 0.4 * unit_tensor<3>();
+  EXPECT_LE((invert(inverse) * std::cbrt(determinant(inverse)) - new_b).norm(),
+            1e-13);
+}
+
+
+TEST(Relaxation, IsSmoothWhereStretchesAreEqual)
+{
+  const Flow   flow{0.3};
+  std::mt19937 generator(5);
+  for (const double stretch : {1., 1.3})
+    {
+      const Tensor<2, 3> F_e = diagonal<3>({1.1, stretch, stretch});
+      const auto         D   = [&](const Tensor<2, 3> &F_e) {
+        return flow_of_step<3>(F_e, constants, neo_hookean(), flow, 0.1);
+      };
+      const Tensor<2, 3> change = random_tensor<2, 3>(generator);
+      for (const double size : {1e-16, 1e-12, 1e-8, 1e-4})
+        EXPECT_LE((D(F_e + size * change) - D(F_e)).norm(), size + 1e-14);
+      // The change is linear in the strain.
+      const double size = 1e-5;
+      EXPECT_LE(
+        (D(F_e + size * change) + D(F_e - size * change) - 2. * D(F_e)).norm(),
+        10. * size * size);
+    }
+  EXPECT_LE((flow_of_step<3>(
+               1.4 * unit_tensor<3>(), constants, neo_hookean(), flow, 0.1) -
+             unit_symmetric_tensor<3>())
+              .norm(),
+            1e-15);
+}
+
+
+TEST(Relaxation, OfAnyStepIsStable)
+{
+  std::mt19937                generator(6);
+  const Tensor<2, 3>          F_e    = some_strain<3>(generator);
+  const double                size   = std::cbrt(determinant(F_e));
+  constexpr double            tiny   = std::numeric_limits<double>::min();
+  const SymmetricTensor<2, 3> sphere = size * size * unit_symmetric_tensor<3>();
+  for (const double tau : {1e-6, 1e-30, tiny})
+    {
+      const auto b = left_strain(relax(F_e, {tau}, 1.));
+      EXPECT_LE((b - sphere).norm(), 10. * tau + 1e-14);
+    }
+  // As much as is squeezed in a failing run.
+  const Tensor<2, 3> squeezed = diagonal<3>({3., 0.1, 0.01});
+  double             last     = stress_of(squeezed);
+  for (const double tau : {1e6, 10., 1., 0.1, 1e-3, 1e-6})
+    {
+      const auto after = relax(squeezed, {tau}, 1.);
+      EXPECT_LT(stress_of(after), last);
+      EXPECT_NEAR(determinant(after), 3e-3, 1e-16);
+      last = stress_of(after);
+    }
+}
+
+
+namespace
+{
+  template <int dim>
+  void
+  check_yield()
+  {
+    std::mt19937 generator(7);
+    for (unsigned int trial = 0; trial < 20; ++trial)
+      for (const std::string law :
+           {"neo-Hookean", "isochoric neo-Hookean", "stiffening"})
+        {
+          SCOPED_TRACE(law);
+          const Tensor<2, dim> F_e    = some_strain<dim>(generator);
+          const double         stress = stress_of(F_e, law);
+          // Nothing flows below it.
+          EXPECT_EQ(relax(F_e, {1e-3, 1.001 * stress}, 1., law), F_e);
+          // The stress decays to it above: in a long step at once, never
+          // farther.
+          const double yield = 0.4 * stress;
+          EXPECT_NEAR(stress_of(relax(F_e, {1e-12, yield}, 1., law), law),
+                      yield,
+                      1e-10 * yield);
+          EXPECT_NEAR(stress_of(relax(F_e, {0.01, yield, 1}, 1., law), law),
+                      yield,
+                      0.05 * yield);
+          double         last    = stress;
+          Tensor<2, dim> current = F_e;
+          for (unsigned int i = 0; i < 5; ++i)
+            {
+              current          = relax(current, {0.3, yield}, 0.1, law);
+              const double now = stress_of(current, law);
+              EXPECT_LT(now, last);
+              EXPECT_GT(now, yield);
+              last = now;
+            }
+        }
+  }
+} // namespace
+
+
+TEST(Relaxation, StopsAtTheYieldStress)
+{
+  MORULA_BOTH_DIMENSIONS(check_yield);
+}
+
+
+TEST(Relaxation, OfSmallShearAboveTheYieldStressIsExponential)
+{
+  const Tensor<2, 3> F_e    = diagonal<3>({1.0002, 0.9999, 0.9999});
+  const double       stress = stress_of(F_e), yield = 0.25 * stress;
+  EXPECT_NEAR(stress_of(relax(F_e, {0.4, yield, 5000}, 0.4)),
+              yield + (stress - yield) * std::exp(-1.),
+              1e-3 * stress);
+}
+
+
+TEST(Relaxation, KnowsTheVonMisesStress)
+{
+  std::mt19937 generator(8);
+  for (const std::string law :
+       {"neo-Hookean", "isochoric neo-Hookean", "stiffening"})
+    {
+      const Tensor<2, 3>    F_e = some_strain<3>(generator);
+      const ElasticPoint<3> point(F_e, constants, material_of_test(law));
+      EXPECT_NEAR(stress_of(F_e, law),
+                  std::sqrt(1.5) * deviator(point.kirchhoff_stress()).norm(),
+                  1e-13);
+      const Tensor<2, 2>    plane = some_strain<2>(generator);
+      const ElasticPoint<2> in_plane(plane, constants, material_of_test(law));
+      EXPECT_NEAR(stress_of(plane, law),
+                  std::sqrt(1.5) * deviator(in_plane.kirchhoff_stress()).norm(),
+                  1e-13);
+    }
+}

@@ -107,7 +107,7 @@ namespace Morula
 
     /** Takes another text for cells of a type, by its number.
      *  @param path of the key that says so */
-    void
+    virtual void
     set_for_type(const unsigned int type,
                  const std::string &path,
                  const std::string &text);

@@ -64,6 +64,8 @@ namespace Morula
     /** The state of cells that expressions speak of: an effect takes its
      *  expressions of cells from here. */
     StateColumns<dim> &state;
+    /** Tissue/Center where the shape has one, else the origin, µm. */
+    Point<dim> center = Point<dim>();
   };
 
   /**

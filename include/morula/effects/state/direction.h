@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_state_direction_h
+#define morula_effects_state_direction_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <string>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** How a direction is given. */
+  enum class DirectionKind
+  {
+    /** The vector of an expression. */
+    expression,
+    /** From Tissue/Center to the founder. */
+    radial,
+    /** The outward normal of the surface near the founder, at t = 0. */
+    surface_normal
+  };
+
+  /** A key of cells that gives a direction in the body as it was at t = 0: an
+   *  expression with the components of a vector of any length, `radial` or
+   *  `surface normal`. */
+  class CellDirectionKey : public ExpressionKey
+  {
+  public:
+    CellDirectionKey(const std::string &path,
+                     const std::string &default_text,
+                     const std::string &documentation);
+
+    CellDirectionKey &
+    operator=(const std::string &text);
+
+    /** How the direction of cells of a type is given, by the type's number. */
+    DirectionKind
+    kind(const unsigned int type) const;
+
+    /** Whether some type's direction is given so. */
+    bool
+    has(const DirectionKind kind) const;
+
+    std::string
+    text() const override;
+    void
+    assign(const std::string &text) override;
+    void
+    set_for_type(const unsigned int type,
+                 const std::string &path,
+                 const std::string &text) override;
+
+    /** Refuses a vector of zeros, too. @throws InputError */
+    void
+    check(const unsigned int dim) const override;
+
+  private:
+    std::string                           written;
+    DirectionKind                         kind_;
+    std::map<unsigned int, DirectionKind> of_types;
+  };
+
+  /** The direction that such a key gives to each cell. */
+  template <int dim>
+  class DirectionOfCell
+  {
+  public:
+    /** Asks the setting for the columns that are needed. @throws InputError for
+     *  an expression that cannot be parsed */
+    DirectionOfCell(const CellDirectionKey   &key,
+                    const EffectSetting<dim> &setting);
+
+    /**
+     * Unit vector in the body as it was at t = 0, at time @p t (day). A founder
+     * in the very centre has no radial direction; it gets the first axis.
+     * @throws InputError where the expression's vector is zero
+     */
+    Tensor<1, dim>
+    of(const PresentCell<dim> &cell, const double t) const;
+
+  private:
+    Expression       expression;
+    CellDirectionKey key;
+    Point<dim>       center;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/state/direction.h>
+#include <morula/effects/state/present_cell.h>
+
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::map<std::string, DirectionKind> words{
+      {"radial", DirectionKind::radial},
+      {"surface normal", DirectionKind::surface_normal}};
+
+
+    DirectionKind
+    kind_of(const std::string &text)
+    {
+      const auto word = words.find(text);
+      return word == words.end() ? DirectionKind::expression : word->second;
+    }
+
+
+    /** What the expression is where a word stands, which nobody evaluates. */
+    std::string
+    as_expression(const std::string &text)
+    {
+      return kind_of(text) == DirectionKind::expression ? text : "1; 1; 1";
+    }
+
+
+    [[noreturn]] void
+    refuse_zero(const Expression &expression, const std::string &where)
+    {
+      throw InputError(expression.key(),
+                       expression.text(),
+                       "a vector that is not zero, 'radial' or 'surface "
+                       "normal'",
+                       where + "Choose a direction that all cells have.");
+    }
+  } // namespace
+
+
+  CellDirectionKey::CellDirectionKey(const std::string &path,
+                                     const std::string &default_text,
+                                     const std::string &documentation)
+    : ExpressionKey(path, default_text, documentation, Evaluated::step, 3)
+  {
+    assign(default_text);
+  }
+
+
+  CellDirectionKey &
+  CellDirectionKey::operator=(const std::string &text)
+  {
+    assign(text);
+    return *this;
+  }
+
+
+  DirectionKind
+  CellDirectionKey::kind(const unsigned int type) const
+  {
+    const auto own = of_types.find(type);
+    return own == of_types.end() ? kind_ : own->second;
+  }
+
+
+  bool
+  CellDirectionKey::has(const DirectionKind kind) const
+  {
+    bool found = kind_ == kind;
+    for (const auto &[type, own] : of_types)
+      found = found || own == kind;
+    return found;
+  }
+
+
+  std::string
+  CellDirectionKey::text() const
+  {
+    return written;
+  }
+
+
+  void
+  CellDirectionKey::assign(const std::string &text)
+  {
+    written = text;
+    kind_   = kind_of(text);
+    ExpressionKey::assign(as_expression(text));
+  }
+
+
+  void
+  CellDirectionKey::set_for_type(const unsigned int type,
+                                 const std::string &path,
+                                 const std::string &text)
+  {
+    of_types[type] = kind_of(text);
+    ExpressionKey::set_for_type(type, path, as_expression(text));
+  }
+
+
+  void
+  CellDirectionKey::check(const unsigned int dim) const
+  {
+    ExpressionKey::check(dim);
+    const Expression &of_all       = expression(dim);
+    const auto        check_vector = [&](const Expression &vector) {
+      if (!vector.used().empty())
+        return;
+      bool is_zero = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_zero = is_zero && vector.value(VariableValues(), d) == 0.;
+      if (is_zero)
+        refuse_zero(vector, "");
+    };
+    check_vector(of_all);
+    for (const auto &[type, own] : of_all.types())
+      check_vector(own);
+  }
+
+
+  template <int dim>
+  DirectionOfCell<dim>::DirectionOfCell(const CellDirectionKey   &key,
+                                        const EffectSetting<dim> &setting)
+    : expression(setting.state.use(key))
+    , key(key)
+    , center(setting.center)
+  {
+    if (key.has(DirectionKind::surface_normal))
+      setting.state.need_surface_normal();
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  DirectionOfCell<dim>::of(const PresentCell<dim> &cell, const double t) const
+  {
+    Tensor<1, dim> direction;
+    switch (key.kind(cell.type()))
+      {
+        case DirectionKind::radial:
+          direction = cell.cell().founder_position() - center;
+          if (direction.norm() == 0.)
+            direction[0] = 1.;
+          break;
+        case DirectionKind::surface_normal:
+          direction = cell.surface_normal();
+          break;
+        default:
+          direction = cell.vector(expression, t);
+          if (direction.norm() == 0.)
+            {
+              std::ostringstream place;
+              place << "It is zero at the cell from ("
+                    << cell.cell().founder_position() << ") um, t = " << t
+                    << " day. ";
+              refuse_zero(expression, place.str());
+            }
+      }
+    return direction / direction.norm();
+  }
+
+
+  template class DirectionOfCell<2>;
+  template class DirectionOfCell<3>;
+} // namespace Morula

@@ -49,8 +49,12 @@ namespace Morula
     double
     normal(const double noise, const double mean, const double deviation)
     {
-      return mean +
-             deviation * std::sqrt(2.) * boost::math::erf_inv(2. * noise - 1.);
+      // What is no number is refused where expressions are evaluated.
+      using namespace boost::math::policies;
+      using Silent =
+        policy<domain_error<ignore_error>, overflow_error<ignore_error>>;
+      return mean + deviation * std::sqrt(2.) *
+                      boost::math::erf_inv(2. * noise - 1., Silent());
     }
 
     /** Adds what deal.II's FunctionParser has besides muParser's own. */

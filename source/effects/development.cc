@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
+#include <morula/base/time_parameters.h>
 #include <morula/effects/development.h>
 #include <morula/effects/fate/random.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace Morula
 {
+  namespace
+  {
+    /** More changes of a cell's type in a step are a mistake. */
+    constexpr unsigned int most_changes = 1000;
+  } // namespace
+
   template <int dim>
   CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
                                         const CellColumns<dim>  &columns,
@@ -82,6 +91,13 @@ namespace Morula
   }
 
   template <int dim>
+  const CellTypes<dim> *
+  CellDevelopment<dim>::types() const
+  {
+    return effects.types ? &*effects.types : nullptr;
+  }
+
+  template <int dim>
   CellReader<dim>
   CellDevelopment<dim>::reader(const double t) const
   {
@@ -114,8 +130,10 @@ namespace Morula
                                    const CellView<dim, double> &cell,
                                    const double                 step) const
   {
-    const CellReader<dim>  reader = this->reader(0.);
-    const Point<dim>       X      = cell.founder_position();
+    const CellReader<dim> reader = this->reader(0.);
+    const Point<dim>      X      = cell.founder_position();
+    if (effects.types)
+      cell.set(state_.type, effects.types->founder_type(X));
     const PresentCell<dim> founder(cell, id, X, reader);
     if (effects.cycle)
       {
@@ -134,6 +152,8 @@ namespace Morula
       effect->begin(cell);
     if (step > 0.)
       {
+        if (effects.types)
+          effects.types->check_cell(founder);
         if (effects.law)
           effects.law->check_cell(founder, step);
         if (effects.rule)
@@ -144,11 +164,11 @@ namespace Morula
   template <int dim>
   CycleState<dim>
   CellDevelopment<dim>::next_clock(const PresentCell<dim> &cell,
+                                   const CycleState<dim>  &before,
                                    const double            t0,
                                    const double            t1) const
   {
-    const CycleState<dim> before = clock(cell.cell());
-    CycleState<dim>       after =
+    CycleState<dim> after =
       effects.cycle->advance(before,
                              CellAt<dim>(cell, t0),
                              t0,
@@ -156,6 +176,85 @@ namespace Morula
                              cell.cell().elastic_volume_ratio());
     choose_axis(before, cell, t0, after);
     return after;
+  }
+
+  template <int dim>
+  CycleState<dim>
+  CellDevelopment<dim>::live(const PresentCell<dim>      &before,
+                             const CellView<dim, double> &after,
+                             const double                 t0,
+                             const double                 t1,
+                             std::vector<TypeChange>     &changes) const
+  {
+    const bool      has_clock = effects.cycle.has_value();
+    CycleState<dim> state     = has_clock ? clock(after) : CycleState<dim>();
+    if (!effects.types)
+      return has_clock ? next_clock(before, state, t0, t1) : state;
+    double t = t0;
+    for (unsigned int n = 0; n < most_changes; ++n)
+      {
+        // In its state of t0, but for its type.
+        const PresentCell<dim> cell(after,
+                                    before.id(),
+                                    before.position(),
+                                    before.reader());
+        CycleState<dim>        next = state;
+        double                 end  = t1;
+        if (has_clock)
+          {
+            next = next_clock(cell, state, t, t1);
+            if (effects.cycle->divides(next, CellAt<dim>(cell, t), t1))
+              end = std::min(
+                t1, effects.cycle->division_time(next, CellAt<dim>(cell, t)));
+          }
+        const auto change = effects.types->next_change(cell, after, t, end);
+        if (!change)
+          return next;
+        if (has_clock)
+          {
+            state = next_clock(cell, state, t, change->time);
+            set_clock(after, state);
+          }
+        changes.push_back({change->time, cell.id(), cell.type(), change->to});
+        effects.types->change(after, state_, change->to, change->time);
+        t = change->time;
+      }
+    throw InputError("Cell types",
+                     "",
+                     "at most " + std::to_string(most_changes) +
+                       " changes of a cell's type in a step",
+                     "Lower the rates, or shorten " +
+                       TimeParameters::step_path + ".");
+  }
+
+  template <int dim>
+  unsigned int
+  CellDevelopment<dim>::bear(const CellView<dim, double> &daughter,
+                             const types::particle_index  id,
+                             const Point<dim>            &position,
+                             const unsigned int           which,
+                             const double                 birth,
+                             const double                 t1,
+                             std::vector<TypeChange>     &changes) const
+  {
+    if (state_.birth_time.exists())
+      daughter.set(state_.birth_time, birth);
+    if (!effects.types)
+      return 0;
+    const unsigned int type  = daughter.get(state_.type);
+    const auto         types = effects.types->daughters(type);
+    const unsigned int own   = which == 0 ? types.first : types.second;
+    if (own != type)
+      {
+        daughter.set(state_.type, own);
+        if (state_.type_since.exists())
+          daughter.set(state_.type_since, birth);
+      }
+    const CellReader<dim>  reader = this->reader(t1);
+    const PresentCell<dim> cell(daughter, id, position, reader);
+    const CycleState<dim>  state = live(cell, daughter, birth, t1, changes);
+    set_clock(daughter, state);
+    return own;
   }
 
   template <int dim>
@@ -210,6 +309,8 @@ namespace Morula
       }
     if (!effects.law)
       return of_cycle;
+    if (!effects.grows.empty() && !effects.grows[cell.type()])
+      return of_law * of_cycle;
     return effects.law->growth(
              {X, of_law, view.elastic_deformation(), &view, &cell}, t0, t1) *
            of_cycle;
@@ -220,14 +321,12 @@ namespace Morula
   CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &after,
                                 const double                 t0,
-                                const double                 t1) const
+                                const double                 t1,
+                                std::vector<TypeChange>     &changes) const
   {
-    CycleState<dim> next;
+    const CycleState<dim> next = live(before, after, t0, t1, changes);
     if (effects.cycle)
-      {
-        next = next_clock(before, t0, t1);
-        set_clock(after, next);
-      }
+      set_clock(after, next);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before.cell(), after, t0, t1);
     if (grows())
@@ -267,13 +366,14 @@ namespace Morula
         if (!keeps_rows)
           {
             const CycleState<dim> next =
-              effects.cycle ? next_clock(before, t0, t1) : CycleState<dim>();
+              effects.cycle ? next_clock(before, clock(cell), t0, t1) :
+                              CycleState<dim>();
             result.current.push_back(growth(before, next, t0, t1));
             continue;
           }
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
-        develop(before, after, t0, t1);
+        develop(before, after, t0, t1, result.changes);
         if (grows())
           result.current.push_back(after.growth());
         if (material.depends_on_state())
@@ -311,6 +411,7 @@ namespace Morula
                                                 tissue.cells().id(p),
                                                 tissue.cells().position(p),
                                                 reader),
+                               clock(cell),
                                t0,
                                t1));
         cell.set(columns_.growth, of_step.current[p]);

@@ -11,33 +11,43 @@ namespace Morula
   namespace
   {
     std::vector<std::string>
-    lineage_columns()
+    lineage_columns(const bool with_types)
     {
-      return {"id", "parent", "generation", "birth_time", "x", "y", "z"};
+      std::vector<std::string> columns = {
+        "id", "parent", "generation", "birth_time", "x", "y", "z"};
+      if (with_types)
+        columns.push_back("type");
+      return columns;
     }
   } // namespace
 
   template <int dim>
-  LineageFile<dim>::LineageFile(const std::string &path, const MPI_Comm comm)
+  LineageFile<dim>::LineageFile(const std::string &path,
+                                const bool         with_types,
+                                const MPI_Comm     comm)
     : comm(comm)
-    , file(path, lineage_columns(), comm)
+    , with_types(with_types)
+    , file(path, lineage_columns(with_types), comm)
   {}
 
   template <int dim>
   LineageFile<dim>::LineageFile(const std::string &path,
+                                const bool         with_types,
                                 const TableExtent &kept,
                                 const MPI_Comm     comm)
     : comm(comm)
-    , file(path, lineage_columns(), kept, comm)
+    , with_types(with_types)
+    , file(path, lineage_columns(with_types), kept, comm)
   {}
 
   template <int dim>
   void
   LineageFile<dim>::check(const std::string &path,
+                          const bool         with_types,
                           const TableExtent &kept,
                           const MPI_Comm     comm)
   {
-    AppendedCsv::check(path, lineage_columns(), kept, comm);
+    AppendedCsv::check(path, lineage_columns(with_types), kept, comm);
   }
 
   template <int dim>
@@ -47,16 +57,17 @@ namespace Morula
     CsvRows local;
     for (const Birth<dim> &birth : births)
       {
-        std::array<double, 7> values = {{static_cast<double>(birth.id),
+        std::array<double, 8> values = {{static_cast<double>(birth.id),
                                          static_cast<double>(birth.parent),
                                          static_cast<double>(birth.generation),
                                          birth.time,
                                          0.,
                                          0.,
-                                         0.}};
+                                         0.,
+                                         static_cast<double>(birth.type)}};
         for (unsigned int d = 0; d < dim; ++d)
           values[4 + d] = birth.position[d];
-        local.add(birth.id, values.data(), values.size());
+        local.add(birth.id, values.data(), with_types ? 8 : 7);
       }
 
     const GatheredRows rows(local, comm);

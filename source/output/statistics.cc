@@ -9,10 +9,13 @@ namespace Morula
   namespace
   {
     std::vector<std::string>
-    statistics_columns()
+    statistics_columns(const std::vector<std::string> &type_names)
     {
+      StatisticsRow row;
+      for (const std::string &name : type_names)
+        row.cells_of_types.emplace_back(name, 0);
       std::vector<std::string> all;
-      for (const auto &column : StatisticsRow().columns())
+      for (const auto &column : row.columns())
         all.push_back(column.first);
       return all;
     }
@@ -24,53 +27,61 @@ namespace Morula
     const auto number = [](const auto count) {
       return static_cast<double>(count);
     };
-    return {{"step", number(step)},
-            {"time", time},
-            {"dt", dt},
-            {"cells", number(cells)},
-            {"total_volume", tissue.total_volume},
-            {"grown_volume", tissue.grown_volume},
-            {"mean_energy_density", tissue.mean_energy_density},
-            {"cell_mean_energy_density", tissue.cell_mean_energy_density},
-            {"max_energy_density", tissue.max_energy_density},
-            {"min_elastic_volume_ratio", tissue.min_elastic_volume_ratio},
-            {"max_elastic_volume_ratio", tissue.max_elastic_volume_ratio},
-            {"dividing", number(dividing)},
-            {"held_at_checkpoint", number(held_at_checkpoint)},
-            {"xmin", tissue.lower[0]},
-            {"xmax", tissue.upper[0]},
-            {"ymin", tissue.lower[1]},
-            {"ymax", tissue.upper[1]},
-            {"zmin", tissue.lower[2]},
-            {"zmax", tissue.upper[2]},
-            {"active_grid_cells", number(active_grid_cells)},
-            {"inner_splines", number(inner_splines)},
-            {"outer_splines", number(outer_splines)},
-            {"unknowns", number(unknowns)},
-            {"newton_iterations", number(newton_iterations)},
-            {"linear_iterations", number(linear_iterations)},
-            {"rejected_steps", number(rejected_steps)},
-            {"residual", residual},
-            {"wall_seconds", wall_seconds},
-            {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
+    std::vector<std::pair<std::string, double>> list = {
+      {"step", number(step)},
+      {"time", time},
+      {"dt", dt},
+      {"cells", number(cells)},
+      {"total_volume", tissue.total_volume},
+      {"grown_volume", tissue.grown_volume},
+      {"mean_energy_density", tissue.mean_energy_density},
+      {"cell_mean_energy_density", tissue.cell_mean_energy_density},
+      {"max_energy_density", tissue.max_energy_density},
+      {"min_elastic_volume_ratio", tissue.min_elastic_volume_ratio},
+      {"max_elastic_volume_ratio", tissue.max_elastic_volume_ratio},
+      {"dividing", number(dividing)},
+      {"held_at_checkpoint", number(held_at_checkpoint)},
+      {"xmin", tissue.lower[0]},
+      {"xmax", tissue.upper[0]},
+      {"ymin", tissue.lower[1]},
+      {"ymax", tissue.upper[1]},
+      {"zmin", tissue.lower[2]},
+      {"zmax", tissue.upper[2]},
+      {"active_grid_cells", number(active_grid_cells)},
+      {"inner_splines", number(inner_splines)},
+      {"outer_splines", number(outer_splines)},
+      {"unknowns", number(unknowns)},
+      {"newton_iterations", number(newton_iterations)},
+      {"linear_iterations", number(linear_iterations)},
+      {"rejected_steps", number(rejected_steps)},
+      {"residual", residual},
+      {"wall_seconds", wall_seconds},
+      {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
+    for (const auto &[name, n] : cells_of_types)
+      list.emplace_back("cells_" + name, number(n));
+    return list;
   }
 
-  StatisticsFile::StatisticsFile(const std::string &path, const MPI_Comm comm)
-    : file(path, statistics_columns(), comm)
+  StatisticsFile::StatisticsFile(const std::string              &path,
+                                 const std::vector<std::string> &type_names,
+                                 const MPI_Comm                  comm)
+    : file(path, statistics_columns(type_names), comm)
   {}
 
-  StatisticsFile::StatisticsFile(const std::string &path,
-                                 const TableExtent &kept,
-                                 const MPI_Comm     comm)
-    : file(path, statistics_columns(), kept, comm)
+  StatisticsFile::StatisticsFile(const std::string              &path,
+                                 const std::vector<std::string> &type_names,
+                                 const TableExtent              &kept,
+                                 const MPI_Comm                  comm)
+    : file(path, statistics_columns(type_names), kept, comm)
   {}
 
   void
-  StatisticsFile::check(const std::string &path,
-                        const TableExtent &kept,
-                        const MPI_Comm     comm)
+  StatisticsFile::check(const std::string              &path,
+                        const std::vector<std::string> &type_names,
+                        const TableExtent              &kept,
+                        const MPI_Comm                  comm)
   {
-    AppendedCsv::check(path, statistics_columns(), kept, comm);
+    AppendedCsv::check(path, statistics_columns(type_names), kept, comm);
   }
 
   void

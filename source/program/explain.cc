@@ -3,6 +3,7 @@
 
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
+#include <morula/program/explain_cells.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
@@ -98,12 +99,12 @@ namespace Morula
       print_effect(out,
                    "growth",
                    scene.has_growth(),
-                   scene.growth_law +
-                     details_of(catalogue.growth_laws, scene.growth_law));
+                   scene.law_of_growth() +
+                     details_of(catalogue.growth_laws, scene.law_of_growth()));
       print_effect(out,
                    "proliferation",
                    divides,
-                   scene.proliferation_law + ", T = " + cycle.duration.text() +
+                   "cell cycle, T = " + cycle.duration.text() +
                      " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
                      of_founders(n_proliferating,
                                  n_founders,
@@ -200,9 +201,15 @@ namespace Morula
     std::string
     bound_of_cells(const Scene &scene)
     {
-      return !scene.has_proliferation() ? "" :
-             has_checkpoint(scene)      ? "at least " :
-                                          "about ";
+      if (!scene.has_proliferation())
+        return "";
+      const CellCycleParameters &cycle = scene.cell_cycle;
+      const unsigned int         dim   = scene.dimension;
+      return has_checkpoint(scene) ||
+                 depends_on_more_than_place(cycle.duration.expression(dim)) ||
+                 depends_on_more_than_place(cycle.exit_rate.expression(dim)) ?
+               "at least " :
+               "about ";
     }
 
     void
@@ -236,6 +243,8 @@ namespace Morula
       const SizeEstimate size =
         estimated_size(scene, tissue.founders, comm, n_unknowns);
       const double available = physical_memory(comm);
+      const std::vector<types::particle_index> n_of_types =
+        founders_of_types(scene, tissue.founders.positions, comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
 
@@ -253,6 +262,8 @@ namespace Morula
                     tissue.counts,
                     tissue.founders.n_global,
                     tissue.n_proliferating);
+      print_types(text, scene, n_of_types);
+      print_cell_expressions(text, scene);
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);

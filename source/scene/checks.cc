@@ -56,6 +56,23 @@ namespace Morula
       return n;
     }
 
+    /** Refuses a type of cells whose condition for founders holds at none. */
+    template <int dim>
+    void
+    check_types(const Scene                   &scene,
+                const std::vector<Point<dim>> &founders,
+                const MPI_Comm                 comm)
+    {
+      const auto n = founders_of_types(scene, founders, comm);
+      for (unsigned int i = 0; i < n.size(); ++i)
+        if (const ExpressionKey &where = scene.cell_types.types[i].where;
+            n[i] == 0 && !where.empty())
+          where.refuse("a condition that holds at some founder",
+                       "It is positive at none, or at founders of later types "
+                       "only: correct it, or leave it empty. Founders sit at "
+                       "centers of cells, inside of the tissue.");
+    }
+
     /** Where conditions act on the points of this rank, in their own order. */
     template <int dim>
     struct Acting
@@ -120,6 +137,23 @@ namespace Morula
 
 
   template <int dim>
+  std::vector<types::particle_index>
+  founders_of_types(const Scene                   &scene,
+                    const std::vector<Point<dim>> &founders,
+                    const MPI_Comm                 comm)
+  {
+    std::vector<types::particle_index> n(scene.cell_types.types.size(), 0);
+    if (n.empty())
+      return n;
+    const SceneEffects<dim> effects = effects_of<dim>(scene);
+    for (const Point<dim> &X : founders)
+      ++n[effects.development.types->founder_type(X)];
+    Utilities::MPI::sum(n, comm, n);
+    return n;
+  }
+
+
+  template <int dim>
   types::particle_index
   check_at_cells(const Scene                   &scene,
                  const std::vector<Point<dim>> &founders,
@@ -130,6 +164,7 @@ namespace Morula
     const Preview<dim>                at =
       preview<dim>(scene, founders, no_points, no_normals, comm);
     everywhere(comm, [&] { check_founders(scene, at); });
+    check_types(scene, founders, comm);
     const types::particle_index n_proliferating =
       count_proliferating(scene, founders, comm);
     check_memory(scene, expected_size(scene, founders, comm), comm);
@@ -179,6 +214,9 @@ namespace Morula
 
 
 #define INSTANTIATE(dim)                                                      \
+  template std::vector<types::particle_index> founders_of_types(              \
+    const Scene &, const std::vector<Point<dim>> &, const MPI_Comm);          \
+                                                                              \
   template Preview<dim>          preview(const Scene &,                       \
                                          const std::vector<Point<dim>> &,     \
                                          const std::vector<Point<dim>> &,     \

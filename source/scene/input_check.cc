@@ -159,6 +159,26 @@ namespace Morula
                        cycle.division_axis);
     }
 
+    /** Refuses types of cells with laws that differ, and daughters of types
+     * that there are not. */
+    template <int dim>
+    void
+    check_types(const Scene &scene)
+    {
+      const CellTypesParameters &types = scene.cell_types;
+      for (unsigned int i = 0; i < types.types.size(); ++i)
+        {
+          const CellTypeKeys &type = types.types[i];
+          type.check_each(dim);
+          types.daughters(i);
+          if (!type.growth_law.empty() && type.growth_law != "none" &&
+              type.growth_law != scene.law_of_growth())
+            type.growth_law.refuse("none or " + scene.law_of_growth(),
+                                   "A scene has one law of growth: give its "
+                                   "keys other values for this type.");
+        }
+    }
+
     template <int dim>
     void
     check_boundary_conditions(const Scene &scene)
@@ -189,10 +209,11 @@ namespace Morula
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       scene.material.check_each(dim);
+      check_types<dim>(scene);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,
-                       scene.growth_law);
+                       scene.law_of_growth());
       check_proliferation<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.fates);
       check_boundary_conditions<dim>(scene);

@@ -22,6 +22,18 @@ namespace Morula
       list.insert(list.end(), more.begin(), more.end());
     }
 
+    /** Those keys whose expressions speak of cells. */
+    std::vector<ExpressionKey *>
+    keys_of_cells(const KeyList &list)
+    {
+      std::vector<ExpressionKey *> keys;
+      for (AnyKey *key : list)
+        if (auto *expression = dynamic_cast<ExpressionKey *>(key))
+          if (expression->is_of_cells())
+            keys.push_back(expression);
+      return keys;
+    }
+
     /** Admits the names of all effects of a kind. */
     template <template <int> class Interface>
     void
@@ -71,17 +83,73 @@ namespace Morula
   }
 
 
+  std::string
+  Scene::law_of_growth() const
+  {
+    if (growth_law != "none")
+      return growth_law;
+    for (const CellTypeKeys &type : cell_types.types)
+      if (!type.growth_law.empty() && type.growth_law != "none")
+        return type.growth_law;
+    return "none";
+  }
+
+
   bool
   Scene::has_growth() const
   {
-    return growth_law != "none";
+    return law_of_growth() != "none";
+  }
+
+
+  bool
+  Scene::grows(const unsigned int type) const
+  {
+    if (!cell_types.present() || cell_types.types[type].growth_law.empty())
+      return growth_law != "none";
+    return cell_types.types[type].growth_law != "none";
   }
 
 
   bool
   Scene::has_proliferation() const
   {
-    return proliferation_law != "none";
+    return proliferation_law != "none" ||
+           std::any_of(cell_types.types.begin(),
+                       cell_types.types.end(),
+                       [](const CellTypeKeys &type) {
+                         return type.proliferation_law == "cell cycle";
+                       });
+  }
+
+
+  void
+  Scene::declare_types(const std::string &names)
+  {
+    std::string laws;
+    for (const auto &law : catalogue.growth_laws)
+      laws += (laws.empty() ? "" : "|") + law.name();
+    const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
+    cell_types.declare_types(names, {of_cells.begin(), of_cells.end()}, laws);
+  }
+
+
+  void
+  Scene::apply_types()
+  {
+    if (!cell_types.present())
+      return;
+    cell_types.apply(keys_of_cells(list_without_types()));
+    // Cells of a type that does not proliferate stay in G0.
+    if (!has_proliferation())
+      return;
+    for (unsigned int i = 0; i < cell_types.types.size(); ++i)
+      {
+        const Key<std::string> &own = cell_types.types[i].proliferation_law;
+        const Key<std::string> &law = own.empty() ? proliferation_law : own;
+        if (law == "none")
+          cell_cycle.exit_rate.set_for_type(i, law.path(), "0");
+      }
   }
 
 
@@ -94,6 +162,15 @@ namespace Morula
 
   KeyList
   Scene::list()
+  {
+    KeyList list = list_without_types();
+    append(list, cell_types.list());
+    return list;
+  }
+
+
+  KeyList
+  Scene::list_without_types()
   {
     KeyList list = {&method, &dimension, &output_directory, &random_seed};
     for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
@@ -128,12 +205,19 @@ namespace Morula
               const std::vector<std::string> &overrides,
               const Catalogue                &catalogue)
   {
-    Scene               scene(catalogue);
-    const ParameterKeys keys(scene.list());
-
+    Scene                  scene(catalogue);
     std::vector<Statement> statements = read_statements(file);
     for (const std::string &text : overrides)
       statements.push_back(read_override(text));
+    // Names first: they say which sections there are.
+    std::string types;
+    for (const Statement &statement : statements)
+      if (statement.kind == Statement::set &&
+          statement.path == scene.cell_types.names.path())
+        types = statement.value;
+    scene.declare_types(types);
+    const ParameterKeys keys(scene.list());
+
     for (const Statement &statement : statements)
       {
         keys.apply(statement);
@@ -153,6 +237,7 @@ namespace Morula
       for (const auto &[method, text] : key->texts_with_methods())
         if (scene.method == method && !scene.has_set(*key))
           key->assign(text);
+    scene.apply_types();
     scene.file = file;
     if (scene.output_directory.empty())
       scene.output_directory =
@@ -201,6 +286,8 @@ namespace Morula
   effects_of(const Scene &scene)
   {
     SceneEffects<dim> effects;
+    effects.state = StateColumns<dim>(scene.cell_types.name_list());
+    effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);
     DevelopmentEffects<dim> &development = effects.development;
@@ -228,10 +315,16 @@ namespace Morula
       return effect;
     };
 
+    if (scene.cell_types.present())
+      {
+        development.types.emplace(scene.cell_types, setting);
+        for (unsigned int type = 0; type < development.types->size(); ++type)
+          development.grows.push_back(scene.grows(type));
+      }
     const Catalogue &catalogue = scene.catalogue;
     if (scene.has_growth())
       development.law =
-        make(*find_choice(catalogue.growth_laws, scene.growth_law));
+        make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
     if (scene.has_proliferation())
       if (const auto *rule = find_choice(catalogue.division_rules,
                                          scene.cell_cycle.division_axis))

@@ -78,6 +78,8 @@ namespace Morula
                                   scene.time))
   {
     lock.emplace(scene.output_directory, comm);
+    const std::vector<std::string> types     = scene.cell_types.name_list();
+    const bool                     has_types = !types.empty();
     if (resumed_from)
       {
         output_times = resumed_from->table("output_times");
@@ -92,14 +94,23 @@ namespace Morula
         const TableExtent rows   = extent_of("statistics", *resumed_from);
         const TableExtent births = extent_of("lineage", *resumed_from);
         // All tables are checked before the first of them is cut.
-        StatisticsFile::check(path("statistics.csv"), rows, comm);
-        LineageFile<dim>::check(path("lineage.csv"), births, comm);
+        StatisticsFile::check(path("statistics.csv"), types, rows, comm);
+        LineageFile<dim>::check(path("lineage.csv"), has_types, births, comm);
+        if (has_types)
+          EventsFile::check(path("events.csv"),
+                            extent_of("events", *resumed_from),
+                            comm);
         if (continues_conditions(resumed_from))
           MatrixConditionFile::check(path("condition.csv"),
                                      extent_of("condition", *resumed_from),
                                      comm);
-        statistics.emplace(path("statistics.csv"), rows, comm);
-        lineage.emplace(path("lineage.csv"), births, comm);
+        statistics.emplace(path("statistics.csv"), types, rows, comm);
+        lineage.emplace(path("lineage.csv"), has_types, births, comm);
+        if (has_types)
+          events.emplace(path("events.csv"),
+                         types,
+                         extent_of("events", *resumed_from),
+                         comm);
         prepare_resume(scene.output_directory,
                        setup(),
                        output_times.size(),
@@ -108,8 +119,10 @@ namespace Morula
     else
       {
         prepare_directory(scene.output_directory, setup(), comm);
-        statistics.emplace(path("statistics.csv"), comm);
-        lineage.emplace(path("lineage.csv"), comm);
+        statistics.emplace(path("statistics.csv"), types, comm);
+        lineage.emplace(path("lineage.csv"), has_types, comm);
+        if (has_types)
+          events.emplace(path("events.csv"), types, comm);
       }
     if (scene.output.condition_estimate)
       open_conditions(resumed_from);
@@ -204,11 +217,15 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::step(StatisticsRow &row, const std::vector<Birth<dim>> &births)
+  RunFiles<dim>::step(StatisticsRow                 &row,
+                      const std::vector<Birth<dim>> &births,
+                      const std::vector<TypeChange> &changes)
   {
     row.wall_seconds = wall_seconds();
     statistics->append(row);
     lineage->append(births);
+    if (events)
+      events->append(changes);
     progress->step({row.step,
                     row.time,
                     row.dt,
@@ -303,6 +320,11 @@ namespace Morula
     // What the snapshot counts must be on the disk before it.
     statistics->sync();
     lineage->sync();
+    if (events)
+      {
+        events->sync();
+        store_extent("events", events->extent(), data);
+      }
     if (conditions)
       {
         conditions->sync();

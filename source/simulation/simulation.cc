@@ -141,6 +141,7 @@ namespace Morula
     row           = StatisticsRow();
     newton_report = NewtonReport();
     births        = {};
+    changes       = {};
     condition.reset();
     ++n_steps;
 
@@ -309,7 +310,7 @@ namespace Morula
   Simulation<dim>::write_rows()
   {
     const TimerOutput::Scope section(timer, "rows");
-    files->step(row, births);
+    files->step(row, births, changes);
   }
 
   template <int dim>
@@ -469,7 +470,14 @@ namespace Morula
       cells_due(tissue, development, time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
     if (row.dividing > 0)
-      births = Morula::divide(tissue, development, due, next_id);
+      {
+        Divisions<dim> divisions =
+          Morula::divide(tissue, development, due, time_steps.time(), next_id);
+        births = std::move(divisions.births);
+        changes.insert(changes.end(),
+                       divisions.changes.begin(),
+                       divisions.changes.end());
+      }
   }
 
   template <int dim>

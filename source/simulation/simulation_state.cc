@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/effects/state/surface_distance.h>
 #include <morula/output/cell_fields.h>
 #include <morula/output/surface_fields.h>
 #include <morula/particles/cell_domain.h>
@@ -105,16 +106,29 @@ namespace Morula
     PointList<dim>          cells(columns.n_numbers());
     cells.reserve(founders.positions.size());
     births.reserve(founders.positions.size());
-    for (std::size_t i = 0; i < founders.positions.size(); ++i)
-      {
-        const Point<dim>    X   = founders.positions[i];
-        const auto          id  = founders.first_id + i;
-        std::vector<double> row = columns.founder(X, founders.volumes[i]);
-        const CellView<dim, double> cell(make_array_view(row), columns);
-        development.initialize(id, cell, scene.time.step);
-        cells.add(id, X, make_array_view(row));
-        births.push_back({cells.ids.back(), -1, 0, 0., X});
-      }
+    const StateColumns<dim>      &state = development.state();
+    std::vector<NearSurface<dim>> surface;
+    if (state.needs_surface())
+      surface = near_surface(founders.positions,
+                             patches.positions,
+                             patches.normals,
+                             comm);
+    everywhere(comm, [&]() {
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        {
+          const Point<dim>            X  = founders.positions[i];
+          const types::particle_index id = founders.first_id + i;
+          std::vector<double> row = columns.founder(X, founders.volumes[i]);
+          const CellView<dim, double> cell(make_array_view(row), columns);
+          if (state.depth.exists())
+            cell.set(state.depth, surface[i].depth);
+          if (state.surface_normal.exists())
+            cell.set(state.surface_normal, surface[i].normal);
+          development.initialize(id, cell, scene.time.step);
+          cells.add(id, X, make_array_view(row));
+          births.push_back({id, -1, 0, 0., X, type_of(cell)});
+        }
+    });
 
     const BoundaryColumns<dim> &boundary = tissue.boundary_points().columns();
     PointList<dim>              points(boundary.n_numbers());
@@ -228,6 +242,14 @@ namespace Morula
   }
 
   template <int dim>
+  unsigned int
+  Simulation<dim>::type_of(const CellView<dim, const double> &cell) const
+  {
+    const auto &type = development.state().type;
+    return type.exists() ? cell.get(type) : 0;
+  }
+
+  template <int dim>
   PresentCell<dim>
   Simulation<dim>::present_cell(const unsigned int     p,
                                 const CellReader<dim> &reader) const
@@ -260,17 +282,21 @@ namespace Morula
   StatisticsRow
   Simulation<dim>::statistics() const
   {
-    StatisticsRow     state;
-    TissueSums<dim>   sums;
-    LongestCell<dim>  longest(scene.grid.spacing);
-    std::uint64_t     held   = 0;
-    const Cells<dim> &cells  = tissue.cells();
-    const auto        reader = development.reader(time_steps.time());
+    StatisticsRow              state;
+    TissueSums<dim>            sums;
+    LongestCell<dim>           longest(scene.grid.spacing);
+    std::vector<std::uint64_t> of_types(development.state().type_names().size(),
+                                        0);
+    std::uint64_t              held   = 0;
+    const Cells<dim>          &cells  = tissue.cells();
+    const auto                 reader = development.reader(time_steps.time());
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const PresentCell<dim> cell = present_cell(p, reader);
         sums.add_cell(cell.quantities(), cell.position());
         held += is_held(cell);
+        if (!of_types.empty())
+          ++of_types[cell.type()];
         longest.add(cell_domain<dim>(cell.position(), cell.cell()));
       }
     for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
@@ -281,6 +307,10 @@ namespace Morula
     state.tissue  = sums.totals(comm);
     state.lengths = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+    Utilities::MPI::sum(of_types, comm, of_types);
+    for (std::size_t type = 0; type < of_types.size(); ++type)
+      state.cells_of_types.emplace_back(development.state().type_names()[type],
+                                        of_types[type]);
     return state;
   }
 

@@ -75,7 +75,7 @@ TEST(Statistics, HaveTheColumnsOfTheContract)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
-  StatisticsFile         file(path, MPI_COMM_WORLD);
+  StatisticsFile         file(path, {}, MPI_COMM_WORLD);
   EXPECT_EQ(file.extent().n_rows, 0u);
   file.append(row(0));
   file.append(row(1));
@@ -90,7 +90,7 @@ TEST(Statistics, AreCutWhenResumed)
   const std::string      path = directory / "statistics.csv";
   TableExtent            two, three;
   {
-    StatisticsFile file(path, MPI_COMM_WORLD);
+    StatisticsFile file(path, {}, MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 4; ++step)
       {
         if (step == 2)
@@ -100,7 +100,7 @@ TEST(Statistics, AreCutWhenResumed)
   }
   tear(path, "4,0.25,3,4,5");
   {
-    StatisticsFile file(path, two, MPI_COMM_WORLD);
+    StatisticsFile file(path, {}, two, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
     MPI_Barrier(MPI_COMM_WORLD);
     file.append(row(7));
@@ -113,8 +113,8 @@ TEST(Statistics, AreCutWhenResumed)
   // a torn row does not count
   tear(path, "8,0.25");
   const TableExtent four = {4, three.digest};
-  EXPECT_THROW(StatisticsFile(path, four, MPI_COMM_WORLD), InputError);
-  EXPECT_NO_THROW(StatisticsFile(path, three, MPI_COMM_WORLD));
+  EXPECT_THROW(StatisticsFile(path, {}, four, MPI_COMM_WORLD), InputError);
+  EXPECT_NO_THROW(StatisticsFile(path, {}, three, MPI_COMM_WORLD));
 }
 
 TEST(Statistics, RefuseToResumeFromOtherFiles)
@@ -122,16 +122,16 @@ TEST(Statistics, RefuseToResumeFromOtherFiles)
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
   const TableExtent      nothing, one = {1, 0};
-  EXPECT_THROW(StatisticsFile(path, nothing, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(StatisticsFile(path, {}, nothing, MPI_COMM_WORLD), InputError);
   on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
-  EXPECT_THROW(StatisticsFile(path, one, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(StatisticsFile(path, {}, one, MPI_COMM_WORLD), InputError);
   EXPECT_EQ(content(path), "step,time\n0,0\n");
 }
 
 TEST(Statistics, SayWhenTheDiskIsFull)
 {
   const ScratchDirectory directory;
-  StatisticsFile         file(directory / "statistics.csv", MPI_COMM_WORLD);
+  StatisticsFile         file(directory / "statistics.csv", {}, MPI_COMM_WORLD);
   file.append(row(0));
   const FullDisk full(statistics_header.size() + row_text(0).size() + 5);
   EXPECT_THROW(file.append(row(1)), std::runtime_error);
@@ -145,7 +145,7 @@ TEST(Lineage, IsInIdOrder)
   const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   const std::string  header  = "id,parent,generation,birth_time,x,y,z\n";
 
-  LineageFile<3> file(path, MPI_COMM_WORLD);
+  LineageFile<3> file(path, false, MPI_COMM_WORLD);
   // the last rank holds the first founder
   const types::particle_index id = n_ranks - 1 - rank;
   file.append({{id, -1, 0, 0., Point<3>(1.5, 2., id)}});
@@ -174,7 +174,10 @@ TEST(Lineage, IsInIdOrder)
 
   Digest founders;
   founders.add(expected.substr(0, end_of_founders));
-  LineageFile<3> resumed(path, {n_ranks, founders.value()}, MPI_COMM_WORLD);
+  LineageFile<3> resumed(path,
+                         false,
+                         {n_ranks, founders.value()},
+                         MPI_COMM_WORLD);
   EXPECT_EQ(content(path), expected.substr(0, end_of_founders));
 }
 
@@ -182,7 +185,7 @@ TEST(Lineage, HasAZeroZInTwoDimensions)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "lineage.csv";
-  LineageFile<2>         file(path, MPI_COMM_WORLD);
+  LineageFile<2>         file(path, {}, MPI_COMM_WORLD);
   std::vector<Birth<2>>  births;
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};

@@ -249,7 +249,7 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
   const std::string      path = directory / "statistics.csv";
   TableExtent            kept;
   {
-    StatisticsFile file(path, MPI_COMM_WORLD);
+    StatisticsFile file(path, {}, MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 20; ++step)
       file.append(row(step));
     kept = file.extent();
@@ -263,7 +263,7 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     bool       refused     = false;
     try
       {
-        StatisticsFile::check(path, kept, MPI_COMM_WORLD);
+        StatisticsFile::check(path, {}, kept, MPI_COMM_WORLD);
       }
     catch (const InputError &)
       {
@@ -272,7 +272,7 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     EXPECT_EQ(refused, !only_longer) << name;
   };
   for_damaged(path, 300, judge);
-  StatisticsFile::check(path, kept, MPI_COMM_WORLD);
+  StatisticsFile::check(path, {}, kept, MPI_COMM_WORLD);
 }
 
 TEST(Seal, IsTheDigestThatTheDocumentationNames)

@@ -6,10 +6,12 @@
 
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/fate/cell_types.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
+#include <morula/particles/type_change.h>
 
 #include <memory>
 #include <optional>
@@ -30,6 +32,8 @@ namespace Morula
     /** The cells' rows at t + dt, one after the other, but for F; empty where
      *  commit() computes them anew. */
     std::vector<double> rows;
+    /** What became of cells. */
+    std::vector<TypeChange> changes;
   };
 
   /** The effects that decide what becomes of a cell. */
@@ -43,6 +47,9 @@ namespace Morula
     std::optional<CycleColumns<dim>> clock;
     /** Of the axes of cycles; null: those that the cycle draws. */
     std::unique_ptr<const DivisionRule<dim>> rule;
+    std::optional<CellTypes<dim>>            types = {};
+    /** Whether cells grow by the law, by type; empty: all do. */
+    std::vector<bool> grows = {};
     /** All effects that have columns of their own; they stand elsewhere. */
     std::vector<const Effect<dim> *> with_state = {};
   };
@@ -129,6 +136,28 @@ namespace Morula
            const double             t0,
            const double             t1) const;
 
+    /** The types of cells, or null. */
+    const CellTypes<dim> *
+    types() const;
+
+    /**
+     * Sets what a daughter has that her mother has not, and lets her live until
+     * the end of the step.
+     * @param daughter has her mother's columns, by their rules, and her clock
+     * @param which    0 for the one at -n_s, 1 for the other
+     * @param birth    exact time, day
+     * @param t1       end of the step, day
+     * @return the number of the type that she is born with
+     */
+    unsigned int
+    bear(const CellView<dim, double> &daughter,
+         const types::particle_index  id,
+         const Point<dim>            &position,
+         const unsigned int           which,
+         const double                 birth,
+         const double                 t1,
+         std::vector<TypeChange>     &changes) const;
+
     /** Unit direction along which the daughters of a cell are placed. */
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell) const;
@@ -138,8 +167,23 @@ namespace Morula
      *  CellCycle::advance(). */
     CycleState<dim>
     next_clock(const PresentCell<dim> &cell,
+               const CycleState<dim>  &before,
                const double            t0,
                const double            t1) const;
+
+    /**
+     * The clock at t1, through all changes of type in (t0, t1]; sets the
+     * columns of the type. What a mother would do behind her division is her
+     * daughters'.
+     * @param before the cell at the beginning of the step
+     * @param after  a copy of its row
+     */
+    CycleState<dim>
+    live(const PresentCell<dim>      &before,
+         const CellView<dim, double> &after,
+         const double                 t0,
+         const double                 t1,
+         std::vector<TypeChange>     &changes) const;
 
     /** Gives a cycle that begins between these states the rule's axis. */
     void
@@ -165,7 +209,8 @@ namespace Morula
     develop(const PresentCell<dim>      &before,
             const CellView<dim, double> &after,
             const double                 t0,
-            const double                 t1) const;
+            const double                 t1,
+            std::vector<TypeChange>     &changes) const;
 
     DevelopmentEffects<dim> effects;
     CellColumns<dim>        columns_;

@@ -25,17 +25,21 @@ namespace Morula
   class LineageFile
   {
   public:
-    /** A new file. */
-    LineageFile(const std::string &path, const MPI_Comm comm);
+    /** A new file. @param with_types whether cells have types */
+    LineageFile(const std::string &path,
+                const bool         with_types,
+                const MPI_Comm     comm);
 
     /** Continues the file behind the rows that are to be @p kept. */
     LineageFile(const std::string &path,
+                const bool         with_types,
                 const TableExtent &kept,
                 const MPI_Comm     comm);
 
     /** See AppendedCsv. */
     static void
     check(const std::string &path,
+          const bool         with_types,
           const TableExtent &kept,
           const MPI_Comm     comm);
 
@@ -61,6 +65,7 @@ namespace Morula
 
   private:
     MPI_Comm    comm;
+    bool        with_types;
     AppendedCsv file;
   };
 } // namespace Morula

@@ -35,6 +35,8 @@ namespace Morula
     double        residual           = 0.; // relative to the step's first
     double        wall_seconds       = 0.; // since the start, across resumes
     CellLengths   lengths;
+    /** By the types' names; empty without types. */
+    std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>
@@ -46,19 +48,23 @@ namespace Morula
   class StatisticsFile
   {
   public:
-    /** Starts a new file. */
-    StatisticsFile(const std::string &path, const MPI_Comm comm);
+    /** Starts a new file. @param type_names of the cells, if they have types */
+    StatisticsFile(const std::string              &path,
+                   const std::vector<std::string> &type_names,
+                   const MPI_Comm                  comm);
 
     /** Continues the file behind the rows that are to be @p kept. */
-    StatisticsFile(const std::string &path,
-                   const TableExtent &kept,
-                   const MPI_Comm     comm);
+    StatisticsFile(const std::string              &path,
+                   const std::vector<std::string> &type_names,
+                   const TableExtent              &kept,
+                   const MPI_Comm                  comm);
 
     /** See AppendedCsv. */
     static void
-    check(const std::string &path,
-          const TableExtent &kept,
-          const MPI_Comm     comm);
+    check(const std::string              &path,
+          const std::vector<std::string> &type_names,
+          const TableExtent              &kept,
+          const MPI_Comm                  comm);
 
     /** Appends a row. */
     void

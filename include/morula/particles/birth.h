@@ -20,6 +20,7 @@ namespace Morula
     unsigned int          generation; // 0 for founders
     double                time;       // day, exact
     Point<dim>            position;   // at birth, µm
+    unsigned int          type = 0;   // number of the type
   };
 } // namespace Morula
 

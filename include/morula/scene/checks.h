@@ -25,6 +25,14 @@ namespace Morula
           const std::vector<Tensor<1, dim>> &normals,
           const MPI_Comm                     comm);
 
+  /** Number of founders, over all ranks, of each type of cells; empty without
+   *  types. Collective. @param founders initial positions, µm */
+  template <int dim>
+  std::vector<types::particle_index>
+  founders_of_types(const Scene                   &scene,
+                    const std::vector<Point<dim>> &founders,
+                    const MPI_Comm                 comm);
+
   /**
    * Lets growth, division, forces and the material look at all founders: growth
    * stretch and stiffness are positive, the cycle fits the step, forces are

@@ -8,6 +8,7 @@
 #include <morula/effects/catalogue.h>
 #include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/fate/cell_type_parameters.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
@@ -50,6 +51,7 @@ namespace Morula
     Key<std::string>    growth_law;
     Key<std::string>    proliferation_law;
     CellCycleParameters cell_cycle;
+    CellTypesParameters cell_types;
     NitscheParameters   nitsche;
     SolverParameters    solver;
     OutputParameters    output;
@@ -76,9 +78,17 @@ namespace Morula
     /** What to say about keys that were written by a former name. */
     std::vector<std::string> renamed;
 
+    /** The growth law of all types of cells that have one; "none" without. */
+    std::string
+    law_of_growth() const;
+
     /** Whether an effect changes F_g without proliferation. */
     bool
     has_growth() const;
+
+    /** Whether cells of the type number @p type grow by the law. */
+    bool
+    grows(const unsigned int type) const;
 
     bool
     has_proliferation() const;
@@ -102,6 +112,10 @@ namespace Morula
     /** Whether the file or an override has set the key. */
     bool
     has_set(const AnyKey &key) const;
+
+    /** All keys but those of the types of cells. */
+    KeyList
+    list_without_types();
 
     using Keys::list;
     /** All keys, in the order of --parameters. */
@@ -135,6 +149,15 @@ namespace Morula
     /** All keys as used, as a .prm file that read() reads back exactly. */
     std::string
     parameters() const;
+
+    /** Makes the sections of the types of cells. @throws InputError */
+    void
+    declare_types(const std::string &names);
+
+    /** Tells the keys of cells what types have otherwise; after all keys have
+     *  their values. */
+    void
+    apply_types();
 
     /**
      * Refuses what can be seen to be wrong without cells: numbers out of

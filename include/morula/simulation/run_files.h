@@ -6,6 +6,7 @@
 
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
+#include <morula/output/events.h>
 #include <morula/output/lineage.h>
 #include <morula/output/matrix_condition.h>
 #include <morula/output/point_fields.h>
@@ -43,10 +44,12 @@ namespace Morula
              const Timer                            &clock,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv and lineage.csv, and shows the step. Writes
-     * the wall time into @p row. */
+    /** Appends to statistics.csv, lineage.csv and, where cells have types,
+     *  events.csv, and shows the step. Writes the wall time into @p row. */
     void
-    step(StatisticsRow &row, const std::vector<Birth<dim>> &births);
+    step(StatisticsRow                 &row,
+         const std::vector<Birth<dim>> &births,
+         const std::vector<TypeChange> &changes);
 
     /** Writes a message to the terminal and into log.txt. */
     void
@@ -138,6 +141,7 @@ namespace Morula
     std::optional<Progress>            progress;
     std::optional<StatisticsFile>      statistics;
     std::optional<LineageFile<dim>>    lineage;
+    std::optional<EventsFile>          events;     // if cells have types
     std::optional<MatrixConditionFile> conditions; // if the scene asks for it
   };
 } // namespace Morula

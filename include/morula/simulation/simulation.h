@@ -165,6 +165,9 @@ namespace Morula
     [[noreturn]] void
     give_up_step(const std::string &reason);
 
+    /** Number of the cell's type. */
+    unsigned int
+    type_of(const CellView<dim, const double> &cell) const;
     /** Cell number p of the present state. */
     PresentCell<dim>
     present_cell(const unsigned int p, const CellReader<dim> &reader) const;
@@ -193,7 +196,8 @@ namespace Morula
 
     // Of the present step.
     GrowthOfStep<dim>                growth_of_step;
-    std::vector<Birth<dim>>          births; // on this rank
+    std::vector<Birth<dim>>          births;  // on this rank
+    std::vector<TypeChange>          changes; // likewise
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it

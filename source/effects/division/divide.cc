@@ -98,10 +98,11 @@ namespace Morula
   }
 
   template <int dim>
-  std::vector<Birth<dim>>
+  Divisions<dim>
   divide(Tissue<dim>                     &tissue,
          const CellDevelopment<dim>      &development,
          const std::vector<unsigned int> &due,
+         const double                     t1,
          types::particle_index           &next_id)
   {
     const MPI_Comm          comm     = tissue.communicator();
@@ -128,8 +129,8 @@ namespace Morula
                         cells.id(p)});
     const auto first_ids = number_daughters(events, next_id, comm);
 
-    PointList<dim>          daughters(columns.n_numbers());
-    std::vector<Birth<dim>> births;
+    PointList<dim> daughters(columns.n_numbers());
+    Divisions<dim> result;
     for (std::size_t k = 0; k < due.size(); ++k)
       {
         const auto         mother     = cells[due[k]];
@@ -146,25 +147,35 @@ namespace Morula
             const Point<dim> position =
               dividing[k].position +
               (which == 0 ? -1. : 1.) * distances[k][which] * dividing[k].axis;
-            daughters.add(first_ids[k] + which, position, make_array_view(row));
-            births.push_back({first_ids[k] + which,
-                              static_cast<int>(events[k].mother),
-                              generation,
-                              events[k].time,
-                              position});
+            const auto         id   = first_ids[k] + which;
+            const unsigned int type = development.bear(daughter,
+                                                       id,
+                                                       position,
+                                                       which,
+                                                       events[k].time,
+                                                       t1,
+                                                       result.changes);
+            daughters.add(id, position, make_array_view(row));
+            result.births.push_back({id,
+                                     static_cast<int>(events[k].mother),
+                                     generation,
+                                     events[k].time,
+                                     position,
+                                     type});
           }
       }
     tissue.replace(due, daughters);
-    return births;
+    return result;
   }
 
 #define INSTANTIATE(dim)                                                     \
   template std::vector<unsigned int> cells_due(const Tissue<dim> &,          \
                                                const CellDevelopment<dim> &, \
                                                const double);                \
-  template std::vector<Birth<dim>>   divide(Tissue<dim> &,                   \
+  template Divisions<dim>            divide(Tissue<dim> &,                   \
                                             const CellDevelopment<dim> &,    \
                                             const std::vector<unsigned> &,   \
+                                            const double,                    \
                                             types::particle_index &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -40,10 +40,26 @@ namespace Morula
                                 const Point<dim>                  &position,
                                 const CellReader<dim>             &reader)
     : cell_(cell)
-    , id(id)
+    , id_(id)
     , position_(position)
-    , reader(reader)
+    , reader_(reader)
   {}
+
+
+  template <int dim>
+  types::particle_index
+  PresentCell<dim>::id() const
+  {
+    return id_;
+  }
+
+
+  template <int dim>
+  const CellReader<dim> &
+  PresentCell<dim>::reader() const
+  {
+    return reader_;
+  }
 
 
   template <int dim>
@@ -66,7 +82,7 @@ namespace Morula
   unsigned int
   PresentCell<dim>::type() const
   {
-    return reader.columns.type.exists() ? cell_.get(reader.columns.type) : 0;
+    return reader_.columns.type.exists() ? cell_.get(reader_.columns.type) : 0;
   }
 
 
@@ -75,9 +91,9 @@ namespace Morula
   PresentCell<dim>::lineage_key() const
   {
     // Without a cell cycle every cell is its own founder.
-    return reader.clock != nullptr ?
-             reader.clock->lineage_key(cell_) :
-             Random::founder_key(reader.random_seed, id);
+    return reader_.clock != nullptr ?
+             reader_.clock->lineage_key(cell_) :
+             Random::founder_key(reader_.random_seed, id_);
   }
 
 
@@ -85,7 +101,7 @@ namespace Morula
   Tensor<1, dim>
   PresentCell<dim>::surface_normal() const
   {
-    return cell_.get(reader.columns.surface_normal);
+    return cell_.get(reader_.columns.surface_normal);
   }
 
 
@@ -101,11 +117,11 @@ namespace Morula
   Lame
   PresentCell<dim>::lame() const
   {
-    const TissueMaterial &material = reader.material;
+    const TissueMaterial &material = reader_.material;
     if (!material.depends_on_state())
       return material.lame_at(cell_.founder_position());
-    return Morula::lame(value(material.youngs_modulus(), reader.time),
-                        value(material.poissons_ratio(), reader.time));
+    return Morula::lame(value(material.youngs_modulus(), reader_.time),
+                        value(material.poissons_ratio(), reader_.time));
   }
 
 
@@ -115,9 +131,9 @@ namespace Morula
   {
     if (!has_quantities)
       quantities_ = cell_quantities(cell_,
-                                    reader.material.material(),
+                                    reader_.material.material(),
                                     lame(),
-                                    reader.material.per_grown_volume());
+                                    reader_.material.per_grown_volume());
     has_quantities = true;
     return quantities_;
   }
@@ -156,7 +172,7 @@ namespace Morula
     std::vector<double>         row(cell_.row().begin(), cell_.row().end());
     const CellView<dim, double> grown(make_array_view(row), columns);
     grown.set(columns.growth, std::pow(ratio, 1. / dim) * cell_.growth());
-    return PresentCell(grown, id, position_, reader).value(expression, t);
+    return PresentCell(grown, id_, position_, reader_).value(expression, t);
   }
 
 
@@ -192,7 +208,7 @@ namespace Morula
   double
   PresentCell<dim>::compute(const Variable variable, const double t) const
   {
-    const StateColumns<dim> &columns = reader.columns;
+    const StateColumns<dim> &columns = reader_.columns;
     switch (variable)
       {
         case Variable::x:
@@ -208,7 +224,7 @@ namespace Morula
         case Variable::type_age:
           return t - cell_.get(columns.type_since);
         case Variable::cycle_phase:
-          return reader.phase(cell_);
+          return reader_.phase(cell_);
         case Variable::type:
           return type();
         case Variable::volume:
@@ -228,7 +244,7 @@ namespace Morula
         case Variable::depth:
           return cell_.get(columns.depth);
         case Variable::noise:
-          return Random::noise(reader.random_seed, lineage_key());
+          return Random::noise(reader_.random_seed, lineage_key());
         default:
           Assert(false, ExcInternalError());
           return 0.;

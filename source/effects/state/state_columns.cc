@@ -36,11 +36,18 @@ namespace Morula
 
   template <int dim>
   void
-  StateColumns<dim>::declare(CellColumns<dim> &columns)
+  StateColumns<dim>::declare_types(CellColumns<dim> &columns)
   {
     if (!types.empty())
       type = columns.template add<unsigned int>(
         {"type", "", "number of the cell's type", 0, AtDivision::copied, true});
+  }
+
+
+  template <int dim>
+  void
+  StateColumns<dim>::declare(CellColumns<dim> &columns)
+  {
     if (uses(Variable::type_age))
       type_since = columns.template add<double>(
         {"type_since", "day", "when the cell got its type", 0.});
@@ -58,6 +65,14 @@ namespace Morula
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});
+  }
+
+
+  template <int dim>
+  bool
+  StateColumns<dim>::needs_surface() const
+  {
+    return depth.exists() || surface_normal.exists();
   }
 
 

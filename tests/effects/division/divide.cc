@@ -55,7 +55,7 @@ namespace
       before         = all_cells(tissue);
       const auto due = cells_due(tissue, growth, t);
       n_due          = Utilities::MPI::sum(due.size(), comm);
-      births         = divide(tissue, growth, due, next_id);
+      births         = divide(tissue, growth, due, t, next_id).births;
       after          = all_cells(tissue);
     }
 
@@ -237,7 +237,7 @@ TEST(Divide, ASingleCell)
                PointList<3>());
   grow(tissue, growth, 0., 0.5);
   types::particle_index next_id = 1;
-  divide(tissue, growth, cells_due(tissue, growth, 0.5), next_id);
+  divide(tissue, growth, cells_due(tissue, growth, 0.5), 0.5, next_id);
   const auto cells = all_cells(tissue);
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_NEAR(cells.at(1).first.distance(cells.at(2).first), 10., 1e-10);

@@ -20,19 +20,30 @@ namespace Morula
             const CellDevelopment<dim> &development,
             const double                t);
 
+  /** What divisions bring. */
+  template <int dim>
+  struct Divisions
+  {
+    /** The daughters born on this rank. */
+    std::vector<Birth<dim>> births;
+    /** What became of them before the end of the step. */
+    std::vector<TypeChange> changes;
+  };
+
   /**
    * Divides each of these cells into two. The daughters stand where
    * daughter_distances() says. They inherit every column by its rule, so F,
    * equation (17) of the paper, F_g and half of V⁰, equation (18), and the
    * clock of the cycle. All divisions see the same configuration. Collective.
+   * @param t1 end of the step, day
    * @param next_id first free id, the same on all ranks; advanced
-   * @return the daughters born on this rank
    */
   template <int dim>
-  std::vector<Birth<dim>>
+  Divisions<dim>
   divide(Tissue<dim>                     &tissue,
          const CellDevelopment<dim>      &development,
          const std::vector<unsigned int> &due,
+         const double                     t1,
          types::particle_index           &next_id);
 } // namespace Morula
 

@@ -58,6 +58,14 @@ namespace Morula
                 const Point<dim>                  &position,
                 const CellReader<dim>             &reader);
 
+    /** As particles are numbered. */
+    types::particle_index
+    id() const;
+
+    /** What its expressions are read by. */
+    const CellReader<dim> &
+    reader() const;
+
     /** The cell with all its columns. */
     const CellView<dim, const double> &
     cell() const;
@@ -118,9 +126,9 @@ namespace Morula
     compute(const Variable variable, const double t) const;
 
     CellView<dim, const double> cell_;
-    types::particle_index       id;
+    types::particle_index       id_;
     Point<dim>                  position_;
-    const CellReader<dim>      &reader;
+    const CellReader<dim>      &reader_;
     mutable VariableValues      values;
     mutable std::uint32_t       known = 0; // a bit for each variable
     mutable CellQuantities      quantities_;

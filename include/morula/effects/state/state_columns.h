@@ -36,9 +36,18 @@ namespace Morula
     void
     need_surface_normal();
 
-    /** Declares the columns that are needed. */
+    /** Declares the column `type`, if there are types. */
+    void
+    declare_types(CellColumns<dim> &columns);
+
+    /** Declares the other columns that are needed, when all expressions are
+     *  known. */
     void
     declare(CellColumns<dim> &columns);
+
+    /** Whether founders need to know the surface near them. */
+    bool
+    needs_surface() const;
 
     /** Whether some expression uses the variable. */
     bool

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_cell_type_parameters_h
+#define morula_effects_fate_cell_type_parameters_h
+
+#include <morula/base/expression_key.h>
+
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Section "Cell types/NAME". */
+  struct CellTypeKeys : public Keys
+  {
+    /**
+     * @param name   of the type
+     * @param others names of the other types
+     * @param of_cells keys of cells, which the type may have otherwise
+     * @param growth_laws names of the laws that there are
+     */
+    CellTypeKeys(const std::string                        &name,
+                 const std::vector<std::string>           &others,
+                 const std::vector<const ExpressionKey *> &of_cells,
+                 const std::string                        &growth_laws);
+
+    std::string      name;
+    ExpressionKey    where;
+    Key<std::string> daughters;
+    Key<std::string> growth_law;
+    Key<std::string> proliferation_law;
+    /** Rates of becoming one of the other types, in their order. */
+    std::deque<ExpressionKey> transitions;
+    /** Values of keys for this type; empty: those of all. */
+    std::deque<ExpressionKey> overrides;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Section "Cell types": names first, then a section for each of them. */
+  struct CellTypesParameters : public Keys
+  {
+    CellTypesParameters();
+
+    Key<std::string>         names;
+    std::deque<CellTypeKeys> types;
+
+    /** Whether the scene has types. */
+    bool
+    present() const;
+
+    /** The names in the order of the types' numbers. */
+    std::vector<std::string>
+    name_list() const;
+
+    /**
+     * Makes the sections of the types.
+     * @param names as `Names` has them
+     * @param of_cells keys of cells, which types may have otherwise
+     * @throws InputError for names that expressions cannot have, or that are
+     *         given twice
+     */
+    void
+    declare_types(const std::string                        &names,
+                  const std::vector<const ExpressionKey *> &of_cells,
+                  const std::string                        &growth_laws);
+
+    /** Tells the keys of cells which types there are, and what these have
+     *  otherwise. */
+    void
+    apply(const std::vector<ExpressionKey *> &of_cells);
+
+    /** Numbers of the daughters' types of a type. @throws InputError */
+    std::pair<unsigned int, unsigned int>
+    daughters(const unsigned int type) const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+} // namespace Morula
+
+#endif

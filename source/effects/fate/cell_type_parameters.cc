@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/expression_parser.h>
+#include <morula/base/input_error.h>
+#include <morula/effects/fate/cell_type_parameters.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::string section = "Cell types/";
+
+    /** The names in a list, which commas separate. */
+    std::vector<std::string>
+    split(const std::string &text)
+    {
+      std::vector<std::string> names;
+      if (boost::trim_copy(text).empty())
+        return names;
+      boost::split(names, text, boost::is_any_of(","));
+      for (std::string &name : names)
+        boost::trim(name);
+      return names;
+    }
+
+    /** Why a name cannot stand in an expression; empty if it can. */
+    std::string
+    reason_against(const std::string &name)
+    {
+      const bool plain =
+        !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
+        std::all_of(name.begin(), name.end(), [](const char c) {
+          return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+        });
+      if (!plain)
+        return "Names have letters, digits and '_', and begin with a letter.";
+      if (!is_free_name(name))
+        return "Expressions have a variable or function of this name: choose "
+               "another one.";
+      return "";
+    }
+
+    std::string
+    path(const std::string &type, const std::string &key)
+    {
+      return section + type + "/" + key;
+    }
+  } // namespace
+
+
+  CellTypeKeys::CellTypeKeys(const std::string                        &name,
+                             const std::vector<std::string>           &others,
+                             const std::vector<const ExpressionKey *> &of_cells,
+                             const std::string &growth_laws)
+    : name(name)
+    , where(path(name, "Where"),
+            "",
+            "Founders for which this is > 0 are of this type; of several types "
+            "the last one counts, and the first type is that of all others. An "
+            "expression of X, Y, Z (um).",
+            Evaluated::founder)
+    , daughters(path(name, "Daughter types"),
+                "",
+                "Types of the two daughters, the one at -n_s first; empty: the "
+                "mother's. E.g. stem, transit.")
+    , growth_law(path(name, "Growth/Law"),
+                 "",
+                 "none, or the law by which cells of this type grow; empty: "
+                 "that of all.",
+                 {"|none|" + growth_laws})
+    , proliferation_law(
+        path(name, "Proliferation/Law"),
+        "",
+        "none, or how cells of this type proliferate; empty: "
+        "as all. Cells that are past the onset of S divide, and "
+        "then wait.",
+        {"|none|cell cycle"})
+  {
+    for (const std::string &other : others)
+      {
+        transitions.emplace_back(path(name, "Transitions/To " + other),
+                                 "0",
+                                 "Rate at which cells of this type become " +
+                                   other +
+                                   ", an expression of their state; not "
+                                   "negative. Units: 1/day.",
+                                 Evaluated::step);
+        transitions.back().not_negative("1/day",
+                                        "0 lets cells keep their type.");
+      }
+    for (const ExpressionKey *key : of_cells)
+      overrides.push_back(key->in_section_of_type(section + name));
+  }
+
+
+  KeyList
+  CellTypeKeys::list()
+  {
+    KeyList list{&where, &daughters};
+    for (ExpressionKey &key : transitions)
+      list.push_back(&key);
+    list.push_back(&growth_law);
+    list.push_back(&proliferation_law);
+    for (ExpressionKey &key : overrides)
+      list.push_back(&key);
+    return list;
+  }
+
+
+  CellTypesParameters::CellTypesParameters()
+    : names(
+        section + "Names",
+        "",
+        "Types of cells, separated by commas; the first is that of founders "
+        "for which no other one's Where holds. Each has a section of this "
+        "name, and expressions of cells may compare `type` with it. Empty: "
+        "all cells are alike.")
+  {}
+
+
+  bool
+  CellTypesParameters::present() const
+  {
+    return !types.empty();
+  }
+
+
+  std::vector<std::string>
+  CellTypesParameters::name_list() const
+  {
+    std::vector<std::string> list;
+    for (const CellTypeKeys &type : types)
+      list.push_back(type.name);
+    return list;
+  }
+
+
+  void
+  CellTypesParameters::declare_types(
+    const std::string                        &text,
+    const std::vector<const ExpressionKey *> &of_cells,
+    const std::string                        &growth_laws)
+  {
+    const std::vector<std::string> list = split(text);
+    std::set<std::string>          seen;
+    for (const std::string &name : list)
+      {
+        const std::string reason = reason_against(name);
+        if (!reason.empty() || !seen.insert(name).second)
+          throw InputError(names.path(),
+                           text,
+                           "names that differ, separated by commas",
+                           "'" + name + "': " +
+                             (reason.empty() ? "it is there twice." : reason));
+      }
+    for (const std::string &name : list)
+      {
+        std::vector<std::string> others;
+        std::copy_if(list.begin(),
+                     list.end(),
+                     std::back_inserter(others),
+                     [&](const std::string &other) { return other != name; });
+        types.emplace_back(name, others, of_cells, growth_laws);
+      }
+  }
+
+
+  void
+  CellTypesParameters::apply(const std::vector<ExpressionKey *> &of_cells)
+  {
+    std::map<std::string, double> numbers;
+    for (unsigned int i = 0; i < types.size(); ++i)
+      numbers[types[i].name] = i;
+    for (ExpressionKey *key : of_cells)
+      key->set_types(numbers);
+    for (unsigned int i = 0; i < types.size(); ++i)
+      {
+        for (ExpressionKey &rate : types[i].transitions)
+          rate.set_types(numbers);
+        for (std::size_t k = 0; k < of_cells.size(); ++k)
+          {
+            ExpressionKey &own = types[i].overrides[k];
+            own.set_types(numbers);
+            if (!own.empty())
+              of_cells[k]->set_for_type(i, own.path(), own.text());
+          }
+      }
+  }
+
+
+  std::pair<unsigned int, unsigned int>
+  CellTypesParameters::daughters(const unsigned int type) const
+  {
+    const Key<std::string>        &key  = types[type].daughters;
+    const std::vector<std::string> both = split(key);
+    if (both.empty())
+      return {type, type};
+    const std::vector<std::string> all = name_list();
+    std::vector<unsigned int>      numbers;
+    for (const std::string &name : both)
+      {
+        const auto found = std::find(all.begin(), all.end(), name);
+        if (found == all.end())
+          key.refuse("two of " + names, "There is no type '" + name + "'.");
+        numbers.push_back(found - all.begin());
+      }
+    if (numbers.size() != 2)
+      key.refuse("two of " + names,
+                 "Name the types of both daughters, the one at -n_s first.");
+    return {numbers[0], numbers[1]};
+  }
+
+
+  KeyList
+  CellTypesParameters::list()
+  {
+    KeyList list{&names};
+    for (CellTypeKeys &type : types)
+      for (AnyKey *key : type.list())
+        list.push_back(key);
+    return list;
+  }
+} // namespace Morula

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/explain_cells.h>
+
+#include <iomanip>
+#include <string>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The variables of an expression that only a present cell has. */
+    std::string
+    variables_of_cells(const Expression &expression)
+    {
+      std::string names;
+      for (const Variable variable : expression.used())
+        if (variable > Variable::t)
+          names += (names.empty() ? "" : ", ") + std::string(name_of(variable));
+      return names;
+    }
+
+    /** A key of a type's section without that section. */
+    std::string
+    name_in_section(const AnyKey &key, const std::string &type)
+    {
+      return key.path().substr(std::string("Cell types/" + type + "/").size());
+    }
+  } // namespace
+
+
+  void
+  print_types(std::ostream                             &out,
+              const Scene                              &scene,
+              const std::vector<types::particle_index> &n_founders)
+  {
+    if (!scene.cell_types.present())
+      return;
+    out << "Cell types\n";
+    for (unsigned int i = 0; i < scene.cell_types.types.size(); ++i)
+      {
+        const CellTypeKeys &type = scene.cell_types.types[i];
+        out << "  " << std::left << std::setw(24) << type.name << n_founders[i]
+            << (n_founders[i] == 1 ? " founder" : " founders") << '\n';
+        for (const AnyKey *key : type.list())
+          if (!key->is_default())
+            out << "    " << name_in_section(*key, type.name) << " = "
+                << key->text() << '\n';
+      }
+  }
+
+
+  void
+  print_cell_expressions(std::ostream &out, const Scene &scene)
+  {
+    bool first = true;
+    for (const AnyKey *key : scene.list())
+      {
+        const auto *expression = dynamic_cast<const ExpressionKey *>(key);
+        if (expression == nullptr || expression->empty() ||
+            !expression->is_of_cells())
+          continue;
+        const std::string variables =
+          variables_of_cells(expression->expression(scene.dimension));
+        if (variables.empty())
+          continue;
+        if (first)
+          out << "Expressions of the present cell\n";
+        first = false;
+        out << "  " << key->path() << ", evaluated "
+            << description_of(expression->evaluated()) << ": " << variables
+            << '\n';
+      }
+  }
+} // namespace Morula

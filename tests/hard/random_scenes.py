@@ -56,13 +56,13 @@ class Frame:
 
     def coordinate(self, i):
         """xi_i as an expression of X, Y, Z."""
-        terms = [f"({self.Q[d, i]!r})*({AXES[d]}-({float(self.center[d])!r}))"
+        terms = [f"({float(self.Q[d, i])!r})*({AXES[d]}-({float(self.center[d])!r}))"
                  for d in range(self.dim) if self.Q[d, i] != 0]
-        return f"(({'+'.join(terms)})/{self.size!r})"
+        return f"(({'+'.join(terms)})/{float(self.size)!r})"
 
     def linear(self, constant, slopes):
-        return repr(constant) + "".join(
-            f"+({slope!r})*{self.coordinate(i)}"
+        return repr(float(constant)) + "".join(
+            f"+({float(slope)!r})*{self.coordinate(i)}"
             for i, slope in enumerate(slopes))
 
     def vector(self, components):
@@ -170,8 +170,8 @@ class LatticeScene(RandomScene):
 
     def conditions(self, Q):
         frame, section = self.frame(Q), "Boundary conditions/"
-        left = f"{frame.coordinate(0)} < {self.level!r}"
-        right = f"{frame.coordinate(0)} > {-self.level!r}"
+        left = f"{frame.coordinate(0)} < {float(self.level)!r}"
+        right = f"{frame.coordinate(0)} > {-float(self.level)!r}"
         force = frame.vector(self.load * self.direction)
         keys = {"fixed": {}, "slip": {section + "Slip where": left},
                 "free": {},

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Bodies that nothing holds, or not enough."""
+import math
+
 import numpy
 
 from tests.common.results import initial_positions, positions, read_csv
@@ -24,7 +26,7 @@ def turn(angle):
 
 def turned(name, angle=0.0, shift=(0.0, 0.0)):
     """free-body.prm turned and shifted as a whole."""
-    c, s = numpy.cos(angle), numpy.sin(angle)
+    c, s = math.cos(angle), math.sin(angle)
     X = f"({c!r}*(X - {shift[0]}) + {s!r}*(Y - {shift[1]}))".replace("- -", "+ ")
     Y = f"({c!r}*(Y - {shift[1]}) - {s!r}*(X - {shift[0]}))".replace("- -", "+ ")
     return Trial(name, "free-body.prm", files={"cells.csv": layout(angle, shift)},

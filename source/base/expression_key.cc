@@ -6,10 +6,34 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <boost/algorithm/string.hpp>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
 #include <algorithm>
 
 namespace Morula
 {
+  namespace
+  {
+    /** A list of plain numbers as components of an expression; any other text
+     *  as it is. */
+    std::string
+    with_semicolons(const std::string &text)
+    {
+      std::vector<std::string> words;
+      boost::split(words, text, boost::is_any_of(","));
+      for (std::string &word : words)
+        {
+          boost::trim(word);
+          double number;
+          if (!boost::conversion::try_lexical_convert(word, number))
+            return text;
+        }
+      return boost::join(words, "; ");
+    }
+  } // namespace
+
+
   const std::vector<Variable> &
   variables_of(const Evaluated evaluated)
   {
@@ -101,6 +125,13 @@ namespace Morula
     return require([](const double value) { return value >= 0.; },
                    "a value >= 0 " + unit,
                    remedy);
+  }
+
+
+  void
+  ExpressionKey::admit_commas()
+  {
+    commas = true;
   }
 
 
@@ -204,8 +235,11 @@ namespace Morula
                        is_of_cells() ? types : std::map<std::string, double>()};
         const auto parse = [&](const std::string &path,
                                const std::string &text) {
-          Expression expression(
-            path, text, n_components, n_components == 1 ? 1 : dim, vocabulary);
+          Expression expression(path,
+                                commas ? with_semicolons(text) : text,
+                                n_components,
+                                n_components == 1 ? 1 : dim,
+                                vocabulary);
           if (rule)
             expression.set_rule(*rule);
           return expression;

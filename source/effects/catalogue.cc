@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/catalogue.h>
+#include <morula/effects/division/axis_rules.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>
@@ -30,6 +31,12 @@ namespace Morula
   Catalogue::Catalogue()
   {
     add<IsotropicGrowth>(growth_laws, "isotropic");
+    add<FixedAxis>(division_rules, "fixed");
+    add<StretchAxis>(division_rules, "stretch");
+    add<StressAxis>(division_rules, "stress");
+    add<RadialAxis>(division_rules, "radial");
+    add<SurfaceNormalAxis>(division_rules, "surface normal");
+    add<TangentialAxis>(division_rules, "tangential");
     add<BodyForce>(forces, "body force");
     add<Fixed>(boundary_conditions, "fixed");
     add<Slip>(boundary_conditions, "slip");

@@ -156,7 +156,7 @@ namespace Morula
           effects.types->check_cell(founder);
         if (effects.law)
           effects.law->check_cell(founder, step);
-        if (effects.rule)
+        if (effects.rule && clock(cell).phase != CyclePhase::never)
           effects.rule->check_cell(founder, step);
       }
   }
@@ -268,8 +268,20 @@ namespace Morula
         before.phase == CyclePhase::growing)
       return;
     const CellView<dim, const double> &view = cell.cell();
-    Tensor<1, dim>                     axis = effects.rule->axis(
-      {view.founder_position(), view.elastic_deformation(), after.axis, &cell});
+    Tensor<1, dim>                     axis =
+      effects.rule->axis({view.founder_position(),
+                          view.elastic_deformation(),
+                          after.axis,
+                          &cell,
+                          t,
+                          effects.cycle->least_anisotropy(cell, t)});
+    const double spread = effects.cycle->axis_spread(cell, t);
+    if (spread > 0.)
+      axis = Random::direction_around(axis / axis.norm(),
+                                      spread,
+                                      random_seed,
+                                      after.key);
+    // doc/theory.md (6.3e)
     if (effects.rule->frame() == AxisFrame::present)
       axis = invert(view.elastic_deformation() * growth_of_law(view, t)) * axis;
     after.axis = axis / axis.norm();

@@ -146,12 +146,13 @@ namespace Morula
           return;
         }
       cycle.check_each(dim);
-      if (cycle.division_axis != "fixed" && !cycle.fixed_axis.is_default() &&
-          !scene.has_set(cycle.division_axis))
-        cycle.fixed_axis.refuse("its default, as " +
-                                  cycle.division_axis.path() + " is not set",
-                                "Set " + cycle.division_axis.path() +
-                                  " = fixed, or remove this key.");
+      for (const ExpressionKey *key :
+           {&cycle.axis_spread, &cycle.least_anisotropy})
+        if (!key->is_default() && !scene.has_set(cycle.division_axis))
+          key->refuse("its default, as " + cycle.division_axis.path() +
+                        " is not set",
+                      "Say by " + cycle.division_axis.path() +
+                        " along what cells divide, or remove this key.");
       CellCycle<dim>(cycle, scene.random_seed, scene.time.slack());
       check_named<dim>(scene,
                        scene.catalogue.division_rules,

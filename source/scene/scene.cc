@@ -77,7 +77,9 @@ namespace Morula
   {
     add_words(growth_law, catalogue.growth_laws);
     add_words(cell_cycle.division_axis, catalogue.division_rules);
-    if (!catalogue.division_rules.empty())
+    if (std::any_of(catalogue.division_rules.begin(),
+                    catalogue.division_rules.end(),
+                    [](const auto &rule) { return rule.has_section(); }))
       cell_cycle.division_axis.add_documentation(
         " Others: by a rule of this program.");
   }

@@ -14,6 +14,7 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/division/axis_rules.h>
 #include <morula/program/program.h>
 #include <morula/simulation/simulation.h>
 
@@ -56,8 +57,8 @@ namespace Step5
     scene.cell_cycle.start         = "together";
     scene.cell_cycle.exit_rate     = "0"; // and then wait for ever
     scene.cell_cycle.division_axis = "fixed";
-    scene.cell_cycle.fixed_axis    = {0., 0., 1.};
-    scene.time.end_time            = duration(scene);
+    scene.catalogue.keys<FixedAxisParameters>().axis = "0; 0; 1";
+    scene.time.end_time                              = duration(scene);
     scene.output_directory += "/together";
     scene.check();
 

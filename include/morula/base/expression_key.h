@@ -74,6 +74,11 @@ namespace Morula
     ExpressionKey &
     symbol(const std::string &symbol);
 
+    /** Takes plain numbers separated by commas, too: a list was the value of
+     *  the key before it was an expression. */
+    void
+    admit_commas();
+
     /** Takes other text; it is parsed when it is next needed. */
     ExpressionKey &
     operator=(const std::string &text);
@@ -158,6 +163,7 @@ namespace Morula
     /** Path and text, by the type's number. */
     std::map<unsigned int, std::pair<std::string, std::string>> of_types;
     std::optional<ExpressionRule>                               rule;
+    bool                                                        commas = false;
 
     // The value, parsed: made of text_ alone.
     mutable std::optional<Expression> parsed;

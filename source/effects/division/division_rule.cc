@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/division_rule.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -23,6 +24,20 @@ namespace Morula
     direction[0] = 1.;
     for (const Point<dim> &X : scene.founders)
       axis({X, Tensor<2, dim>(unit_symmetric_tensor<dim>()), direction});
+  }
+
+
+  template <int dim>
+  void
+  DivisionRule<dim>::check_cell(const PresentCell<dim> &founder,
+                                const double) const
+  {
+    Tensor<1, dim> direction;
+    direction[0] = 1.;
+    axis({founder.cell().founder_position(),
+          founder.elastic(),
+          direction,
+          &founder});
   }
 
 

@@ -104,8 +104,7 @@ namespace Morula
             state.duration = at.value(duration);
             check_step(state.duration, t1 - t0);
           }
-        state.axis =
-          random_axis ? Random::direction<dim>(seed, state.key) : fixed_axis;
+        state.axis = Random::direction<dim>(seed, state.key);
       }
 
     return state;
@@ -177,6 +176,24 @@ namespace Morula
 
     const Tensor<1, dim> carried = F_e * state.axis;
     return carried / carried.norm();
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::axis_spread(const PresentCell<dim> &cell,
+                              const double            t) const
+  {
+    return cell.value(axis_spread_, t);
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::least_anisotropy(const PresentCell<dim> &cell,
+                                   const double            t) const
+  {
+    return cell.value(least_anisotropy_, t);
   }
 
 

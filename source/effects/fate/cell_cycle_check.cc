@@ -17,29 +17,6 @@ namespace Morula
 {
   namespace
   {
-    /** The unit vector along the key "Fixed axis". */
-    template <int dim>
-    Tensor<1, dim>
-    unit_fixed_axis(const CellCycleParameters &parameters)
-    {
-      const Key<std::vector<double>> &components = parameters.fixed_axis;
-
-      Tensor<1, dim> axis;
-      for (unsigned int d = 0;
-           d < std::min<std::size_t>(dim, components.size());
-           ++d)
-        axis[d] = components[d];
-
-      const double length = axis.norm();
-      if (components.size() < dim || !(length > 0.) || !std::isfinite(length))
-        components.refuse("a vector of " + std::to_string(dim) +
-                            " components that is not zero",
-                          "Give the direction along which cells divide, or set "
-                          "Division axis = random.");
-      return axis / length;
-    }
-
-
     /** What an expression is at a cell, for the end of "what is allowed". */
     template <int dim>
     std::string
@@ -105,17 +82,15 @@ namespace Morula
     , exit_rate(state.use(parameters.exit_rate))
     , size_checkpoint(state.use(parameters.size_checkpoint))
     , where(parameters.where.expression(dim))
+    , axis_spread_(state.use(parameters.axis_spread))
+    , least_anisotropy_(state.use(parameters.least_anisotropy))
     , start_together(parameters.start == "together")
-    , random_axis(parameters.division_axis != "fixed")
     , axis_follows_rotation(parameters.axis_follows_rotation)
     , seed(seed)
     , slack(slack)
     , own_duration(depends_on_more_than_place(duration))
     , own_hazard(depends_on_more_than_place(exit_rate))
-  {
-    if (!random_axis)
-      fixed_axis = unit_fixed_axis<dim>(parameters);
-  }
+  {}
 
 
   template <int dim>
@@ -137,8 +112,11 @@ namespace Morula
                              const double       step) const
   {
     const Point<dim> X = founder.present()->cell().founder_position();
-    if (where.value(X, 0.) > 0.)
-      check_step(checked_duration(founder, X, true), step);
+    if (!(where.value(X, 0.) > 0.))
+      return;
+    check_step(checked_duration(founder, X, true), step);
+    axis_spread(*founder.present(), 0.);
+    least_anisotropy(*founder.present(), 0.);
   }
 
 

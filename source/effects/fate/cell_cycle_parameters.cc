@@ -51,24 +51,50 @@ namespace Morula
             "Founders for which this is > 0 proliferate." +
               std::string(of_founder),
             Evaluated::founder)
-    , division_axis(path("Division axis"),
-                    "random",
-                    "n_s: 'random': uniform on the sphere (2-D: circle), "
-                    "drawn at every onset of S; 'fixed': along Fixed axis.",
-                    {"random|fixed"})
-    , fixed_axis(path("Fixed axis"),
-                 {0., 0., 1.},
-                 "Direction of n_s for Division axis = fixed, of any "
-                 "length but zero. 2-D: the first two components.",
-                 {2, 3})
+    , division_axis(
+        path("Division axis"),
+        "random",
+        "n_s, chosen at every onset of S: 'random': uniform on the sphere "
+        "(2-D: circle); 'fixed': along Fixed axis; in the present "
+        "configuration, 'stretch': along the largest elastic stretch, "
+        "'stress': along the most tensile stress, 'radial': away from Radial "
+        "center, 'surface normal', 'tangential': across or along the surface "
+        "that was nearest to the founder at t = 0.",
+        {"random"})
+    , axis_spread(path("Axis spread"),
+                  "0",
+                  "kappa: concentration of the axes around what Division axis "
+                  "says, by the distribution of von Mises and Fisher. The "
+                  "larger, the nearer: the root of the mean square angle tends "
+                  "to sqrt(2/kappa), in 2-D sqrt(1/kappa). Not negative; 0: no "
+                  "spread.",
+                  Evaluated::event)
+    , least_anisotropy(
+        path("Least anisotropy"),
+        "1.02",
+        "Ratio of the two largest elastic stretches below which Division axis "
+        "= stretch takes a random axis; for stress, of 1 + (sigma_1 - "
+        "sigma_2)/(2 mu). At least 1.",
+        Evaluated::event)
     , axis_follows_rotation(
         path("Axis follows rotation"),
         false,
         "false: daughters are placed along n_s, as in the paper; "
-        "true: along F_e n_s.")
+        "true: along F_e n_s. For Division axis = random or fixed; others "
+        "place them along the direction that they name.")
   {
     duration.positive("day", "Choose the duration of a cycle in days.");
     exit_rate.not_negative("1/day", "0 lets cells wait forever.");
+    axis_spread.not_negative(
+      "(a concentration)",
+      "0 means no spread; otherwise, the larger the "
+      "number, the nearer are axes to what Division axis "
+      "says.");
+    least_anisotropy.require(
+      [](const double ratio) { return ratio >= 1.; },
+      "a ratio of at least 1",
+      "1 lets every cell follow its stretch; 1.02 leaves those to chance that "
+      "can hardly tell.");
     size_checkpoint.not_negative("(a ratio of volumes)",
                                  "0 means no checkpoint.");
   }
@@ -83,7 +109,8 @@ namespace Morula
             &size_checkpoint,
             &where,
             &division_axis,
-            &fixed_axis,
+            &axis_spread,
+            &least_anisotropy,
             &axis_follows_rotation};
   }
 } // namespace Morula

@@ -20,15 +20,6 @@ namespace
   constexpr std::uint64_t seed  = 3;
   constexpr double        slack = 5e-11; // 1e-9 x a step of 0.05 day
 
-  CellCycleParameters
-  fixed_axis_parameters()
-  {
-    CellCycleParameters parameters;
-    parameters.division_axis = "fixed";
-    parameters.fixed_axis    = {0., 0., 2.};
-    return parameters;
-  }
-
   /** A cell with a wait that ends at @p time. */
   template <int dim>
   CycleState<dim>
@@ -86,16 +77,17 @@ TEST(CellCycle, KeysAndDefaults)
   EXPECT_EQ(prm.get("Size checkpoint"), "0");
   EXPECT_EQ(prm.get("Where"), "1");
   EXPECT_EQ(prm.get("Division axis"), "random");
-  EXPECT_EQ(parameters.fixed_axis, (std::vector<double>{0., 0., 1.}));
+  EXPECT_EQ(prm.get("Axis spread"), "0");
+  EXPECT_EQ(prm.get("Least anisotropy"), "1.02");
   EXPECT_FALSE(prm.get_bool("Axis follows rotation"));
 
   prm.set("Start", "together");
   prm.set("Duration", "1 + X");
-  prm.set("Fixed axis", "1, 2, 2");
+  prm.set("Axis spread", "10 + X");
   prm.set("Axis follows rotation", "true");
   EXPECT_EQ(parameters.start, "together");
   EXPECT_EQ(parameters.duration, "1 + X");
-  EXPECT_EQ(parameters.fixed_axis, (std::vector<double>{1., 2., 2.}));
+  EXPECT_EQ(parameters.axis_spread, "10 + X");
   EXPECT_TRUE(parameters.axis_follows_rotation);
 }
 
@@ -183,14 +175,14 @@ TEST(CellCycle, RateZeroNeverLeavesG0)
 
 TEST(CellCycle, TogetherStartsAtOnce)
 {
-  CellCycleParameters parameters = fixed_axis_parameters();
-  parameters.start               = "together";
+  CellCycleParameters parameters;
+  parameters.start = "together";
   const CellCycle<3> cycle(parameters, seed, slack);
 
   const auto state = cycle.founder(4, Point<3>());
   EXPECT_EQ(state.phase, CyclePhase::growing);
   EXPECT_EQ(state.event_time, 0.);
-  EXPECT_EQ(state.axis, (Tensor<1, 3>({0., 0., 1.})));
+  EXPECT_EQ(state.axis, Random::direction<3>(seed, state.key));
   EXPECT_EQ(cycle.division_time(state, Point<3>()), 0.5);
   EXPECT_EQ(cycle.phase_number(state, Point<3>(), 0.), 1u);
 
@@ -278,10 +270,10 @@ TEST(CellCycle, EventsAtStepEnds)
 {
   for (unsigned int n = 2; n <= 400; n += 2)
     {
-      CellCycleParameters parameters = fixed_axis_parameters();
-      parameters.start               = "together";
-      parameters.duration            = "0.7";
-      const double       step        = 0.7 / n;
+      CellCycleParameters parameters;
+      parameters.start        = "together";
+      parameters.duration     = "0.7";
+      const double       step = 0.7 / n;
       const CellCycle<3> cycle(parameters, seed, 1e-9 * step);
       const Point<3>     X;
       cycle.check({X}, step);
@@ -414,17 +406,6 @@ TEST(CellCycle, PlacementAxis)
   parameters.axis_follows_rotation = true;
   EXPECT_EQ(CellCycle<3>(parameters, seed, slack).placement_axis(state, F_e),
             (Tensor<1, 3>({1., 0., 0.})));
-}
-
-
-TEST(CellCycle, RefusesBadFixedAxes)
-{
-  CellCycleParameters parameters = fixed_axis_parameters();
-  EXPECT_NO_THROW(CellCycle<3>(parameters, seed, slack));
-  EXPECT_THROW(CellCycle<2>(parameters, seed, slack), InputError);
-  parameters.fixed_axis = {1., 1.};
-  EXPECT_NO_THROW(CellCycle<2>(parameters, seed, slack));
-  EXPECT_THROW(CellCycle<3>(parameters, seed, slack), InputError);
 }
 
 

@@ -26,6 +26,11 @@ namespace Morula
     Tensor<1, dim> random;
     /** Its state at the beginning of the step; null before there are cells. */
     const PresentCell<dim> *present = nullptr;
+    /** Time of that state, day. */
+    double time = 0.;
+    /** Ratio of a larger to a smaller stretch, >= 1, below which the cell
+     *  cannot tell them apart: `Least anisotropy`. */
+    double least_anisotropy = 1.;
   };
 
   /** What the direction of an axis is given in. */
@@ -59,6 +64,11 @@ namespace Morula
     /** Asks for the axes of the founders. */
     void
     check(const Preview<dim> &scene) const override;
+
+    /** Asks for the axis of a founder in its state. */
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
   };
 } // namespace Morula
 

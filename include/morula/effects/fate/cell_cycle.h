@@ -28,14 +28,15 @@ namespace Morula
   {
     CellCycleParameters();
 
-    Key<std::string>         start;
-    ExpressionKey            duration;        // day
-    ExpressionKey            exit_rate;       // 1/day
-    ExpressionKey            size_checkpoint; // J_th
-    ExpressionKey            where;
-    Key<std::string>         division_axis;
-    Key<std::vector<double>> fixed_axis;
-    Key<bool>                axis_follows_rotation;
+    Key<std::string> start;
+    ExpressionKey    duration;        // day
+    ExpressionKey    exit_rate;       // 1/day
+    ExpressionKey    size_checkpoint; // J_th
+    ExpressionKey    where;
+    Key<std::string> division_axis;
+    ExpressionKey    axis_spread; // κ
+    ExpressionKey    least_anisotropy;
+    Key<bool>        axis_follows_rotation;
 
     using Keys::list;
     KeyList
@@ -264,6 +265,16 @@ namespace Morula
     placement_axis(const CycleState<dim> &state,
                    const Tensor<2, dim>  &F_e) const;
 
+    /** κ of (6.3d) of a cell, for division rules; 0: no spread.
+     *  @throws InputError */
+    double
+    axis_spread(const PresentCell<dim> &cell, const double t) const;
+
+    /** Ratio of stretches, >= 1, below which a cell cannot tell them apart.
+     *  @throws InputError */
+    double
+    least_anisotropy(const PresentCell<dim> &cell, const double t) const;
+
     /** Whether there is a size checkpoint at all. */
     bool
     has_checkpoint() const;
@@ -320,14 +331,13 @@ namespace Morula
               const double               slack,
               StateColumns<dim>        &&own);
 
-    Expression     duration, exit_rate, size_checkpoint, where;
-    bool           start_together;
-    bool           random_axis;
-    Tensor<1, dim> fixed_axis;
-    bool           axis_follows_rotation;
-    std::uint64_t  seed;
-    double         slack;
-    bool           own_duration, own_hazard;
+    Expression    duration, exit_rate, size_checkpoint, where;
+    Expression    axis_spread_, least_anisotropy_;
+    bool          start_together;
+    bool          axis_follows_rotation;
+    std::uint64_t seed;
+    double        slack;
+    bool          own_duration, own_hazard;
   };
 } // namespace Morula
 

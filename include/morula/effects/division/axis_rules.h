@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_division_axis_rules_h
+#define morula_effects_division_axis_rules_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/state/state_columns.h>
+
+/**
+ * The library's own division rules, for `Proliferation/Cell cycle/Division
+ * axis`. Where a cell has no state yet, or its state singles out no direction,
+ * they take its random direction.
+ */
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Key of `Division axis = fixed`. */
+  struct FixedAxisParameters : public EffectKeys
+  {
+    FixedAxisParameters();
+
+    ExpressionKey axis;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** `Division axis = fixed`: along a vector in the reference configuration.
+   *  @throws InputError from axis() where the vector is zero */
+  template <int dim>
+  class FixedAxis : public DivisionRule<dim>
+  {
+  public:
+    using Parameters = FixedAxisParameters;
+
+    FixedAxis(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+
+    /** Nothing: check_cell() asks those founders that proliferate. */
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    const Expression direction;
+  };
+
+  /** A rule that has no keys of its own. */
+  struct NoAxisKeys : public EffectKeys
+  {
+    using Keys::list;
+    KeyList
+    list() override
+    {
+      return {};
+    }
+  };
+
+  /** What the rules have in common that look at the present configuration. */
+  template <int dim>
+  class PresentAxis : public DivisionRule<dim>
+  {
+  public:
+    using Parameters = NoAxisKeys;
+
+    AxisFrame
+    frame() const override
+    {
+      return AxisFrame::present;
+    }
+  };
+
+  /** `Division axis = stretch`: along the largest elastic stretch, (6.3a). */
+  template <int dim>
+  class StretchAxis : public PresentAxis<dim>
+  {
+  public:
+    explicit StretchAxis(const NoAxisKeys &) {}
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+  };
+
+  /** `Division axis = stress`: along the most tensile stress, (6.3b). */
+  template <int dim>
+  class StressAxis : public PresentAxis<dim>
+  {
+  public:
+    explicit StressAxis(const NoAxisKeys &) {}
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+  };
+
+  /** Key of `Division axis = radial`. */
+  struct RadialAxisParameters : public EffectKeys
+  {
+    RadialAxisParameters();
+
+    ExpressionKey center;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** `Division axis = radial`: from a point to where the cell is now. */
+  template <int dim>
+  class RadialAxis : public PresentAxis<dim>
+  {
+  public:
+    using Parameters = RadialAxisParameters;
+
+    RadialAxis(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+
+  private:
+    const Expression center;
+  };
+
+  /** `Division axis = surface normal`: along the normal n of (6.3c). */
+  template <int dim>
+  class SurfaceNormalAxis : public PresentAxis<dim>
+  {
+  public:
+    SurfaceNormalAxis(const NoAxisKeys &, const EffectSetting<dim> &setting);
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+  };
+
+  /** `Division axis = tangential`: along the surface, uniform, m of (6.3c). */
+  template <int dim>
+  class TangentialAxis : public PresentAxis<dim>
+  {
+  public:
+    TangentialAxis(const NoAxisKeys &, const EffectSetting<dim> &setting);
+
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+  };
+} // namespace Morula
+
+#endif

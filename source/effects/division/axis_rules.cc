@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/directions.h>
+#include <morula/effects/state/present_cell.h>
+
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    std::string
+    zero_is_refused()
+    {
+      return "a vector of " + std::to_string(dim) +
+             " components that is not zero";
+    }
+
+    const char *const remedy_of_zero =
+      "Give the direction along which cells divide, or set Division axis = "
+      "random.";
+
+    /** The normal of the surface near the cell, now. */
+    template <int dim>
+    Tensor<1, dim>
+    surface_normal(const PresentCell<dim> &cell)
+    {
+      return Directions::carried_normal(cell.cell().F(), cell.surface_normal());
+    }
+  } // namespace
+
+
+  FixedAxisParameters::FixedAxisParameters()
+    : axis("Proliferation/Cell cycle/Fixed axis",
+           "0, 0, 1",
+           "Direction of n_s for Division axis = fixed, in the reference "
+           "configuration, of any length but zero: 3 expressions separated by "
+           "';', or plain numbers separated by ','. 2-D: the first two "
+           "components.",
+           Evaluated::event,
+           3)
+  {
+    axis.admit_commas();
+  }
+
+
+  KeyList
+  FixedAxisParameters::list()
+  {
+    return {&axis};
+  }
+
+
+  template <int dim>
+  FixedAxis<dim>::FixedAxis(const Parameters         &parameters,
+                            const EffectSetting<dim> &setting)
+    : direction(setting.state.use(parameters.axis))
+  {
+    if (direction.is_constant() &&
+        !(direction.vector(Point<dim>(), 0.).norm() > 0.))
+      parameters.axis.refuse(zero_is_refused<dim>(), remedy_of_zero);
+  }
+
+
+  template <int dim>
+  void
+  FixedAxis<dim>::check(const Preview<dim> &) const
+  {}
+
+
+  template <int dim>
+  Tensor<1, dim>
+  FixedAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    if (cell.present == nullptr)
+      return cell.random;
+    const Tensor<1, dim> vector = cell.present->vector(direction, cell.time);
+    if (vector.norm() > 0.)
+      return vector;
+    std::ostringstream place;
+    place << cell.founder_position;
+    throw InputError(direction.key(),
+                     direction.text(),
+                     zero_is_refused<dim>() +
+                       "; it is zero for the cell whose founder was at (" +
+                       place.str() + ") um",
+                     remedy_of_zero);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  StretchAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    return Directions::of_largest_stretch(cell.elastic,
+                                          cell.least_anisotropy,
+                                          cell.random)
+      .value_or(cell.random);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  StressAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    if (cell.present == nullptr)
+      return cell.random;
+    return Directions::of_largest_stress(cell.present->quantities().stress,
+                                         cell.present->lame().mu,
+                                         cell.least_anisotropy,
+                                         cell.random)
+      .value_or(cell.random);
+  }
+
+
+  RadialAxisParameters::RadialAxisParameters()
+    : center("Proliferation/Cell cycle/Radial center",
+             "0; 0; 0",
+             "Point from which n_s points away for Division axis = radial. "
+             "Expressions; 2-D: the first two. Units: um.",
+             Evaluated::event,
+             3)
+  {}
+
+
+  KeyList
+  RadialAxisParameters::list()
+  {
+    return {&center};
+  }
+
+
+  template <int dim>
+  RadialAxis<dim>::RadialAxis(const Parameters         &parameters,
+                              const EffectSetting<dim> &setting)
+    : center(setting.state.use(parameters.center))
+  {}
+
+
+  template <int dim>
+  Tensor<1, dim>
+  RadialAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    if (cell.present == nullptr)
+      return cell.random;
+    const Tensor<1, dim> away =
+      cell.present->position() -
+      Point<dim>(cell.present->vector(center, cell.time));
+    return away.norm() > 0. ? away : cell.random;
+  }
+
+
+  template <int dim>
+  SurfaceNormalAxis<dim>::SurfaceNormalAxis(const NoAxisKeys &,
+                                            const EffectSetting<dim> &setting)
+  {
+    setting.state.need_surface_normal();
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  SurfaceNormalAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    return cell.present == nullptr ? cell.random :
+                                     surface_normal(*cell.present);
+  }
+
+
+  template <int dim>
+  TangentialAxis<dim>::TangentialAxis(const NoAxisKeys &,
+                                      const EffectSetting<dim> &setting)
+  {
+    setting.state.need_surface_normal();
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  TangentialAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    return cell.present == nullptr ?
+             cell.random :
+             Directions::across(surface_normal(*cell.present), cell.random);
+  }
+
+
+#define INSTANTIATE(dim)                 \
+  template class FixedAxis<dim>;         \
+  template class StretchAxis<dim>;       \
+  template class StressAxis<dim>;        \
+  template class RadialAxis<dim>;        \
+  template class SurfaceNormalAxis<dim>; \
+  template class TangentialAxis<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/development.h>
+#include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/directions.h>
+#include <morula/effects/fate/random.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "effects/small_tissue.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr std::uint64_t seed  = 42;
+  constexpr double        slack = 1e-9;
+
+  /** A cell cycle with a rule, and a single cell. */
+  template <int dim, template <int> class Rule>
+  class OneCell
+  {
+  public:
+    explicit OneCell(const typename Rule<dim>::Parameters &keys,
+                     const CellCycleParameters &cycle_keys = together())
+      : development(make(keys, cycle_keys))
+      , row(development.columns().founder(X(), 100.))
+    {
+      view().set(development.columns().deformation, F());
+      if (development.state().surface_normal.exists())
+        view().set(development.state().surface_normal, normal());
+    }
+
+    static CellCycleParameters
+    together()
+    {
+      CellCycleParameters keys;
+      keys.start = "together";
+      return keys;
+    }
+
+    static Point<dim>
+    X()
+    {
+      Point<dim> X;
+      X[0] = 3.;
+      X[1] = 4.;
+      return X;
+    }
+
+    /** Stretched, turned and sheared. */
+    static Tensor<2, dim>
+    F()
+    {
+      Tensor<2, dim> F = unit_tensor<dim>();
+      F[0][0]          = 1.2;
+      F[0][1]          = 0.3;
+      F[1][0]          = -0.1;
+      F[dim - 1][dim - 1] += 0.05;
+      return F;
+    }
+
+    static Tensor<1, dim>
+    normal()
+    {
+      Tensor<1, dim> N;
+      N[0] = 0.6;
+      N[1] = 0.8;
+      return N;
+    }
+
+    /** The cell enters S at t = 0. Number @p id makes the random numbers. */
+    CycleState<dim>
+    onset(const unsigned int id = 5)
+    {
+      development.initialize(id, view());
+      return development.clock(view());
+    }
+
+    /** What the rule chose, as a direction in the present configuration. */
+    Tensor<1, dim>
+    carried(const CycleState<dim> &state) const
+    {
+      const Tensor<1, dim> direction = F() * state.axis;
+      return direction / direction.norm();
+    }
+
+    CellView<dim, double>
+    view()
+    {
+      return CellView<dim, double>(make_array_view(row), development.columns());
+    }
+
+    CellDevelopment<dim> development;
+
+  private:
+    static CellDevelopment<dim>
+    make(const typename Rule<dim>::Parameters &keys,
+         const CellCycleParameters            &cycle_keys)
+    {
+      CellColumns<dim>         columns;
+      StateColumns<dim>        state;
+      DevelopmentEffects<dim>  effects;
+      const EffectSetting<dim> setting{seed, slack, columns, state};
+      if constexpr (std::is_constructible<
+                      Rule<dim>,
+                      const typename Rule<dim>::Parameters &,
+                      const EffectSetting<dim> &>::value)
+        effects.rule = std::make_unique<const Rule<dim>>(keys, setting);
+      else
+        effects.rule = std::make_unique<const Rule<dim>>(keys);
+      effects.cycle.emplace(cycle_keys, seed, slack, state);
+      effects.clock.emplace(columns);
+      state.declare(columns);
+      return CellDevelopment<dim>(std::move(effects),
+                                  columns,
+                                  state,
+                                  TissueMaterial(MaterialParameters()),
+                                  seed);
+    }
+
+    std::vector<double> row;
+  };
+
+  template <int dim>
+  Tensor<1, dim>
+  random_direction(const CycleState<dim> &state)
+  {
+    return Random::direction<dim>(seed, state.key);
+  }
+
+  FixedAxisParameters
+  fixed_along(const std::string &text)
+  {
+    FixedAxisParameters keys;
+    keys.axis = text;
+    return keys;
+  }
+
+  template <int dim>
+  void
+  check_fixed()
+  {
+    OneCell<dim, FixedAxis> cell(fixed_along("X; -Y; 0"));
+    Tensor<1, dim>          expected;
+    expected[0]      = 0.6;
+    expected[1]      = -0.8;
+    const auto state = cell.onset();
+    EXPECT_LT((state.axis - expected).norm(), 1e-15);
+    // Placed along n_s itself.
+    EXPECT_EQ(cell.development.placement_axis(cell.view()), state.axis);
+  }
+
+  /** The rule's direction is where the deformation carries n_s, and where the
+   *  daughters go. */
+  template <int dim, template <int> class Rule>
+  void
+  expect_along(const Tensor<1, dim>                 &expected,
+               const typename Rule<dim>::Parameters &keys = {})
+  {
+    OneCell<dim, Rule> cell(keys);
+    const auto         state = cell.onset();
+    EXPECT_NEAR(state.axis.norm(), 1., 1e-15);
+    EXPECT_LT((cell.carried(state) - expected).norm(), 1e-14);
+    EXPECT_LT((cell.development.placement_axis(cell.view()) - expected).norm(),
+              1e-14);
+  }
+
+  template <int dim>
+  void
+  check_present()
+  {
+    using Some = OneCell<dim, StretchAxis>;
+    const auto random =
+      Random::direction<dim>(seed, Random::founder_key(seed, 5));
+    const auto stretch =
+      Directions::of_largest_stretch(Some::F(), 1.02, random);
+    ASSERT_TRUE(stretch.has_value());
+    expect_along<dim, StretchAxis>(*stretch);
+    // The material is isotropic.
+    expect_along<dim, StressAxis>(*stretch);
+
+    RadialAxisParameters around;
+    around.center       = "-1; 1; 0";
+    Tensor<1, dim> away = Some::X();
+    away[0] += 1.;
+    away[1] -= 1.;
+    expect_along<dim, RadialAxis>(away / away.norm(), around);
+
+    const auto normal = Directions::carried_normal(Some::F(), Some::normal());
+    expect_along<dim, SurfaceNormalAxis>(normal);
+    expect_along<dim, TangentialAxis>(Directions::across(normal, random));
+  }
+
+  template <int dim>
+  void
+  check_fallback()
+  {
+    CellCycleParameters keys = OneCell<dim, StretchAxis>::together();
+    keys.least_anisotropy    = "2 + 0*volume";
+    OneCell<dim, StretchAxis> stretched({}, keys);
+    const auto                state = stretched.onset();
+    EXPECT_LT((stretched.carried(state) - random_direction(state)).norm(),
+              1e-14);
+    OneCell<dim, StressAxis> stressed({}, keys);
+    EXPECT_LT(
+      (stressed.carried(stressed.onset()) - random_direction(state)).norm(),
+      1e-14);
+
+    RadialAxisParameters here;
+    here.center = "3; 4; 0";
+    OneCell<dim, RadialAxis> central(here);
+    EXPECT_LT(
+      (central.carried(central.onset()) - random_direction(state)).norm(),
+      1e-14);
+  }
+
+  /** The spread is around what the rule says, where the rule says it. */
+  template <int dim>
+  void
+  check_spread()
+  {
+    CellCycleParameters keys = OneCell<dim, SurfaceNormalAxis>::together();
+    keys.axis_spread         = "4 + 0*noise";
+    OneCell<dim, SurfaceNormalAxis> cell({}, keys);
+    const auto normal = Directions::carried_normal(cell.F(), cell.normal());
+    for (unsigned int id = 0; id < 100; ++id)
+      {
+        const auto state = cell.onset(id);
+        EXPECT_LT((cell.carried(state) -
+                   Random::direction_around(normal, 4., seed, state.key))
+                    .norm(),
+                  1e-13);
+      }
+  }
+
+  template <int dim>
+  bool
+  is_refused(const std::string &axis)
+  {
+    try
+      {
+        OneCell<dim, FixedAxis>(fixed_along(axis)).onset();
+        return false;
+      }
+    catch (const InputError &)
+      {
+        return true;
+      }
+  }
+} // namespace
+
+
+TEST(AxisRules, AlongAnExpression)
+{
+  check_fixed<2>();
+  check_fixed<3>();
+}
+
+TEST(AxisRules, PlainNumbersMayBeSeparatedByCommas)
+{
+  for (const std::string text : {"1, 2, 2", "1; 2; 2", " 1,2 ,2.0", "1;2; 1+1"})
+    {
+      OneCell<3, FixedAxis> cell(fixed_along(text));
+      EXPECT_EQ(cell.onset().axis, (Tensor<1, 3>({1., 2., 2.}) / 3.)) << text;
+    }
+  EXPECT_EQ(fixed_along("1, 2, 2").axis.text(), "1, 2, 2");
+  EXPECT_EQ(FixedAxisParameters().axis.text(), "0, 0, 1");
+}
+
+TEST(AxisRules, ZeroIsRefused)
+{
+  EXPECT_TRUE(is_refused<3>("0, 0, 0"));
+  EXPECT_TRUE(is_refused<2>("0, 0, 1"));
+  EXPECT_FALSE(is_refused<3>("0, 0, 1"));
+  EXPECT_TRUE(is_refused<3>("1, 1"));
+  EXPECT_FALSE(is_refused<2>("1, 1"));
+  EXPECT_TRUE(is_refused<3>("X, 1, 1"));
+  // Of this cell only: X = 3.
+  EXPECT_TRUE(is_refused<3>("X > 3; 0; 0"));
+  EXPECT_FALSE(is_refused<3>("X >= 3; 0; 0"));
+}
+
+TEST(AxisRules, AlongPresentDirections)
+{
+  check_present<2>();
+  check_present<3>();
+}
+
+TEST(AxisRules, AtRandomWhereThereIsNoDirection)
+{
+  check_fallback<2>();
+  check_fallback<3>();
+}
+
+TEST(AxisRules, SpreadInThePresentConfiguration)
+{
+  check_spread<2>();
+  check_spread<3>();
+}

@@ -78,6 +78,17 @@ TEST(Expression, KnowsConditionsAndConstants)
 }
 
 
+TEST(Expression, KnowsFunctionsOfBiology)
+{
+  EXPECT_DOUBLE_EQ(value("hill(2, 2, 4)"), 0.5);
+  EXPECT_DOUBLE_EQ(value("hill(6, 2, 1)"), 0.75);
+  EXPECT_EQ(value("hill(-1, 2, 2)"), 0.);
+  EXPECT_EQ(value("ramp(1, 2, 4)"), 0.);
+  EXPECT_DOUBLE_EQ(value("ramp(3, 2, 4)"), 0.5);
+  EXPECT_EQ(value("ramp (5, 2, 4)"), 1.);
+}
+
+
 TEST(Expression, HasComponents)
 {
   const Expression e(key, "X; 2*Y; t", 3);
@@ -141,7 +152,9 @@ TEST(Expression, SaysWhereAnErrorIs)
   expect_parts(
     complaint("1 + sinn(X)"),
     {"Section/Key", "1 + sinn(X)", "character 5", "sinn", "X, Y, Z"});
-  expect_parts(complaint("x + 1"), {"character 1", "\"x\"", "X, Y, Z"});
+  expect_parts(complaint("x + 1"),
+               {"character 1", "\"x\"", "Write X", "X, Y, Z"});
+  expect_parts(complaint("1 + age"), {"character 5", "\"age\"", "no age"});
   expect_parts(complaint("X; Y; Z +", 3), {"Component 3", "Unexpected end"});
   expect_parts(complaint("(X + 1"), {"Missing parenthesis"});
   expect_parts(complaint("X<1||Y<1||sinn(X)"), {"character 11", "sinn"});
@@ -166,6 +179,7 @@ TEST(Expression, RefusesWhatWouldBeMisunderstood)
   expect_parts(complaint("X = 3"), {"Character 3", "single '='", "=="});
   expect_parts(complaint("0 < X < 5"), {"Character 7", "chain", "&&"});
   expect_parts(complaint("0 < X <= 5 && Y > 0"), {"Character 7", "chain"});
+  expect_parts(complaint("X**2"), {"Character 2", "'^'"});
   expect_parts(complaint("X > rand()"), {"Random"});
   for (const char *text : {"pow(X, 2)",
                            "X >= 3",

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/development.h>
+#include <morula/effects/fate/random.h>
+#include <morula/effects/state/surface_distance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace Morula;
+
+namespace
+{
+  /** A key of cells with this text. */
+  ExpressionKey
+  key(const std::string &text, const Evaluated evaluated = Evaluated::step)
+  {
+    ExpressionKey result("Section/Key", "0", "A number.", evaluated);
+    result = text;
+    return result;
+  }
+
+  const std::string all =
+    "x + y + generation + age + cycle_phase + volume + growth + J_e + pressure "
+    "+ tension + shear + energy + depth + noise + type_age";
+
+  /** A cell in some state, in 3-D. */
+  struct SomeCell
+  {
+    StateColumns<3>          state;
+    CellColumns<3>           columns;
+    TissueMaterial           material{MaterialParameters()};
+    std::vector<double>      row;
+    Tensor<2, 3>             F, F_g;
+    std::optional<CycleColumns<3>> clock;
+    CellCycle<3>             cycle{CellCycleParameters(), 7, 1e-9};
+
+    SomeCell()
+    {
+      state.use(key(all));
+      columns.need_growth();
+      clock.emplace(columns);
+      state.declare(columns);
+      row = columns.founder(Point<3>(1., 2., 3.), 50.);
+      F   = Tensor<2, 3>({{1.2, 0.1, 0.}, {0., 0.9, 0.2}, {0.05, 0., 1.1}});
+      F_g = 1.05 * Tensor<2, 3>(unit_symmetric_tensor<3>());
+      const CellView<3, double> cell = view();
+      cell.set(columns.deformation, F);
+      cell.set(columns.growth, F_g);
+      cell.set(columns.generation, 4u);
+      cell.set(state.birth_time, 0.5);
+      cell.set(state.type_since, 1.);
+      cell.set(state.depth, 8.);
+      CycleState<3> waiting;
+      waiting.phase = CyclePhase::waiting;
+      waiting.key   = 99;
+      clock->store(waiting, cell);
+    }
+
+    CellView<3, double>
+    view()
+    {
+      return {make_array_view(row), columns};
+    }
+
+    double
+    value(const std::string &text, const double t = 2.)
+    {
+      const CellReader<3>  reader{state, material, &*clock, &cycle, 7, t};
+      const PresentCell<3> cell(view(), 5, Point<3>(4., 5., 6.), reader);
+      return cell.value(state.use(key(text)), t);
+    }
+  };
+} // namespace
+
+
+TEST(PresentCell, KnowsItsVariables)
+{
+  SomeCell             cell;
+  const CellQuantities q = cell_quantities<3>(CellView<3, const double>(cell.view()),
+                                              cell.material.material(),
+                                              lame(1., 0.4),
+                                              false);
+  const auto           principal = eigenvalues(q.stress);
+  const double         von_mises =
+    std::sqrt(0.5 * (std::pow(principal[0] - principal[1], 2) +
+                     std::pow(principal[1] - principal[2], 2) +
+                     std::pow(principal[2] - principal[0], 2)));
+  const std::map<std::string, double> expected = {
+    {"X", 1.},
+    {"Z", 3.},
+    {"t", 2.},
+    {"x", 4.},
+    {"z", 6.},
+    {"generation", 4.},
+    {"age", 1.5},
+    {"type_age", 1.},
+    {"cycle_phase", 0.},
+    {"volume", 50. * determinant(cell.F)},
+    {"growth", std::pow(1.05, 3)},
+    {"J_e", determinant(cell.F) / std::pow(1.05, 3)},
+    {"pressure", -trace(q.stress) / 3.},
+    {"tension", principal[0]},
+    {"shear", von_mises},
+    {"energy", q.energy_density},
+    {"depth", 8.},
+    {"noise", Random::noise(7, 99)}};
+  for (const auto &[name, value] : expected)
+    EXPECT_NEAR(cell.value(name), value, 1e-12 * (1. + std::abs(value)))
+      << name;
+  EXPECT_EQ(cell.value("age", 3.), 2.5);
+}
+
+
+TEST(PresentCell, KnowsWhatItWouldFeelIfItHadGrown)
+{
+  SomeCell             cell;
+  const CellReader<3>  reader{cell.state, cell.material, nullptr, nullptr, 7, 0.};
+  const PresentCell<3> present(cell.view(), 5, Point<3>(), reader);
+  const Expression     J_e = cell.state.use(key("J_e"));
+  EXPECT_NEAR(present.value_if_grown(J_e, 0., 1.1),
+              present.value(J_e, 0.) / 1.1,
+              1e-14);
+  EXPECT_GT(present.value_if_grown(cell.state.use(key("pressure")), 0., 1.1),
+            present.value(cell.state.use(key("pressure")), 0.));
+}
+
+
+TEST(PresentCell, TakesNoStorageForVariablesThatNobodyUses)
+{
+  StateColumns<3> state;
+  CellColumns<3>  columns;
+  const auto      n = columns.n_numbers();
+  state.use(key("X + t + x + volume + pressure + noise"));
+  state.declare(columns);
+  EXPECT_EQ(columns.n_numbers(), n);
+  state.use(key("age + depth"));
+  state.declare(columns);
+  EXPECT_EQ(columns.n_numbers(), n + 2);
+}
+
+
+TEST(PresentCell, NoiseIsUniformAndTheCellsOwn)
+{
+  constexpr unsigned int n = 10000;
+  double                 sum = 0., squares = 0.;
+  for (unsigned int id = 0; id < n; ++id)
+    {
+      const double noise = Random::noise(3, Random::founder_key(3, id));
+      EXPECT_GT(noise, 0.);
+      EXPECT_LT(noise, 1.);
+      sum += noise;
+      squares += noise * noise;
+    }
+  EXPECT_NEAR(sum / n, 0.5, 3. / std::sqrt(12. * n));
+  EXPECT_NEAR(squares / n - std::pow(sum / n, 2), 1. / 12., 0.005);
+  // normal() makes a normal distribution of it
+  SomeCell cell;
+  EXPECT_NEAR(cell.value("normal(10, 2)"),
+              10. + 2. * cell.value("normal(0, 1)"),
+              1e-12);
+}
+
+
+TEST(PresentCell, KeysKnowOnlyTheirVariables)
+{
+  EXPECT_NO_THROW(key("pressure").check(3));
+  EXPECT_NO_THROW(key("pressure", Evaluated::event).check(3));
+  EXPECT_NO_THROW(key("generation + depth", Evaluated::property).check(3));
+  EXPECT_THROW(key("pressure", Evaluated::property).check(3), InputError);
+  EXPECT_THROW(key("pressure", Evaluated::place).check(3), InputError);
+  EXPECT_THROW(key("age", Evaluated::founder).check(3), InputError);
+  EXPECT_THROW(key("z").check(2), InputError);
+  EXPECT_NO_THROW(key("z").check(3));
+}
+
+
+TEST(NearSurface, IsThePlaneOfTheNearestBoundaryPoint)
+{
+  const std::vector<Point<2>>     points = {Point<2>(0., 0.), Point<2>(10., 0.)};
+  std::vector<Tensor<1, 2>>       normals(2);
+  normals[0][1] = 1.;
+  normals[1][0] = 1.;
+  const auto near = near_surface<2>({Point<2>(1., -4.), Point<2>(9., -1.)},
+                                    points,
+                                    normals,
+                                    MPI_COMM_SELF);
+  EXPECT_EQ(near[0].depth, 4.);
+  EXPECT_EQ(near[0].normal, normals[0]);
+  EXPECT_EQ(near[1].depth, 1.);
+  EXPECT_EQ(near[1].normal, normals[1]);
+  EXPECT_TRUE(std::isinf(
+    near_surface<2>({Point<2>()}, {}, {}, MPI_COMM_SELF)[0].depth));
+}

@@ -237,6 +237,9 @@ namespace Morula
           growth_of_step =
             development.of_step(tissue, time_steps.time(), time_steps.next());
         });
+        // Of the step's cells, so that a resumed run has the same.
+        if (material.depends_on_state())
+          find_typical_stiffness();
       }
     MaterialPoints<dim> points;
     {

@@ -83,14 +83,15 @@ namespace Morula
   void
   Simulation<dim>::find_typical_stiffness()
   {
-    double            largest = 0.;
-    const Cells<dim> &cells   = tissue.cells();
-    const auto        reader  = development.reader(time_steps.time());
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      largest = std::max(largest,
-                         material.depends_on_state() ?
-                           youngs_modulus(present_cell(p, reader).lame()) :
-                           material.youngs_modulus(cells.founder_position(p)));
+    double largest = 0.;
+    if (material.depends_on_state())
+      for (const Lame &lame : growth_of_step.lame)
+        largest = std::max(largest, youngs_modulus(lame));
+    else
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        largest =
+          std::max(largest,
+                   material.youngs_modulus(tissue.cells().founder_position(p)));
     typical_stiffness = Utilities::MPI::max(largest, comm);
   }
 

@@ -39,6 +39,14 @@ namespace Own
     Ageing(const Parameters &, const EffectSetting<dim> &setting)
       : age(setting.columns.template add<double>(
           {"age", "day", "time since birth", 0., AtDivision::reset, true}))
+      , dose(setting.columns.template find<double>("dose"))
+      , earlier_dose(setting.columns.template add<double>(
+          {"earlier_dose",
+           "",
+           "dose at the beginning of the last step",
+           0.,
+           AtDivision::copied,
+           true}))
     {}
 
     void
@@ -48,10 +56,12 @@ namespace Own
             const double                       t1) const override
     {
       after.set(age, before.get(age) + t1 - t0);
+      // That of t0, although the law has written the one of t1 already.
+      after.set(earlier_dose, before.get(dose));
     }
 
   private:
-    const Column<double> age;
+    const Column<double> age, dose, earlier_dose;
   };
 } // namespace Own
 

@@ -26,6 +26,7 @@ TWOFOLD = overrides({
     "Boundary conditions/Nitsche penalty": "2000",
     "Solver/Newton tolerance": "1e-10"})
 DIVISION = 0.5  # day
+STEP = 0.125  # day
 
 
 class OwnEffects(ProgramTest):
@@ -55,6 +56,9 @@ class OwnEffects(ProgramTest):
             cells = read_csv(output / f"cells-{number:04d}.csv")
             age = time if time < DIVISION - 1e-9 else time - DIVISION
             numpy.testing.assert_allclose(cells["age"], age, atol=1e-12)
+            # An effect sees what others had at the beginning of the step.
+            numpy.testing.assert_allclose(
+                cells["earlier_dose"], 0.5 * max(0, time - STEP), atol=1e-12)
         # every cell has divided along y
         cells = read_csv(output / "cells-0004.csv")
         for mother in range(100):

@@ -30,13 +30,13 @@ namespace
   /** A cell in some state, in 3-D. */
   struct SomeCell
   {
-    StateColumns<3>          state;
-    CellColumns<3>           columns;
-    TissueMaterial           material{MaterialParameters()};
-    std::vector<double>      row;
-    Tensor<2, 3>             F, F_g;
+    StateColumns<3>                state;
+    CellColumns<3>                 columns;
+    TissueMaterial                 material{MaterialParameters()};
+    std::vector<double>            row;
+    Tensor<2, 3>                   F, F_g;
     std::optional<CycleColumns<3>> clock;
-    CellCycle<3>             cycle{CellCycleParameters(), 7, 1e-9};
+    CellCycle<3>                   cycle{CellCycleParameters(), 7, 1e-9};
 
     SomeCell()
     {
@@ -80,12 +80,13 @@ namespace
 TEST(PresentCell, KnowsItsVariables)
 {
   SomeCell             cell;
-  const CellQuantities q = cell_quantities<3>(CellView<3, const double>(cell.view()),
-                                              cell.material.material(),
-                                              lame(1., 0.4),
-                                              false);
-  const auto           principal = eigenvalues(q.stress);
-  const double         von_mises =
+  const CellQuantities q =
+    cell_quantities<3>(CellView<3, const double>(cell.view()),
+                       cell.material.material(),
+                       lame(1., 0.4),
+                       false);
+  const auto   principal = eigenvalues(q.stress);
+  const double von_mises =
     std::sqrt(0.5 * (std::pow(principal[0] - principal[1], 2) +
                      std::pow(principal[1] - principal[2], 2) +
                      std::pow(principal[2] - principal[0], 2)));
@@ -117,8 +118,9 @@ TEST(PresentCell, KnowsItsVariables)
 
 TEST(PresentCell, KnowsWhatItWouldFeelIfItHadGrown)
 {
-  SomeCell             cell;
-  const CellReader<3>  reader{cell.state, cell.material, nullptr, nullptr, 7, 0.};
+  SomeCell            cell;
+  const CellReader<3> reader{
+    cell.state, cell.material, nullptr, nullptr, 7, 0.};
   const PresentCell<3> present(cell.view(), 5, Point<3>(), reader);
   const Expression     J_e = cell.state.use(key("J_e"));
   EXPECT_NEAR(present.value_if_grown(J_e, 0., 1.1),
@@ -145,7 +147,7 @@ TEST(PresentCell, TakesNoStorageForVariablesThatNobodyUses)
 
 TEST(PresentCell, NoiseIsUniformAndTheCellsOwn)
 {
-  constexpr unsigned int n = 10000;
+  constexpr unsigned int n   = 10000;
   double                 sum = 0., squares = 0.;
   for (unsigned int id = 0; id < n; ++id)
     {
@@ -180,10 +182,10 @@ TEST(PresentCell, KeysKnowOnlyTheirVariables)
 
 TEST(NearSurface, IsThePlaneOfTheNearestBoundaryPoint)
 {
-  const std::vector<Point<2>>     points = {Point<2>(0., 0.), Point<2>(10., 0.)};
-  std::vector<Tensor<1, 2>>       normals(2);
-  normals[0][1] = 1.;
-  normals[1][0] = 1.;
+  const std::vector<Point<2>> points = {Point<2>(0., 0.), Point<2>(10., 0.)};
+  std::vector<Tensor<1, 2>>   normals(2);
+  normals[0][1]   = 1.;
+  normals[1][0]   = 1.;
   const auto near = near_surface<2>({Point<2>(1., -4.), Point<2>(9., -1.)},
                                     points,
                                     normals,
@@ -192,6 +194,6 @@ TEST(NearSurface, IsThePlaneOfTheNearestBoundaryPoint)
   EXPECT_EQ(near[0].normal, normals[0]);
   EXPECT_EQ(near[1].depth, 1.);
   EXPECT_EQ(near[1].normal, normals[1]);
-  EXPECT_TRUE(std::isinf(
-    near_surface<2>({Point<2>()}, {}, {}, MPI_COMM_SELF)[0].depth));
+  EXPECT_TRUE(
+    std::isinf(near_surface<2>({Point<2>()}, {}, {}, MPI_COMM_SELF)[0].depth));
 }

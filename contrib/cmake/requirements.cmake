@@ -108,10 +108,10 @@ if(NOT RANDOM123_INCLUDE_DIR)
     "Random123 is missing (Debian: librandom123-dev; contrib/setup installs "
     "it). If it stands elsewhere, set RANDOM123_INCLUDE_DIR.")
 endif()
-find_package(CGAL 5.4 QUIET)
+find_package(CGAL 5.5 QUIET)
 if(NOT CGAL_FOUND)
   message(FATAL_ERROR
-    "CGAL 5.4 or later is missing, or its GMP and MPFR are (Debian: "
+    "CGAL 5.5 or later is missing, or its GMP and MPFR are (Debian: "
     "libcgal-dev libgmp-dev libmpfr-dev; contrib/setup installs them). If it "
     "stands elsewhere, set CGAL_DIR.")
 endif()

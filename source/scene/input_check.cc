@@ -185,14 +185,16 @@ namespace Morula
     check_boundary_conditions(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (choice.keys().is_on() && scene.tissue.shape == "points")
+        if (choice.keys().is_on() && scene.tissue.shape == "points" &&
+            scene.tissue.points_surface == "none")
           {
             choice.keys().check_each(dim);
             const AnyKey *const key = choice.keys().switch_key();
             (key != nullptr ? key : choice.keys().list().front())
-              ->refuse("nothing for " + scene.tissue.shape.path() + " = points",
-                       "Points from a file have no surface: remove the "
-                       "condition or choose another shape.");
+              ->refuse("nothing, as " + scene.tissue.points_surface.path() +
+                         " = none",
+                       "Remove the condition, or set Points surface = "
+                       "automatic.");
           }
       check_switched<dim>(scene, scene.catalogue.boundary_conditions);
       scene.nitsche.check_each(dim);

@@ -4,9 +4,42 @@
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
+#include <morula/seeding/points_surface.h>
 
 namespace Morula
 {
+  namespace
+  {
+    /** Whether cells from a file get a surface. */
+    template <int dim>
+    bool
+    needs_surface(const Scene &scene)
+    {
+      if (scene.tissue.points_surface != "automatic")
+        return scene.tissue.points_surface == "always";
+      if (effects_of<dim>(scene).state.needs_surface())
+        return true;
+      for (const auto &condition : scene.catalogue.boundary_conditions)
+        if (condition.keys().is_on())
+          return true;
+      return false;
+    }
+
+    template <int dim>
+    SurfacePatches<dim>
+    surface(const Scene         &scene,
+            const Founders<dim> &founders,
+            const MPI_Comm       comm)
+    {
+      if (scene.tissue.shape != "points")
+        return seed_surface<dim>(scene.tissue, comm);
+      return needs_surface<dim>(scene) ?
+               seed_points_surface(scene.tissue, founders, comm) :
+               SurfacePatches<dim>();
+    }
+  } // namespace
+
+
   template <int dim>
   SeededTissue<dim>
   seed_tissue(const Scene &scene, const MPI_Comm comm)
@@ -14,7 +47,7 @@ namespace Morula
     SeededTissue<dim> tissue;
     tissue.founders =
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
-    tissue.surface = seed_surface<dim>(scene.tissue, comm);
+    tissue.surface = surface(scene, tissue.founders, comm);
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);
     tissue.counts   = check_at_surface(scene, tissue.surface, comm);

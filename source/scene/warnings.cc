@@ -51,7 +51,7 @@ namespace Morula
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     for (const std::string &text : scene.renamed)
       review.warnings.push_back("Warning: " + text + '.');
-    review_units(scene.tissue, founders, comm, review);
+    review_units(scene.tissue, founders, surface, comm, review);
     SceneEffects<dim>             effects = effects_of<dim>(scene);
     const BoundaryConditions<dim> conditions(std::move(effects.conditions),
                                              scene.nitsche);

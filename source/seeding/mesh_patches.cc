@@ -244,10 +244,10 @@ namespace Morula
     }
 
     SurfacePatch<3>
-    make_patch(const Piece &piece)
+    make_patch(const Piece &piece, const PatchArea area)
     {
       SurfacePatch<3> patch;
-      patch.area     = piece.area;
+      patch.area = area == PatchArea::whole ? piece.area : piece.vector.norm();
       patch.normal   = piece.vector / piece.vector.norm();
       patch.position = piece.center();
       if (piece.triangles.size() == 1)
@@ -302,7 +302,8 @@ namespace Morula
 
   std::vector<SurfacePatch<3>>
   cut_into_patches(const std::vector<SurfaceTriangle> &triangles,
-                   const std::uint64_t                 n_wished)
+                   const std::uint64_t                 n_wished,
+                   const PatchArea                     area)
   {
     std::vector<Piece> pieces =
       cut(triangles, count_pieces(triangles, n_wished));
@@ -311,7 +312,7 @@ namespace Morula
     std::vector<SurfacePatch<3>> patches;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       if (pieces[i].merged_into == i)
-        patches.push_back(make_patch(pieces[i]));
+        patches.push_back(make_patch(pieces[i], area));
     return patches;
   }
 } // namespace Morula

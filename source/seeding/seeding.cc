@@ -7,6 +7,7 @@
 #include <morula/seeding/points_file.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
+#include <morula/seeding/share.h>
 #include <morula/seeding/trimming.h>
 
 #include <deal.II/base/mpi.h>
@@ -23,18 +24,6 @@ namespace Morula
   {
     constexpr std::uint64_t most_ids =
       std::numeric_limits<types::particle_index>::max() - 1;
-
-    /** This rank's share [begin, end) of the numbers 0...n-1. */
-    std::pair<std::uint64_t, std::uint64_t>
-    share(const std::uint64_t n, const MPI_Comm comm)
-    {
-      const std::uint64_t rank    = Utilities::MPI::this_mpi_process(comm);
-      const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      const auto          begin   = [=](const std::uint64_t r) {
-        return n / n_ranks * r + n % n_ranks * r / n_ranks;
-      };
-      return {begin(rank), begin(rank + 1)};
-    }
 
     /**
      * make_shape() on all ranks, each of which reads a mesh's file; if that

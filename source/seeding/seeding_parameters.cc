@@ -37,12 +37,27 @@ namespace Morula
                    "",
                    "For the shape mesh: file with a closed surface in um, as "
                    "STL, OFF, PLY or OBJ.")
-    , points_file(TissueKeys::points_file,
-                  "",
-                  "For the shape points: CSV file of the cells with a header "
-                  "line, x,y,z or x,y,z,volume (2-D: z may be missing), um "
-                  "and um^3 (2-D: um^2). A cell without volume has that of "
-                  "the Cell spacing. Such a tissue has no surface.")
+    , points_file(
+        TissueKeys::points_file,
+        "",
+        "For the shape points: CSV file of the cells with a header "
+        "line that names the columns in any order: x,y,z (2-D: z may "
+        "be missing) in um; volume in um^3 (2-D: um^2), without it "
+        "that of the Cell spacing; generation, divisions since the "
+        "founder, without it 0; phase of the cell cycle, 0 G0, 1 S, 2 G2, 4 "
+        "G1, 9 never, in which the cell begins at a point that is drawn, "
+        "without it as Start says; type, a name in Cell types/Names or "
+        "its number from 0 on, without it as Where says.")
+    , points_surface(
+        "Tissue/Points surface",
+        "automatic",
+        "For the shape points: whether there is a surface around the cells, "
+        "with boundary points that can be held and loaded. automatic: where "
+        "the scene has a boundary condition, or a key asks for the depth below "
+        "the surface or its normal. always: also without one. It "
+        "stands where the cells end, and encloses their volume. Gaps and "
+        "cavities narrower than four cells are closed.",
+        {"automatic|always|none"})
     , cell_spacing("Tissue/Cell spacing",
                    10.,
                    "L_p: cells sit on a regular lattice of this spacing, "
@@ -82,6 +97,7 @@ namespace Morula
             &size,
             &surface_mesh,
             &points_file,
+            &points_surface,
             &cell_spacing,
             &lattice_offset,
             &surface_cells,
@@ -208,15 +224,15 @@ namespace Morula
       require_positive(size, size[2]);
     if (shape == "mesh")
       check_mesh_format(surface_mesh);
-    if (shape == "points" && boundary_points > 0)
-      boundary_points.refuse("0, as Tissue/Shape = points has no surface",
-                             "Set Boundary points = 0, or describe the tissue "
-                             "by another Shape.");
-
-    if (shape == "points" && refine_surface)
-      refine_surface.refuse("false, as Tissue/Shape = points has no surface",
-                            "Set Refine surface = false, or describe the "
-                            "tissue by another Shape.");
+    const bool no_surface = shape == "points" && points_surface == "none";
+    if (no_surface && boundary_points > 0)
+      boundary_points.refuse("0, as Tissue/Points surface = none",
+                             "Set Boundary points = 0, or Points surface = "
+                             "automatic.");
+    if (no_surface && refine_surface)
+      refine_surface.refuse("false, as Tissue/Points surface = none",
+                            "Set Refine surface = false, or Points surface = "
+                            "automatic.");
 
     if (shape == "mesh" || shape == "points")
       return; // their files are judged when they are read

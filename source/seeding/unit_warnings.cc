@@ -80,6 +80,27 @@ namespace Morula
       return *middle;
     }
 
+    /** Usual part of the cells' volume by which that within the surface around
+     *  them differs. */
+    constexpr double most_off = 0.1;
+
+    /** The volume within the surface in units of the founders' volume. */
+    template <int dim>
+    double
+    enclosed_over_cells(const Founders<dim>       &founders,
+                        const SurfacePatches<dim> &surface,
+                        const MPI_Comm             comm)
+    {
+      double enclosed = 0., cells = 0.;
+      for (std::size_t i = 0; i < surface.areas.size(); ++i)
+        enclosed +=
+          surface.areas[i] / dim * (surface.normals[i] * surface.positions[i]);
+      for (const double V : founders.volumes)
+        cells += V;
+      return Utilities::MPI::sum(enclosed, comm) /
+             Utilities::MPI::sum(cells, comm);
+    }
+
     /** Largest distance of founders along an axis, and a cell. */
     template <int dim>
     double
@@ -107,10 +128,11 @@ namespace Morula
 
   template <int dim>
   void
-  review_units(const TissueParameters &tissue,
-               const Founders<dim>    &founders,
-               const MPI_Comm          comm,
-               Review                 &review)
+  review_units(const TissueParameters    &tissue,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review)
   {
     if (tissue.shape == "points" && founders.n_global > 1)
       {
@@ -125,6 +147,19 @@ namespace Morula
               ". Is the file in another unit than um?",
             "If so, scale it to um; else set Tissue/Cell spacing to the length "
             "of the cells, or give each its volume in the file.");
+      }
+    if (tissue.shape == "points" && surface.n_global > 0)
+      {
+        const double ratio = enclosed_over_cells(founders, surface, comm);
+        if (std::abs(ratio - 1.) > most_off)
+          review.warn(tissue.points_file.path(),
+                      tissue.points_file,
+                      "the surface around the cells encloses " +
+                        as_text(ratio) +
+                        " times their volume: a pressure on it squeezes them "
+                        "by so many times that pressure.",
+                      "Give each cell its volume in the file, or set "
+                      "Tissue/Cell spacing to the length of the cells.");
       }
     if (tissue.shape == "mesh")
       {
@@ -153,7 +188,8 @@ namespace Morula
                    {&tissue.size, {"box", "ellipsoid", "cylinder"}},
                    {&tissue.center, solid},
                    {&tissue.lattice_offset, solid},
-                   {&tissue.surface_cells, solid}};
+                   {&tissue.surface_cells, solid},
+                   {&tissue.points_surface, {"points"}}};
     for (const auto &[key, shapes] : shapes_of)
       if (!key->is_default() && review.has_set(*key) &&
           std::count(shapes.begin(), shapes.end(), tissue.shape.value()) == 0)
@@ -168,11 +204,13 @@ namespace Morula
   template void
   review_units(const TissueParameters &,
                const Founders<2> &,
+               const SurfacePatches<2> &,
                const MPI_Comm,
                Review &);
   template void
   review_units(const TissueParameters &,
                const Founders<3> &,
+               const SurfacePatches<3> &,
                const MPI_Comm,
                Review &);
 } // namespace Morula

@@ -170,9 +170,23 @@ TEST(TissueParameters, RefusesMissingAndSuperfluousFiles)
   EXPECT_TRUE(starts_with(refusal_after([&](P &p) {
                             p.shape           = "points";
                             p.points_file     = file.path;
+                            p.points_surface  = "none";
                             p.boundary_points = 100;
                           }),
                           "Tissue/Boundary points = '100'"));
+  EXPECT_TRUE(starts_with(refusal_after([&](P &p) {
+                            p.shape          = "points";
+                            p.points_file    = file.path;
+                            p.points_surface = "none";
+                            p.refine_surface = true;
+                          }),
+                          "Tissue/Refine surface"));
+  EXPECT_EQ(refusal_after([&](P &p) {
+              p.shape           = "points";
+              p.points_file     = file.path;
+              p.boundary_points = 100;
+            }),
+            "");
   EXPECT_TRUE(starts_with(refusal_after([&](P &p) {
                             p.shape        = "mesh";
                             p.surface_mesh = file.path;

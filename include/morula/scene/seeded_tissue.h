@@ -30,9 +30,10 @@ namespace Morula
   };
 
   /**
-   * Seeds the tissue, and lets all effects look at it. Both are the longest
-   * work before the first step, so it is done once, for --explain as for a run.
-   * Collective, and all throw together.
+   * Seeds the tissue, with a surface around cells from a file if Tissue/Points
+   * surface or a boundary condition asks for one, and lets all effects look at
+   * it. Both are the longest work before the first step, so it is done once,
+   * for --explain as for a run. Collective, and all throw together.
    * @throws InputError for a scene that cannot be run
    */
   template <int dim>

@@ -41,6 +41,7 @@ namespace Morula
     Key<std::vector<double>> size;
     Key<std::string>         surface_mesh;
     Key<std::string>         points_file;
+    Key<std::string>         points_surface;
     Key<double>              cell_spacing;
     Key<std::vector<double>> lattice_offset;
     Key<std::string>         surface_cells;
@@ -72,6 +73,13 @@ namespace Morula
     std::vector<Point<dim>> positions; // µm
     std::vector<double>     volumes;   // µm^dim
     types::particle_index   n_global = 0;
+    /** Divisions since the founder; empty if the file does not say. */
+    std::vector<unsigned int> generations;
+    /** Of the cell cycle: 0 G0, 1 S, 2 G2, 4 G1, 9 never; empty likewise. */
+    std::vector<unsigned int> phases;
+    /** Numbers of their types, in the order of SeedingLimits::types; empty
+     *  likewise. */
+    std::vector<unsigned int> types;
   };
 
   /**
@@ -90,7 +98,8 @@ namespace Morula
   };
 
   /**
-   * How far a tissue from a file may reach, and how large its cells may be.
+   * How far a tissue from a file may reach, how large its cells may be, and of
+   * what types.
    * With one vertex or cell far away from all others, the grid between them
    * would not fit into memory. Lengths in µm.
    */
@@ -103,6 +112,8 @@ namespace Morula
     double extent = std::numeric_limits<double>::infinity();
     /** Largest V^(1/dim) of a cell. */
     double cell_length = std::numeric_limits<double>::infinity();
+    /** Names of the types of cells; empty: there are none. */
+    std::vector<std::string> types;
     /**
      * Refuses a tissue that keeps to these limits but does not fit into memory.
      * It is called before the cells are processed, with their bounding box,
@@ -123,7 +134,8 @@ namespace Morula
                 const MPI_Comm            comm,
                 const SeedingLimits<dim> &limits = {});
 
-  /** Tiles the shape's surface. Points from a file have no surface. */
+  /** Tiles the shape's surface. Points from a file have none: for one around
+   *  them see seed_points_surface(). */
   template <int dim>
   SurfacePatches<dim>
   seed_surface(const TissueParameters &parameters, const MPI_Comm comm);

@@ -18,10 +18,11 @@ namespace Morula
    */
   template <int dim>
   void
-  review_units(const TissueParameters &tissue,
-               const Founders<dim>    &founders,
-               const MPI_Comm          comm,
-               Review                 &review);
+  review_units(const TissueParameters    &tissue,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review);
 
   /** Warns of keys of Tissue that the chosen shape does not use. Those that
    *  name files are refused; these are not, so that one scene serves several

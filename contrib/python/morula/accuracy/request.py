@@ -57,10 +57,20 @@ class Request:
 
     def _check_surface(self):
         for measure in self.measures:
-            if measure.of_surface and self.scene["Tissue/Shape"] == "points":
+            if measure.of_surface and not self._has_surface():
                 raise Refused("--measure", measure.text, "a measure of the "
-                              "cells", "A tissue of the shape 'points' has no "
-                              "surface.")
+                              "cells", "The tissue has no surface, as 'Tissue/"
+                              "Points surface' does not ask for one.")
+
+    def _has_surface(self):
+        """As source/scene/seeded_tissue.cc decides."""
+        keys = self.scene.keys
+        choice = keys["Tissue/Points surface"]
+        held_or_loaded = any(value for key, value in keys.items()
+                             if key.startswith("Boundary conditions/")
+                             and key.endswith(" where"))
+        return (keys["Tissue/Shape"] != "points" or choice == "always"
+                or (choice == "automatic" and held_or_loaded))
 
     @property
     def sampled(self):

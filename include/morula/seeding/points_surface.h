@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_points_surface_h
+#define morula_seeding_points_surface_h
+
+#include <morula/seeding/seeding.h>
+
+#include <mpi.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /**
+   * Tiles a surface around cells from a file. It stands where the cells end:
+   * where their volume, smoothed over 0.6 of a cell's length ℓ, falls to half
+   * of what it is inside, moved by at most ℓ/4 along its normals so that it
+   * encloses the sum of the cells' volumes. ℓ is that of the mean cell. Edges
+   * are round. The patches are about as many as Boundary points says, or one
+   * per ℓ² (2-D: ℓ), and their areas times normals add up to zero. Separate
+   * bodies have surfaces of their own if an empty ball of radius 2ℓ passes
+   * between them, and so have cavities with room for one. Rank 0 makes the
+   * surface: it does not depend on the number of ranks. Collective.
+   * @throws InputError if the surface encloses less than half or more than
+   * twice the cells' volume
+   */
+  template <int dim>
+  SurfacePatches<dim>
+  seed_points_surface(const TissueParameters &parameters,
+                      const Founders<dim>    &founders,
+                      const MPI_Comm          comm);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/points_surface_mesh.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <CGAL/Alpha_shape_2.h>
+#include <CGAL/Alpha_shape_face_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Random.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+#include <CGAL/subdivision_method_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    namespace Processing = CGAL::Polygon_mesh_processing;
+
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
+    using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
+
+    /** Distance of the first surface from the points, and radius of the ball
+     *  that must have room outside of it, in lengths of a cell. */
+    constexpr double offset = 0.5, alpha = 2.;
+
+    /** CGAL shuffles points before it inserts them. With the same numbers each
+     *  time, the same cells have the same surface. */
+    void
+    restart_shuffling()
+    {
+      CGAL::get_default_random() = CGAL::Random(0);
+    }
+
+    /** The centres of the balls beyond @p radius that touch four points and
+     *  have none inside, the largest first. */
+    std::vector<Kernel::Point_3>
+    empty_balls(const std::vector<Kernel::Point_3> &points, const double radius)
+    {
+      const CGAL::Delaunay_triangulation_3<Kernel>    delaunay(points.begin(),
+                                                            points.end());
+      std::vector<std::pair<double, Kernel::Point_3>> balls;
+      for (const auto cell : delaunay.finite_cell_handles())
+        {
+          const Kernel::Point_3 center = delaunay.dual(cell);
+          const double          square =
+            CGAL::squared_distance(center, cell->vertex(0)->point());
+          if (square > radius * radius)
+            balls.emplace_back(square, center);
+        }
+      std::sort(balls.begin(), balls.end(), std::greater<>());
+      std::vector<Kernel::Point_3> centers;
+      for (const auto &ball : balls)
+        centers.push_back(ball.second);
+      return centers;
+    }
+
+    /** Appends a mesh to the surface, in smaller triangles: a wrap's are as
+     *  large as its balls. */
+    void
+    append(Mesh &mesh, ClosedSurface<3> &surface)
+    {
+      CGAL::Subdivision_method_3::Loop_subdivision(mesh);
+      const auto first = static_cast<unsigned int>(surface.vertices.size());
+      for (const Mesh::Vertex_index v : mesh.vertices())
+        {
+          const Kernel::Point_3 &p = mesh.point(v);
+          surface.vertices.emplace_back(p.x(), p.y(), p.z());
+        }
+      for (const Mesh::Face_index face : mesh.faces())
+        {
+          std::array<unsigned int, 3> facet;
+          Mesh::Halfedge_index        edge = mesh.halfedge(face);
+          for (unsigned int i = 0; i < 3; ++i, edge = mesh.next(edge))
+            facet[i] =
+              first + static_cast<unsigned int>(mesh.source(edge).idx());
+          surface.facets.push_back(facet);
+        }
+    }
+
+    /** A closed mesh. */
+    struct Wrap
+    {
+      Mesh                    mesh;
+      bool                    is_cavity = false;
+      std::unique_ptr<Inside> inside; // refers to mesh
+
+      bool
+      contains(const Kernel::Point_3 &x)
+      {
+        if (!inside)
+          inside = std::make_unique<Inside>(mesh);
+        return (*inside)(x) == CGAL::ON_BOUNDED_SIDE;
+      }
+    };
+
+    /** The walls of the cavities in @p outer. */
+    std::list<Wrap>
+    cavities(const std::vector<Kernel::Point_3> &points,
+             const double                        length,
+             Wrap                               &outer)
+    {
+      std::list<Wrap> found;
+      for (const Kernel::Point_3 &center :
+           empty_balls(points, (alpha + offset) * length))
+        {
+          if (!outer.contains(center) ||
+              std::any_of(found.begin(), found.end(), [&](Wrap &other) {
+                return other.contains(center) == other.is_cavity;
+              }))
+            continue;
+          std::vector<Kernel::Point_3> seeds = {center};
+          found.emplace_back();
+          CGAL::alpha_wrap_3(points,
+                             alpha * length,
+                             offset * length,
+                             found.back().mesh,
+                             CGAL::parameters::default_values(),
+                             CGAL::parameters::seed_points(std::ref(seeds)));
+          // else it has leaked out, and is outer again
+          found.back().is_cavity = found.back().contains(center);
+        }
+      found.remove_if([](const Wrap &wrap) { return !wrap.is_cavity; });
+      return found;
+    }
+  } // namespace
+
+  ClosedSurface<3>
+  wrap_points(const std::vector<Point<3>> &points, const double length)
+  {
+    restart_shuffling();
+    std::vector<Kernel::Point_3> centers;
+    for (const Point<3> &x : points)
+      centers.emplace_back(x[0], x[1], x[2]);
+    Wrap outer;
+    CGAL::alpha_wrap_3(centers, alpha * length, offset * length, outer.mesh);
+    ClosedSurface<3> surface;
+    for (Wrap &cavity : cavities(centers, length, outer))
+      {
+        Processing::reverse_face_orientations(cavity.mesh);
+        append(cavity.mesh, surface);
+      }
+    append(outer.mesh, surface);
+    return surface;
+  }
+
+  ClosedSurface<2>
+  wrap_points(const std::vector<Point<2>> &points, const double length)
+  {
+    using Vertex   = CGAL::Alpha_shape_vertex_base_2<Kernel>;
+    using Face     = CGAL::Alpha_shape_face_base_2<Kernel>;
+    using Delaunay = CGAL::Delaunay_triangulation_2<
+      Kernel,
+      CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+    using Shape = CGAL::Alpha_shape_2<Delaunay>;
+
+    restart_shuffling();
+    constexpr unsigned int       n_around = 8;
+    std::vector<Kernel::Point_2> around;
+    for (const Point<2> &x : points)
+      for (unsigned int i = 0; i < n_around; ++i)
+        {
+          const double angle = 2. * numbers::PI * i / n_around;
+          around.emplace_back(x[0] + offset * length * std::cos(angle),
+                              x[1] + offset * length * std::sin(angle));
+        }
+    Shape shape(around.begin(),
+                around.end(),
+                alpha * alpha * length * length,
+                Shape::REGULARIZED);
+
+    // CGAL's order of edges depends on where they stand in memory
+    std::vector<std::pair<Kernel::Point_2, Kernel::Point_2>> segments;
+    for (auto edge = shape.alpha_shape_edges_begin();
+         edge != shape.alpha_shape_edges_end();
+         ++edge)
+      {
+        const auto &[face, i] = *edge;
+        segments.emplace_back(face->vertex(Shape::ccw(i))->point(),
+                              face->vertex(Shape::cw(i))->point());
+        if (shape.classify(face) != Shape::INTERIOR)
+          std::swap(segments.back().first, segments.back().second);
+      }
+    std::sort(segments.begin(), segments.end());
+
+    ClosedSurface<2>                        surface;
+    std::map<Kernel::Point_2, unsigned int> numbers;
+    const auto number = [&](const Kernel::Point_2 &x) {
+      const auto [place, is_new] =
+        numbers.emplace(x, static_cast<unsigned int>(surface.vertices.size()));
+      if (is_new)
+        surface.vertices.emplace_back(x.x(), x.y());
+      return place->second;
+    };
+    for (const auto &[from, to] : segments)
+      {
+        const unsigned int first = number(from);
+        surface.facets.push_back({{first, number(to)}});
+      }
+    return surface;
+  }
+} // namespace Morula

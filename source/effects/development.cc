@@ -128,12 +128,14 @@ namespace Morula
   void
   CellDevelopment<dim>::initialize(const types::particle_index  id,
                                    const CellView<dim, double> &cell,
-                                   const double                 step) const
+                                   const double                 step,
+                                   const GivenState            &given) const
   {
     const CellReader<dim> reader = this->reader(0.);
     const Point<dim>      X      = cell.founder_position();
     if (effects.types)
-      cell.set(state_.type, effects.types->founder_type(X));
+      cell.set(state_.type,
+               given.type ? *given.type : effects.types->founder_type(X));
     const PresentCell<dim> founder(cell, id, X, reader);
     if (effects.cycle)
       {
@@ -144,8 +146,12 @@ namespace Morula
         const CellAt<dim> at(founder, 0.);
         if (step > 0.)
           effects.cycle->check_cell(at, step);
-        state = effects.cycle->founder(id, at);
+        state = given.phase ?
+                  effects.cycle->founder_in_phase(id, at, *given.phase) :
+                  effects.cycle->founder(id, at);
         choose_axis(CycleState<dim>(), founder, 0., state);
+        if (given.phase)
+          effects.cycle->begin_growth(state, at);
         set_clock(cell, state);
       }
     for (const Effect<dim> *effect : effects.with_state)
@@ -264,8 +270,12 @@ namespace Morula
                                     const double            t,
                                     CycleState<dim>        &after) const
   {
-    if (!effects.rule || after.phase != CyclePhase::growing ||
-        before.phase == CyclePhase::growing)
+    const bool begins =
+      before.phase != CyclePhase::growing && after.phase == CyclePhase::growing;
+    // a founder whose file says that it is in G1
+    const bool has_begun =
+      before.phase == CyclePhase::never && after.phase == CyclePhase::divided;
+    if (!effects.rule || !(begins || has_begun))
       return;
     const CellView<dim, const double> &view = cell.cell();
     Tensor<1, dim>                     axis =
@@ -280,7 +290,9 @@ namespace Morula
       axis = Random::direction_around(axis / axis.norm(),
                                       spread,
                                       random_seed,
-                                      after.key);
+                                      has_begun ? Random::past_key(random_seed,
+                                                                   after.key) :
+                                                  after.key);
     // doc/theory.md (6.3e)
     if (effects.rule->frame() == AxisFrame::present)
       axis = invert(view.elastic_deformation() * growth_of_law(view, t)) * axis;

@@ -243,8 +243,8 @@ namespace Morula
       const SizeEstimate size =
         estimated_size(scene, tissue.founders, comm, n_unknowns);
       const double available = physical_memory(comm);
-      const std::vector<types::particle_index> n_of_types =
-        founders_of_types(scene, tissue.founders.positions, comm);
+      const std::vector<types::particle_index> n_of_types = founders_of_types(
+        scene, tissue.founders.positions, comm, tissue.founders.types);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
 

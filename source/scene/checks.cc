@@ -138,16 +138,18 @@ namespace Morula
 
   template <int dim>
   std::vector<types::particle_index>
-  founders_of_types(const Scene                   &scene,
-                    const std::vector<Point<dim>> &founders,
-                    const MPI_Comm                 comm)
+  founders_of_types(const Scene                     &scene,
+                    const std::vector<Point<dim>>   &founders,
+                    const MPI_Comm                   comm,
+                    const std::vector<unsigned int> &given)
   {
     std::vector<types::particle_index> n(scene.cell_types.types.size(), 0);
     if (n.empty())
       return n;
     const SceneEffects<dim> effects = effects_of<dim>(scene);
-    for (const Point<dim> &X : founders)
-      ++n[effects.development.types->founder_type(X)];
+    for (std::size_t i = 0; i < founders.size(); ++i)
+      ++n[given.empty() ? effects.development.types->founder_type(founders[i]) :
+                          given[i]];
     Utilities::MPI::sum(n, comm, n);
     return n;
   }
@@ -215,7 +217,10 @@ namespace Morula
 
 #define INSTANTIATE(dim)                                                      \
   template std::vector<types::particle_index> founders_of_types(              \
-    const Scene &, const std::vector<Point<dim>> &, const MPI_Comm);          \
+    const Scene &,                                                            \
+    const std::vector<Point<dim>> &,                                          \
+    const MPI_Comm,                                                           \
+    const std::vector<unsigned int> &);                                       \
                                                                               \
   template Preview<dim>          preview(const Scene &,                       \
                                          const std::vector<Point<dim>> &,     \

@@ -123,13 +123,16 @@ namespace Morula
   SeedingLimits<dim>
   seeding_limits(const Scene &scene, const MPI_Comm comm)
   {
-    return seeding_limits<dim>(
+    SeedingLimits<dim> limits = seeding_limits<dim>(
       scene.tissue,
       scene.grid.spacing,
       [scene,
        comm](const double cells, const double volume, const double grid_cells) {
         check_memory(scene, {cells, volume, grid_cells}, comm);
       });
+    if (scene.cell_types.present())
+      limits.types = scene.cell_types.name_list();
+    return limits;
   }
 
 

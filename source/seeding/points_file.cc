@@ -91,10 +91,11 @@ namespace Morula
      *  ranks have equal shares. */
     template <int dim>
     PointsFileRows<dim>
-    read_share(std::ifstream &stream,
-               const Header  &header,
-               const double   default_volume,
-               const MPI_Comm comm)
+    read_share(std::ifstream                  &stream,
+               const Header                   &header,
+               const double                    default_volume,
+               const std::vector<std::string> &types,
+               const MPI_Comm                  comm)
     {
       const std::uint64_t rank  = Utilities::MPI::this_mpi_process(comm);
       const std::uint64_t ranks = Utilities::MPI::n_mpi_processes(comm);
@@ -117,7 +118,7 @@ namespace Morula
           at += text.size() + 1;
           ++rows.n_lines;
           if (!is_blank_or_comment(text))
-            read_row(text, header.columns, default_volume, rows);
+            read_row(text, header.columns, default_volume, types, rows);
         }
       return rows;
     }
@@ -268,7 +269,7 @@ namespace Morula
     throw_first(header.problem, file, comm);
 
     PointsFileRows<dim> rows =
-      read_share<dim>(stream, header, default_volume, comm);
+      read_share<dim>(stream, header, default_volume, limits.types, comm);
     const std::uint64_t lines_before =
       header.line + sum_below(rows.n_lines, comm);
     for (std::uint64_t &line : rows.lines)
@@ -293,9 +294,12 @@ namespace Morula
     Founders<dim> founders;
     founders.first_id =
       static_cast<types::particle_index>(sum_below(n_mine, comm));
-    founders.n_global  = static_cast<types::particle_index>(n);
-    founders.positions = std::move(rows.positions);
-    founders.volumes   = std::move(rows.volumes);
+    founders.n_global    = static_cast<types::particle_index>(n);
+    founders.positions   = std::move(rows.positions);
+    founders.volumes     = std::move(rows.volumes);
+    founders.generations = std::move(rows.generations);
+    founders.phases      = std::move(rows.phases);
+    founders.types       = std::move(rows.types);
     return founders;
   }
 

@@ -3,6 +3,8 @@
 
 #include <morula/seeding/points_file_rows.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -14,7 +16,13 @@ namespace Morula
 {
   namespace
   {
-    /** Longest line, in characters. Four numbers and their names are far
+    /** The columns of a points file; their places are their meanings. */
+    constexpr unsigned int volume = 3, generation = 4, phase = 5, type = 6,
+                           n_meanings                      = 7;
+    const std::array<std::string, n_meanings> column_names = {
+      {"x", "y", "z", "volume", "generation", "phase", "type"}};
+
+    /** Longest line, in characters. A few numbers and their names are far
      *  shorter; a file without line ends could fill the memory. */
     constexpr std::size_t longest_line = 10000;
 
@@ -53,6 +61,64 @@ namespace Morula
         return {};
       return value;
     }
+
+    /** The number of a type that is given by its name, or by that number. */
+    std::optional<double>
+    type_number(const std::string &text, const std::vector<std::string> &types)
+    {
+      const auto place = std::find(types.begin(), types.end(), text);
+      if (place != types.end())
+        return place - types.begin();
+      const std::optional<double> value = number(text);
+      if (value && *value == std::floor(*value) && *value >= 0. &&
+          *value < types.size())
+        return value;
+      return {};
+    }
+
+    bool
+    is_phase(const double value)
+    {
+      return value == 0. || value == 1. || value == 2. || value == 4. ||
+             value == 9.;
+    }
+
+    bool
+    is_generation(const double value)
+    {
+      return value == std::floor(value) && value >= 0. && value <= 1000.;
+    }
+
+    std::string
+    allowed_types(const std::vector<std::string> &types)
+    {
+      return types.empty() ?
+               "no column 'type', as the scene has no types of cells" :
+               "one of the types " + boost::algorithm::join(types, ", ") +
+                 ", or its number from 0 on";
+    }
+
+    /** Refuses what no cell can be, in the line @p text. */
+    template <int dim>
+    void
+    check_state(const double         given_generation,
+                const double         given_phase,
+                const std::string   &text,
+                PointsFileRows<dim> &rows)
+    {
+      if (!is_generation(given_generation))
+        rows.problem = {rows.n_lines,
+                        text,
+                        "a generation that is a whole number from 0 to 1000",
+                        "Correct it: it counts the divisions since the "
+                        "founder."};
+      if (!is_phase(given_phase))
+        rows.problem = {rows.n_lines,
+                        text,
+                        "a phase that is 0 (G0), 1 (S), 2 (G2), 4 (G1) or 9 "
+                        "(never divides)",
+                        "Correct it; M, 3, is no phase that lasts."};
+    }
   } // namespace
 
   bool
@@ -66,10 +132,10 @@ namespace Morula
   std::vector<unsigned int>
   read_columns(const std::string &text, LineProblem &problem)
   {
-    std::vector<unsigned int>        columns;
-    const std::array<std::string, 4> names = {{"x", "y", "z", "volume"}};
-    std::array<unsigned int, 4>      found{};
-    bool                             known = true;
+    std::vector<unsigned int>            columns;
+    const auto                          &names = column_names;
+    std::array<unsigned int, n_meanings> found{};
+    bool                                 known = true;
     for (std::string name : text.size() > longest_line ?
                               std::vector<std::string>{""} :
                               fields(text))
@@ -92,9 +158,9 @@ namespace Morula
         problem.allowed =
           dim == 3 ?
             "a header line that names the columns x, y, z and, if there, "
-            "volume, each once" :
-            "a header line that names the columns x, y and, if there, z and "
-            "volume, each once";
+            "volume, generation, phase and type, each once" :
+            "a header line that names the columns x, y and, if there, z, "
+            "volume, generation, phase and type, each once";
         problem.remedy = "Name the columns in the file's first line.";
       }
     return columns;
@@ -105,6 +171,7 @@ namespace Morula
   read_row(const std::string               &text,
            const std::vector<unsigned int> &columns,
            const double                     default_volume,
+           const std::vector<std::string>  &types,
            PointsFileRows<dim>             &rows)
   {
     const bool                     too_long = text.size() > longest_line;
@@ -119,10 +186,21 @@ namespace Morula
                         "Correct the line."};
         return;
       }
-    std::array<double, 4> values = {{0., 0., 0., default_volume}};
+    std::array<double, n_meanings> values = {
+      {0., 0., 0., default_volume, 0., 0., 0.}};
     for (unsigned int i = 0; i < entries.size(); ++i)
       {
-        const std::optional<double> value = number(entries[i]);
+        const std::optional<double> value = columns[i] == type ?
+                                              type_number(entries[i], types) :
+                                              number(entries[i]);
+        if (!value && columns[i] == type)
+          {
+            rows.problem = {rows.n_lines,
+                            entries[i],
+                            allowed_types(types),
+                            "Correct the line, or name the type in the scene."};
+            return;
+          }
         if (!value)
           {
             rows.problem = {rows.n_lines,
@@ -134,11 +212,12 @@ namespace Morula
           }
         values[columns[i]] = *value;
       }
-    if (!(values[3] > 0.))
+    if (!(values[volume] > 0.))
       rows.problem = {rows.n_lines,
                       trimmed(text),
                       "a volume above 0 um^3 (2-D: um^2)",
                       "Correct the volume or drop the cell."};
+    check_state(values[generation], values[phase], trimmed(text), rows);
     if (dim == 2 && values[2] != 0.)
       rows.problem = {
         rows.n_lines,
@@ -149,7 +228,14 @@ namespace Morula
     for (unsigned int d = 0; d < dim; ++d)
       x[d] = values[d] + 0.; // -0 becomes 0
     rows.positions.push_back(x);
-    rows.volumes.push_back(values[3]);
+    rows.volumes.push_back(values[volume]);
+    const auto keep = [&](const unsigned int meaning, auto &list) {
+      if (std::find(columns.begin(), columns.end(), meaning) != columns.end())
+        list.push_back(static_cast<unsigned int>(values[meaning]));
+    };
+    keep(generation, rows.generations);
+    keep(phase, rows.phases);
+    keep(type, rows.types);
     rows.lines.push_back(rows.n_lines);
   }
 
@@ -162,10 +248,12 @@ namespace Morula
   read_row<2>(const std::string &,
               const std::vector<unsigned int> &,
               const double,
+              const std::vector<std::string> &,
               PointsFileRows<2> &);
   template void
   read_row<3>(const std::string &,
               const std::vector<unsigned int> &,
               const double,
+              const std::vector<std::string> &,
               PointsFileRows<3> &);
 } // namespace Morula

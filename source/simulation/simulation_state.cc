@@ -125,9 +125,18 @@ namespace Morula
             cell.set(state.depth, surface[i].depth);
           if (state.surface_normal.exists())
             cell.set(state.surface_normal, surface[i].normal);
-          development.initialize(id, cell, scene.time.step);
+          const unsigned int generation =
+            founders.generations.empty() ? 0 : founders.generations[i];
+          if (columns.generation.exists())
+            cell.set(columns.generation, generation);
+          GivenState given;
+          if (!founders.phases.empty())
+            given.phase = founders.phases[i];
+          if (!founders.types.empty())
+            given.type = founders.types[i];
+          development.initialize(id, cell, scene.time.step, given);
           cells.add(id, X, make_array_view(row));
-          births.push_back({id, -1, 0, 0., X, type_of(cell)});
+          births.push_back({id, -1, generation, 0., X, type_of(cell)});
         }
     });
 

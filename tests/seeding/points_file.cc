@@ -113,6 +113,71 @@ TEST(PointsFile, TwoDimensions)
   EXPECT_TRUE(contains(refusal<2>("x,y,z\n1,2,0\n1,3,1\n"), "line 3)"));
 }
 
+TEST(PointsFile, Generations)
+{
+  std::string content = "generation,x,y,z\n";
+  for (unsigned int i = 0; i < 100; ++i)
+    content += std::to_string(i % 7) + "," + std::to_string(i) + ",0,0\n";
+  const TemporaryFile file(".csv", content);
+  const auto          mine = read_points<3>(file.path, 1000., MPI_COMM_WORLD);
+  ASSERT_EQ(mine.generations.size(), mine.positions.size());
+  for (std::size_t i = 0; i < mine.positions.size(); ++i)
+    EXPECT_EQ(mine.generations[i], (mine.first_id + i) % 7);
+
+  const TemporaryFile without(".csv", "x,y,z\n1,2,3\n");
+  EXPECT_TRUE(
+    read_points<3>(without.path, 1000., MPI_COMM_WORLD).generations.empty());
+  for (const std::string bad : {"-1", "0.5", "1001", "1e300", "nan", "", "a"})
+    EXPECT_TRUE(contains(refusal<3>("x,y,z,generation\n1,2,3,0\n4,5,6," + bad +
+                                    "\n7,8,9,0\n"),
+                         "line 3)"))
+      << bad;
+}
+
+TEST(PointsFile, Phases)
+{
+  const TemporaryFile file(".csv",
+                           "x,phase,y,z\n0,0,0,0\n9,1,0,0\n"
+                           "18,2,0,0\n27,4,0,0\n36,9,0,0\n");
+  const auto          mine = read_points<3>(file.path, 1000., MPI_COMM_WORLD);
+  std::vector<unsigned int> phases;
+  for (const auto &part :
+       Utilities::MPI::all_gather(MPI_COMM_WORLD, mine.phases))
+    phases.insert(phases.end(), part.begin(), part.end());
+  EXPECT_EQ(phases, (std::vector<unsigned int>{0, 1, 2, 4, 9}));
+  EXPECT_TRUE(mine.generations.empty());
+  for (const std::string bad : {"3", "5", "-1", "1.5", "G1"})
+    EXPECT_TRUE(
+      contains(refusal<3>("x,y,z,phase\n1,2,3,0\n4,5,6," + bad + "\n"),
+               "line 3)"))
+      << bad;
+}
+
+TEST(PointsFile, Types)
+{
+  const TemporaryFile file(".csv",
+                           "x,y,z,type\n0,0,0,stem\n9,0,0, transit \n"
+                           "18,0,0,0\n27,0,0,1\n");
+  SeedingLimits<3>    limits;
+  limits.types    = {"stem", "transit"};
+  const auto mine = read_points<3>(file.path, 1000., MPI_COMM_WORLD, limits);
+  std::vector<unsigned int> types;
+  for (const auto &part :
+       Utilities::MPI::all_gather(MPI_COMM_WORLD, mine.types))
+    types.insert(types.end(), part.begin(), part.end());
+  EXPECT_EQ(types, (std::vector<unsigned int>{0, 1, 0, 1}));
+  for (const std::string bad : {"2", "-1", "0.5", "Stem", ""})
+    {
+      const TemporaryFile wrong(".csv",
+                                "x,y,z,type\n0,0,0,1\n9,0,0," + bad + "\n");
+      EXPECT_THROW(read_points<3>(wrong.path, 1000., MPI_COMM_WORLD, limits),
+                   InputError)
+        << bad;
+    }
+  // in a scene without types
+  EXPECT_TRUE(contains(refusal<3>("x,y,z,type\n1,2,3,stem\n"), "no column"));
+}
+
 TEST(PointsFile, RefusesWrongHeaders)
 {
   EXPECT_TRUE(contains(refusal<3>(""), "empty"));

@@ -36,6 +36,15 @@ namespace Morula
     std::vector<TypeChange> changes;
   };
 
+  /** What the file of a founder may say of it. */
+  struct GivenState
+  {
+    /** In which it begins: see CellCycle::founder_in_phase(). */
+    std::optional<unsigned int> phase;
+    /** Number of its type. */
+    std::optional<unsigned int> type;
+  };
+
   /** The effects that decide what becomes of a cell. */
   template <int dim>
   struct DevelopmentEffects
@@ -117,12 +126,14 @@ namespace Morula
      * Sets a founder's columns, at t = 0, and refuses what effects cannot do
      * with it.
      * @param step of the run, day
+     * @param given what its file says of it
      * @throws InputError
      */
     void
     initialize(const types::particle_index  id,
                const CellView<dim, double> &cell,
-               const double                 step = 0.) const;
+               const double                 step  = 0.,
+               const GivenState            &given = {}) const;
 
     /** What becomes of the cells in (t0, t1]. @throws InputError */
     GrowthOfStep<dim>

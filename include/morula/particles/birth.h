@@ -17,7 +17,7 @@ namespace Morula
   {
     types::particle_index id;
     int                   parent;     // -1 for founders
-    unsigned int          generation; // 0 for founders
+    unsigned int          generation; // of founders 0, or as their file says
     double                time;       // day, exact
     Point<dim>            position;   // at birth, µm
     unsigned int          type = 0;   // number of the type

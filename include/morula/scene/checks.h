@@ -26,12 +26,14 @@ namespace Morula
           const MPI_Comm                     comm);
 
   /** Number of founders, over all ranks, of each type of cells; empty without
-   *  types. Collective. @param founders initial positions, µm */
+   *  types. Collective. @param founders initial positions, µm
+   *  @param given their types, if their file says them */
   template <int dim>
   std::vector<types::particle_index>
-  founders_of_types(const Scene                   &scene,
-                    const std::vector<Point<dim>> &founders,
-                    const MPI_Comm                 comm);
+  founders_of_types(const Scene                     &scene,
+                    const std::vector<Point<dim>>   &founders,
+                    const MPI_Comm                   comm,
+                    const std::vector<unsigned int> &given = {});
 
   /**
    * Lets growth, division, forces and the material look at all founders: growth

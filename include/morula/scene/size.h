@@ -55,7 +55,8 @@ namespace Morula
   void
   check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm);
 
-  /** The limits of the scene's tissue, if it comes from a file. */
+  /** The limits of the scene's tissue, if it comes from a file, and the names
+   * of its cells' types. */
   template <int dim>
   SeedingLimits<dim>
   seeding_limits(const Scene &scene, const MPI_Comm comm);

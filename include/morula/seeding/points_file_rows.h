@@ -36,6 +36,8 @@ namespace Morula
     std::vector<Point<dim>> positions;
     /** µm^dim */
     std::vector<double> volumes;
+    /** Empty if the file has no such columns. */
+    std::vector<unsigned int> generations, phases, types;
     /** The lines on which the rows stand. */
     std::vector<std::uint64_t> lines;
     /** Number of lines read, including those without a row. */
@@ -50,8 +52,9 @@ namespace Morula
 
   /**
    * The meaning of each column that the header line @p text names: 0, 1, 2 for
-   * x, y, z, and 3 for the volume. If the names are wrong, sets @p problem but
-   * for its line.
+   * x, y, z, 3 for the volume, 4 for the generation,
+   * 5 for the phase, 6 for the type. If the names are wrong,
+   * sets @p problem but for its line.
    */
   template <int dim>
   std::vector<unsigned int>
@@ -60,12 +63,15 @@ namespace Morula
   /**
    * Appends the row in the line @p text, whose number is rows.n_lines, or sets
    * rows.problem.
+   * @param types names that the column of types may have, or their numbers from
+   *        0 on
    */
   template <int dim>
   void
   read_row(const std::string               &text,
            const std::vector<unsigned int> &columns,
            const double                     default_volume,
+           const std::vector<std::string>  &types,
            PointsFileRows<dim>             &rows);
 } // namespace Morula
 

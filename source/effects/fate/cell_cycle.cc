@@ -68,6 +68,49 @@ namespace Morula
 
   template <int dim>
   CycleState<dim>
+  CellCycle<dim>::founder_in_phase(const types::particle_index id,
+                                   const CellAt<dim>          &at,
+                                   const unsigned int          phase) const
+  {
+    CycleState<dim> state;
+    state.growth_pre = unit_symmetric_tensor<dim>();
+    state.key        = Random::founder_key(seed, id);
+    if (phase == 9 || !(at.value(where) > 0.))
+      return state;
+    if (phase == 0)
+      {
+        state.phase = CyclePhase::waiting;
+        wait(state, at, 0.);
+        return state;
+      }
+    Assert(phase == 1 || phase == 2 || phase == 4, ExcInternalError());
+    const double T = at.value(duration);
+    if (has_own_duration())
+      state.duration = T;
+    const double before = phase == 1 ? 0. : phase == 2 ? 0.25 : 0.5;
+    const double length = phase == 4 ? 0.5 : 0.25;
+    state.phase = phase == 4 ? CyclePhase::divided : CyclePhase::growing;
+    state.event_time =
+      -(before + length * Random::part_of_phase(seed, state.key)) * T;
+    const std::uint64_t key =
+      phase == 4 ? Random::past_key(seed, state.key) : state.key;
+    state.axis = Random::direction<dim>(seed, key);
+    return state;
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::begin_growth(CycleState<dim>   &state,
+                               const CellAt<dim> &at) const
+  {
+    state.growth_pre = unit_symmetric_tensor<dim>();
+    state.growth_pre = invert(growth(state, at, 0.));
+  }
+
+
+  template <int dim>
+  CycleState<dim>
   CellCycle<dim>::advance(CycleState<dim>    state,
                           const CellAt<dim> &at,
                           const double       t0,

@@ -187,6 +187,18 @@ namespace Morula::Random
 
 
   double
+  part_of_phase(const std::uint64_t seed, const std::uint64_t key)
+  {
+    return 1. - uniform(bits(seed, key, Draw::phase)[0]);
+  }
+
+  std::uint64_t
+  past_key(const std::uint64_t seed, const std::uint64_t founder_key)
+  {
+    return daughter_key(seed, founder_key, Draw::phase);
+  }
+
+  double
   noise(const std::uint64_t seed, const std::uint64_t key)
   {
     const std::uint64_t random_bits = bits(seed, key, Draw::noise)[0];

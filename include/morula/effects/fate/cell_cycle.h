@@ -221,6 +221,22 @@ namespace Morula
     founder(const types::particle_index id, const CellAt<dim> &at) const;
 
     /**
+     * State at t = 0 of founder number @p id in a given phase, with the numbers
+     * of phase_number() but for M, which is a moment. How far it has come in S,
+     * G2 or G1 is drawn, uniformly: doc/theory.md (6.2a). Call begin_growth()
+     * when its axis is chosen.
+     */
+    CycleState<dim>
+    founder_in_phase(const types::particle_index id,
+                     const CellAt<dim>          &at,
+                     const unsigned int          phase) const;
+
+    /** Sets F_g,pre of a founder such that F_g = I at t = 0, wherever it stands
+     *  in its cycle. */
+    void
+    begin_growth(CycleState<dim> &state, const CellAt<dim> &at) const;
+
+    /**
      * The state at @p t1 of a cell that is in @p state at @p t0 and does not
      * divide in between: a cell whose division falls into (t0, t1] stays
      * `growing`; divides() tells, and daughters() follows.

@@ -25,6 +25,7 @@ namespace Morula::Random
     axis_spread,      // the angle
     axis_spread_side, // which way
     noise,
+    phase,
     // and from here on, one for each entry into a type and each way out of it
     transition = 0x1000
   };
@@ -57,6 +58,16 @@ namespace Morula::Random
   /** Uniform in (0, 1), the cell's own. */
   double
   noise(const std::uint64_t seed, const std::uint64_t key);
+
+  /** Uniform in [0, 1): the part of its phase that a founder, whose phase is
+   *  given, has behind it. */
+  double
+  part_of_phase(const std::uint64_t seed, const std::uint64_t key);
+
+  /** Key for the axis of a cycle that began before a founder's time: not the
+   *  founder's own, by which it draws the axis of its next cycle. */
+  std::uint64_t
+  past_key(const std::uint64_t seed, const std::uint64_t founder_key);
 
   /** Uniform on the unit sphere (2-D: circle). */
   template <int dim>

@@ -112,6 +112,60 @@ class ReadingRuns(ProgramTest):
                 self.assertEqual(lineage.end_time[int(row["parent"])],
                                  float(row["birth_time"]))
 
+    def test_types(self):
+        """Names from the scene; events.csv and lineage.csv together say the
+        type of every cell, in every state and in statistics.csv."""
+        output = self.work / "types"
+        self.execute(SCENES / "cell-types.prm", "-s", "Time/End time=1.5",
+                     "-s", "Output/Interval=0.5", "-s",
+                     "Output/Formats=csv", output=output)
+        run = Run(output)
+        self.assertEqual(run.type_names, ("transit", "stem", "resting"))
+        written = rows_of(output / "events.csv")
+        self.assertGreater(len(written), 20)
+        self.assertEqual(run.events.columns.tolist(), list(written[0]))
+        for name in ("event", "from", "to"):
+            self.assertEqual(run.events[name].tolist(),
+                             [row[name] for row in written])
+        self.assertEqual(run.events["time"].tolist(),
+                         [float(row["time"]) for row in written])
+        histories = {cell: run.types_of(cell)
+                     for cell in range(len(run.lineage))}
+        self.assertEqual(sum(map(len, histories.values())),
+                         len(histories) + len(written))
+
+        def type_at(cell, time):
+            return [name for since, name in histories[cell]
+                    if since <= time][-1]
+
+        for i, time in enumerate(run.times):
+            cells = run.cells(i)
+            self.assertEqual(cells["type"].dtype.kind, "i")
+            self.assertEqual([type_at(cell, time) for cell in cells["id"]],
+                             [run.type_names[t] for t in cells["type"]])
+        last = run.statistics.iloc[-1]
+        for name in run.type_names:
+            self.assertEqual(last[f"cells_{name}"], sum(
+                type_at(cell, last["time"]) == name
+                for cell in run.lineage.living))
+        with self.assertRaisesRegex(Refused, "an id from 0 to"):
+            run.types_of(len(run.lineage))
+        whole = (output / "events.csv").read_text()
+        for damaged, words in (
+                (whole.replace(",from,", ",of,", 1), "time, id, event, from"),
+                (whole + "1.5,x,transition,stem,transit\n", "the columns"),
+                (whole + "1.5,0,transition,stem,root\n", "It has 'root'")):
+            (output / "events.csv").write_text(damaged)
+            with self.assertRaisesRegex(Refused, words):
+                Run(output).events
+
+    def test_without_types(self):
+        run = self.run_with("csv")
+        self.assertEqual(run.type_names, ())
+        self.assertEqual(len(run.events), 0)
+        self.assertIsNone(run.lineage.type)
+        self.assertEqual(run.types_of(3), [])
+
     def test_documented_example(self):
         """The code of doc/looking-at-results.md, on this run."""
         run = self.run_with("vtu", "output/demo")

@@ -11,8 +11,9 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import to_rgb
 from morula.draw import spheres
-from morula.draw.colours import colours_of, limits_of
+from morula.draw.colours import OF_TYPES, colours_of, limits_of
 from morula.draw.view import view_of
 from PIL import Image
 from program import SCENES, ProgramTest, main, overrides
@@ -102,6 +103,25 @@ class Meaning(ProgramTest):
         colours = {tuple(c) for c in some.of([0, 1, 2, 3, 4, 9])}
         self.assertEqual(len(colours), 6)
 
+    def test_held(self):
+        colours = colours_of("held_at_checkpoint", np.array([0, 1]))
+        self.assertEqual(list(colours.names.values()), ["not held", "held"])
+
+    def test_types(self):
+        """Have the names of the run; one that it does not name, its number.
+        The colours of sixteen differ, and do not depend on which there are."""
+        names = [f"type{i}" for i in range(16)]
+        some = colours_of("type", np.array([0, 1, 0]), types=names[:2])
+        many = colours_of("type", np.array([5, 0]), types=names)
+        self.assertEqual(list(some.names.values()), names[:2])
+        self.assertEqual(list(many.names.values()), names)
+        np.testing.assert_array_equal(some.of([0, 1]), many.of([0, 1]))
+        self.assertEqual(len({tuple(c) for c in many.of(range(16))}), 16)
+        more = colours_of("type", np.array([0, 2]), types=names[:1])
+        self.assertEqual(list(more.names.values()), ["type0", "1", "2"])
+        long = colours_of("type", np.array([0]), types=["a" * 30, "b"])
+        self.assertGreater(long.longest_name, 2 * some.longest_name)
+
     def test_clipping(self):
         """Ends of the bar that stand for more than themselves are arrows."""
         values = np.linspace(0, 10, 1001)
@@ -159,6 +179,27 @@ class Render(ProgramTest):
         self.render("--movie", *small)
         kind = "mp4" if shutil.which("ffmpeg") else "gif"
         self.assertTrue((self.output / f"volume.{kind}").is_file())
+
+    def test_types(self):
+        """Are called as in the run's parameters.prm, with as much room as the
+        longest name needs; without that file, by their numbers."""
+        self.lattice(3)
+        file = self.output / "cells-0000.csv"
+        file.write_text(file.read_text().replace("phase", "type", 1))
+        small = "--field", "type", "--width", "200", "--output"
+        self.render(*small, self.work / "numbers.png")
+        (self.output / "parameters.prm").write_text(
+            "subsection Cell types\n  set Names = a, b, c, d, "
+            + "hypertrophic" * 3 + "\nend\n")
+        self.render(*small, self.work / "names.png")
+        numbers, names = (np.asarray(Image.open(self.work / f"{name}.png"))
+                          for name in ("numbers", "names"))
+        self.assertGreater(names.shape[1], numbers.shape[1] + 200)
+        # all that is written lies within the picture
+        self.assertTrue((names[:, -4:] == 255).all())
+        for colour in (to_rgb(c) for c in OF_TYPES[:5]):
+            there = np.abs(names - 255 * np.array(colour)).max(axis=2) < 3
+            self.assertGreater(there[:, 200:].sum(), 500)
 
     def test_refusals(self):
         self.lattice(3, 0.0, 0)

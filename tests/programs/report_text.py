@@ -19,6 +19,24 @@ IMAGE = "<img src=data:x onerror=taken()>"
 ENDS = f"</script></pre></td><!--<script>taken() {IMAGE}"
 NAME = f"a<!--<script>b{IMAGE}\"'&amp;"
 COLUMN = f"v\"><!--<script>{IMAGE}"
+TYPE = f"$\\x {ENDS}"  # a name of a type, and no formula either
+
+
+def add_types(output):
+    """Cells of two types, whose names are hostile."""
+    columns = {"cells-*.csv": {"type": 1}, "lineage.csv": {"type": 1},
+               "statistics.csv": {f"cells_{TYPE}": 7, "cells_b": 8}}
+    for pattern, added in columns.items():
+        for file in output.glob(pattern):
+            head, *rows = file.read_text().splitlines()
+            head = ",".join([head, *added])
+            values = "".join(f",{value}" for value in added.values())
+            file.write_text("\n".join([head, *(row + values
+                                              for row in rows), ""]))
+    (output / "events.csv").write_text(
+        f"time,id,event,from,to\n0.2,0,transition,b,{TYPE}\n")
+    with open(output / "parameters.prm", "a", encoding="utf-8") as stream:
+        stream.write(f"subsection Cell types\n  set Names = {TYPE}, b\nend\n")
 
 
 class Text(ReportTest):
@@ -41,6 +59,7 @@ class Text(ReportTest):
         plain.rename(output)
         for file in output.glob("cells-*.csv"):
             file.write_text(file.read_text().replace("sigma_yz", COLUMN, 1))
+        add_types(output)
         for name, text in {
                 "log.txt": ENDS, "timings.csv": f"{ENDS},1,0.5,0.5",
                 "parameters.prm": f"set Dimension{IMAGE[:4]}> = {ENDS}",
@@ -51,7 +70,7 @@ class Text(ReportTest):
         page = test.work / "page.html"
         test.run_words([ROOT / "contrib/report", output, "--output", page,
                         "--morula", cls.options.morula,
-                        "--fields", f"volume,{COLUMN}"])
+                        "--fields", f"volume,{COLUMN},type"])
         return page
 
     def assert_text_alone(self):
@@ -86,6 +105,18 @@ class Text(ReportTest):
             True)
         front = self.browser.run("return report.view.numbers.length")
         self.assertGreater(front, 50)
+        self.assert_text_alone()
+
+    def test_type(self):
+        """Names of types are text at the colours, curves and the tree."""
+        self.click("tab-three")
+        self.browser.set("field", "type", "change")
+        self.browser.wait("report.panel.show()")
+        self.assertIn(TYPE, self.browser.text("bar"))
+        self.click("tab-lineage")
+        self.browser.set("founder", 0, "change")
+        for place in ("tree-types", "tree-table", f"curve-cells_{TYPE}"):
+            self.assertIn(TYPE, self.browser.text(place))
         self.assert_text_alone()
 
     def test_policy(self):

@@ -28,7 +28,7 @@ _POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
 # computed from the others: the distance from Tissue/Center.
 POINTS = {
     "cells": {
-        **_POINTS, "generation": NUMBER, "phase": NUMBER,
+        **_POINTS, "generation": NUMBER, "phase": NUMBER, "type": NUMBER,
         "initial_volume": VOLUME, "volume": VOLUME,
         "growth_volume_ratio": NUMBER, "elastic_volume_ratio": NUMBER,
         "energy_density": STRESS, "sigma_xx": STRESS, "sigma_yy": STRESS,

@@ -13,7 +13,9 @@ class Lineage:
     Ids count from 0; those of daughters are larger than their mother's.
 
     `table` is a data frame with id, parent (-1 for founders), generation,
-    birth_time (days) and x, y, z (um) where the cell was born."""
+    birth_time (days) and x, y, z (um) where the cell was born, and in scenes
+    with types the number of the type with which it was born; `type` is None
+    in others."""
 
     def __init__(self, table):
         self.table = table.sort_values("id", kind="stable", ignore_index=True)
@@ -23,6 +25,8 @@ class Lineage:
         self.parent = self.table["parent"].to_numpy()
         self.generation = self.table["generation"].to_numpy()
         self.birth_time = self.table["birth_time"].to_numpy()
+        self.type = (self.table["type"].to_numpy() if "type" in self.table
+                     else None)
 
     def __len__(self):
         return len(self.parent)
@@ -55,7 +59,7 @@ class Lineage:
 
     def clone(self, cell):
         """Ids of a cell and all its descendants, in order."""
-        self._require(cell)
+        self.require(cell)
         member = np.zeros(len(self), dtype=bool)
         member[cell] = True
         for born in self._generations():
@@ -64,7 +68,7 @@ class Lineage:
 
     def ancestors(self, cell):
         """Ids from a cell's founder to the cell itself."""
-        self._require(cell)
+        self.require(cell)
         path = [cell]
         while self.parent[path[-1]] >= 0:
             path.append(int(self.parent[path[-1]]))
@@ -82,6 +86,7 @@ class Lineage:
         ends = np.cumsum(np.bincount(self.generation))
         return [order[a:b] for a, b in zip(ends, ends[1:])]
 
-    def _require(self, cell):
+    def require(self, cell):
+        """Throws Refused for an id that no cell has."""
         if not 0 <= cell < len(self):
             raise Refused("The cell", cell, f"an id from 0 to {len(self) - 1}")

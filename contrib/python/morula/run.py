@@ -8,6 +8,8 @@
     cells = run.cells(-1)               # the last state written
     cells["energy_density"].mean()      # kPa
     run.clone(17)                       # ids of all descendants of cell 17
+    run.type_names                      # of the cells' types, by their numbers
+    run.events                          # changes of type: time, id, from, to
 
 The columns are those of the files (README.md, "What comes out").
 
@@ -20,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .cell_types import names_in, read_events
 from .columns import COMPONENTS
 from .lineage import Lineage
 from .prm import parse
@@ -28,7 +31,7 @@ from .refusal import Refused
 ESSENTIAL = ("parameters.prm", "statistics.csv")
 
 # Written as numbers, and whole ones.
-WHOLE = ("id", "parent", "generation", "phase", "condition",
+WHOLE = ("id", "parent", "generation", "phase", "type", "condition",
          "held_at_checkpoint")
 
 # Two times are equal if they agree to this, relative to the larger of them
@@ -189,6 +192,31 @@ class Run:
             raise NoStates(f"{self.directory} has no lineage.csv: it is "
                            "written when the first step ends.")
         return Lineage(_frame(read_csv(file)))
+
+    @cached_property
+    def type_names(self):
+        """Names of the cells' types; column `type` has their numbers, from 0.
+        None in a scene without types."""
+        return names_in(self.keys)
+
+    @cached_property
+    def events(self):
+        """events.csv: every change of a cell's type, in order of time, day:
+        time, id, event ("transition"), from, to (names of types). Types that
+        daughters get when they are born stand in the lineage. Empty in a
+        scene without types."""
+        return read_events(self.directory / "events.csv", self.type_names)
+
+    def types_of(self, cell):
+        """The types that a cell has had: [(since when, day; name), ...] from
+        its birth on; empty in a scene without types."""
+        if self.lineage.type is None:
+            return []
+        self.lineage.require(cell)
+        changes = self.events[self.events["id"] == cell]
+        return [(float(self.lineage.birth_time[cell]),
+                 self.type_names[self.lineage.type[cell]]),
+                *zip(changes["time"], changes["to"])]
 
     def clone(self, cell):
         """Ids of a cell and all its descendants, dead or alive, in order."""

@@ -8,12 +8,14 @@ import matplotlib
 import matplotlib.cm
 import matplotlib.colors
 import numpy as np
+from matplotlib.textpath import TextPath
 
 # How a field is written at the colour bar, and its colour map.
 FIELDS = {
     "volume": ("Cell volume [µm³]", "viridis"),
     "generation": ("Generation", "viridis"),
     "phase": ("Phase", "phase"),
+    "type": ("Type", "type"),
     "held_at_checkpoint": ("At the size checkpoint", "held_at_checkpoint"),
     "energy_density": ("Strain energy density [kPa]", "plasma"),
     "elastic_volume_ratio": ("Elastic volume ratio $J_e$", "cividis"),
@@ -22,7 +24,7 @@ FIELDS = {
     "region_volume": ("Volume of the region [µm³]", "viridis"),
     "neighbours": ("Neighbours", "viridis"),
 }
-WHOLE_NUMBERS = ("generation", "phase", "held_at_checkpoint")
+WHOLE_NUMBERS = ("generation", "phase", "type", "held_at_checkpoint")
 # Numbers that stand for something: its name and its colour, the same in every
 # picture. People who see few colours can tell them apart (Okabe & Ito 2008).
 NAMED = {
@@ -31,7 +33,30 @@ NAMED = {
               4: ("G1", "#0072B2"), 9: ("no cycle", "#B8BBC0")},
     "held_at_checkpoint": {0: ("not held", "#B8BBC0"),
                            1: ("held", "#D55E00")}}
+# Of cell types by their numbers, from the same source; more types than that
+# get them again, darker.
+OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
+            "#F0E442", "#B8BBC0")
+DARKER = 0.55
 DIVERGING = "coolwarm"
+
+
+def meanings(field, types=(), values=()):
+    """What the numbers of a field stand for, {number: (name, colour)}; nothing
+    for most fields. `types` are the names of cell types; a type among the
+    values that has none is called by its number."""
+    if field != "type":
+        return NAMED.get(field, {})
+    n = max(len(types), int(np.max(values, initial=-1)) + 1)
+    names = [*types, *map(str, range(len(types), n))]
+    return {i: (name, colour_of_type(i)) for i, name in enumerate(names)}
+
+
+def colour_of_type(number):
+    again, place = divmod(number, len(OF_TYPES))
+    colour = matplotlib.colors.to_rgb(OF_TYPES[place])
+    return matplotlib.colors.to_hex(np.multiply(colour, DARKER if again
+                                                else 1))
 
 
 def around_zero(field):
@@ -88,6 +113,16 @@ class Colours:
         colours = self.palette(self.scale(np.asarray(values, dtype=float)))
         return (255 * colours[:, :3]).round().astype(np.uint8)
 
+    def _written(self):
+        """The names, none of which is a formula."""
+        return [name.replace("$", r"\$") for name in self.names.values()]
+
+    @property
+    def longest_name(self):
+        """Inches that it takes at the colour bar; 0 without names."""
+        return max((TextPath((0, 0), name, size=10).get_extents().width / 72
+                    for name in self._written()), default=0.0)
+
     def draw_bar(self, figure, axes):
         """The colour bar, in axes of its own; an arrow at an end that stands
         for all beyond it, too."""
@@ -99,7 +134,7 @@ class Colours:
         if self.names:
             edges = self.scale.boundaries
             bar.set_ticks((edges[1:] + edges[:-1]) / 2,
-                          labels=list(self.names.values()))
+                          labels=self._written())
         elif self.whole:
             numbers = np.arange(np.ceil(self.scale.vmin),
                                 np.floor(self.scale.vmax) + 1)
@@ -110,11 +145,13 @@ class Colours:
         return bar
 
 
-def colours_of(field, values=None, limits=None):
+def colours_of(field, values=None, limits=None, types=()):
     """The colours of a field with these limits, by default from the 1st to
-    the 99th percentile of the values; whole numbers get a colour each."""
-    if field in NAMED:
-        return named(field)
+    the 99th percentile of the values; whole numbers get a colour each. `types`
+    are the names of cell types."""
+    known = meanings(field, types, () if values is None else values)
+    if known:
+        return named(field, known)
     label, name = style_of(field)
     palette, whole = palette_of(name), field in WHOLE_NUMBERS
     low, high = limits_of(field, values) if limits is None else limits
@@ -129,12 +166,12 @@ def colours_of(field, values=None, limits=None):
     return Colours(label, palette, scale, whole, extend)
 
 
-def named(field):
-    numbers = np.array(sorted(NAMED[field]), dtype=float)
+def named(field, known):
+    numbers = np.array(sorted(known), dtype=float)
     edges = np.concatenate([[numbers[0] - 0.5],
                             (numbers[1:] + numbers[:-1]) / 2,
                             [numbers[-1] + 0.5]])
-    names, colours = zip(*(NAMED[field][int(n)] for n in numbers))
+    names, colours = zip(*(known[int(n)] for n in numbers))
     return Colours(style_of(field)[0],
                    matplotlib.colors.ListedColormap(colours),
                    matplotlib.colors.BoundaryNorm(edges, len(numbers)), True,

@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
 
 DPI = 200
 TOP, BOTTOM, SIDE = 0.42, 0.5, 1.25  # inches around the panels
+BESIDE_NAMES = 0.75  # inches of colour bar and label, without its names
 
 
 def round_length(length):
@@ -25,7 +26,8 @@ def compose(panels, cut_open, view, colours, title):
     outline = gaussian_filter((panels[0].min(axis=2) < 1).astype(float), 6)
     panels = panels[-len(cut_open):]
     wide = width / DPI
-    total = (len(panels) * wide + SIDE, height / DPI + TOP + BOTTOM)
+    side = max(SIDE, BESIDE_NAMES + colours.longest_name)
+    total = (len(panels) * wide + side, height / DPI + TOP + BOTTOM)
     with plt.rc_context({"font.family": "sans-serif", "font.size": 10}):
         figure = plt.figure(figsize=total, dpi=DPI, facecolor="white")
         for i, panel in enumerate(panels):

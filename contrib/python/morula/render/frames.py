@@ -3,6 +3,7 @@
 """The pictures of the states asked for. All of them have one view, which holds
 the tissue at all these times, and one meaning of the colours."""
 import numpy as np
+from morula.cell_types import names_of_run
 from morula.draw import tissue
 from morula.draw.colours import colours_of
 from morula.draw.view import behind_cut, cut_plane, view_of
@@ -26,7 +27,8 @@ class Frames:
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
         self.colours = colours_of(self.options.field, np.concatenate(values),
-                                  request.limits)
+                                  request.limits,
+                                  names_of_run(self.options.directory))
         angles = self.options.azimuth, self.options.elevation
         if len(request.states) == 1:
             self.view = view_of(places, cells.margin, *angles, cells.flat)

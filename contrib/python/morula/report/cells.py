@@ -8,7 +8,7 @@ which the page finds from the lineage."""
 import matplotlib
 import numpy as np
 from morula.columns import POINTS, STRESS, unit_in
-from morula.draw.colours import (FIELDS, NAMED, WHOLE_NUMBERS, limits_of,
+from morula.draw.colours import (FIELDS, WHOLE_NUMBERS, limits_of, meanings,
                                  palette_of, style_of)
 from morula.draw.points import radii_of
 from morula.run import NoStates, places
@@ -74,7 +74,7 @@ class Packed:
 
     def _measure(self, flat):
         """Ranges over all states that are shown."""
-        lows, highs, radii, self.ranges = [], [], [], {}
+        lows, highs, radii, self.ranges, self.meanings = [], [], [], {}, {}
         samples = {name: [] for name in self.selection.fields}
         for i in self.selection.states:
             cells = self.run.cells(i)
@@ -91,7 +91,10 @@ class Packed:
         self.low, self.high = np.min(lows, axis=0), np.max(highs, axis=0)
         self.radii = [float(min(radii)), float(max(radii))]
         for name, values in samples.items():
-            self.ranges[name] = range_of(name, np.concatenate(values))
+            values = np.concatenate(values)
+            known = meanings(name, self.run.type_names, values)
+            self.meanings[name] = known
+            self.ranges[name] = range_of(name, values, known)
 
     def _surface(self, i):
         """The boundary points, or None: a tissue of points has none."""
@@ -150,30 +153,33 @@ class Packed:
                 "high": high, "min": smallest, "max": largest,
                 "whole": name in WHOLE_NUMBERS, "palette": style_of(name)[1],
                 "names": {number: word for number, (word, _)
-                          in NAMED.get(name, {}).items()}}
+                          in self.meanings[name].items()}}
 
 
-def range_of(name, values):
-    """Low and high end of the 255 steps, smallest and largest value."""
+def range_of(name, values, known):
+    """Low and high end of the 255 steps, smallest and largest value; `known`
+    is what numbers stand for."""
     smallest, largest = float(values.min()), float(values.max())
-    if name in NAMED:
-        return min(NAMED[name]), max(NAMED[name]), smallest, largest
+    if known:
+        return (min(known), max(max(known), min(known) + 1), smallest,
+                largest)
     low, high = limits_of(name, values, PERCENTILES)
     if name in WHOLE_NUMBERS:
         high = max(high, low + 1)
     return low, high, smallest, largest
 
 
-def palettes(names):
-    """256 colours each, as hexadecimal digits. Of a palette that names
-    numbers, from the first to the last, each has its part of them."""
+def palettes(known):
+    """256 colours for each palette of the fields, as hexadecimal digits;
+    `known` is by field what its numbers stand for. Each of these numbers, from
+    the first to the last, has its part of the palette of its field's name."""
     found = {}
-    for name in sorted({*names, "hsv"}):
-        if name in NAMED:
-            low, high = min(NAMED[name]), max(NAMED[name])
+    for name in sorted({*(style_of(field)[1] for field in known), "hsv"}):
+        if known.get(name):
+            low, high = min(known[name]), max(known[name])
             numbers = low + np.arange(256) * (high - low + 1) // 256
             colours = matplotlib.colors.to_rgba_array(
-                [NAMED[name].get(n, ("", "grey"))[1] for n in numbers])
+                [known[name].get(n, ("", "grey"))[1] for n in numbers])
         else:
             colours = palette_of(name)(np.arange(256))
         found[name] = (255 * colours[:, :3]).round().astype(np.uint8) \

@@ -17,7 +17,8 @@ from .markup import Markup, joined, number, span  # noqa: E402
 from .scene import volume_unit  # noqa: E402
 
 # Colours that the page replaces by its own, light or dark.
-SERIES = ("#010101", "#020202", "#030303", "#040404", "#050505", "#060606")
+SERIES = ("#010101", "#020202", "#030303", "#040404", "#050505", "#060606",
+          "#090909", "#0a0a0a")
 TEXT, GRID = "#070707", "#080808"
 RC = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
       "axes.spines.top": False, "axes.spines.right": False,
@@ -63,6 +64,9 @@ def results(run):
     if run.statistics["held_at_checkpoint"].any():
         curves.append(Curve("Cells held at the size checkpoint", "",
                             {"held_at_checkpoint": "held"}))
+    columns = {f"cells_{name}": name for name in run.type_names}
+    if columns and {*columns} <= {*run.statistics}:
+        curves.insert(1, Curve("Cells of each type", "", columns, zero=True))
     curves.append(Curve("Extent of the surface", "µm", {
         f"{axis}{end}": f"{axis}, {word}"
         for axis in "xyz"[:run.dimension]
@@ -121,12 +125,16 @@ def words_on(fit, curve):
 def draw(rows, curve, fit):
     with plt.rc_context({**RC, "svg.hashsalt": curve.title}):
         canvas, axes = plt.subplots(figsize=(4.6, 2.7), layout="constrained")
-        for (name, label), colour in zip(curve.columns.items(), SERIES):
+        for i, (name, label) in enumerate(curve.columns.items()):
+            again, colour = divmod(i, len(SERIES))
             values = rows[name].where(rows[name] > 0) \
                 if curve.log else rows[name]
             marker = "o" if len(rows) < 25 else ""
-            axes.plot(rows["time"], values, color=colour, label=label,
-                      linewidth=1.6, marker=marker, markersize=3)
+            # a name is no formula, whatever dollars stand in it
+            axes.plot(rows["time"], values, color=SERIES[colour],
+                      label=label.replace("$", r"\$"), linewidth=1.6,
+                      linestyle=":" if again else "-", marker=marker,
+                      markersize=3)
         if fit is not None and fit.exponential:
             time = np.linspace(fit.low, fit.high, 100)
             axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)

@@ -25,8 +25,7 @@ def page(run, program, options, say):
     family, blocks = pack_lineage(run)
     about = {"name": run.name, "view": cells and cells.about,
              "lineage": family,
-             "palettes": palettes([f["palette"] for f in
-                                   cells.about["fields"]] if cells else [])}
+             "palettes": palettes(cells.meanings if cells else {})}
     if cells:
         blocks += cells.blocks
         left_out = [*cells.selection.words, *left_out]

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Clones: their sizes, and the whole lineage for the tree in the page."""
 import numpy as np
+from morula.refusal import Refused
 
 from .curves import RC, SERIES, plt, svg
 from .markup import definitions, figure, joined, number
@@ -69,8 +70,24 @@ def blocks(run):
     if not (np.array_equal(mothers, lineage.parent[lineage.founders + 1::2])
             and len(lineage) == lineage.founders + 2 * len(mothers)):
         raise ValueError("lineage.csv: daughters do not stand in pairs")
-    return [block("lineage-packed", packed(mothers.astype(np.uint32),
-                                           times.astype(np.float32)))]
+    found = [block("lineage-packed", packed(mothers.astype(np.uint32),
+                                            times.astype(np.float32)))]
+    return found if lineage.type is None else [*found, types_block(run)]
+
+
+def types_block(run):
+    """All changes of type, those of a cell one after the other: whose, when,
+    to which type; then the type with which each cell was born."""
+    born, names = run.lineage.type, run.type_names
+    if len(names) > 256 or not ((0 <= born) & (born < len(names))).all():
+        raise Refused("lineage.csv", "its types", "numbers of the at most 256 "
+                      "types that parameters.prm names")
+    changes = run.events[run.events["id"] < len(born)].sort_values(
+        "id", kind="stable")
+    to = changes["to"].map({name: i for i, name in enumerate(names)})
+    return block("types-packed", packed(
+        changes["id"].to_numpy(np.uint32), changes["time"].to_numpy(
+            np.float32), to.to_numpy(np.uint8), born.astype(np.uint8)))
 
 
 def about(run):
@@ -78,4 +95,5 @@ def about(run):
     return {"founders": lineage.founders,
             "divisions": (len(lineage) - lineage.founders) // 2,
             "largest": int(lineage.clone_sizes.argmax()),
+            "types": None if lineage.type is None else run.type_names,
             "end": float(run.statistics["time"].iloc[-1])}

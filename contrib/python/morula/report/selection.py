@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 DEFAULT_FIELDS = ("energy_density", "volume", "elastic_volume_ratio",
-                  "growth_volume_ratio", "generation", "phase",
+                  "growth_volume_ratio", "generation", "type", "phase",
                   "held_at_checkpoint", "pressure")
 
 

@@ -4,7 +4,7 @@
 
 // What the colours mean, below the view and in saved pictures.
 
-const SWATCHES = 16;  // more whole numbers than that get a ramp
+const SWATCHES = 16;  // more whole numbers without names get a ramp
 
 /** {title, note} and either swatches {colour, word} or a ramp of colours with
  * its ends. Ends beyond which there are values say so. */
@@ -16,7 +16,7 @@ function legendOf(field, palette, lowest, highest) {
   const title = field.label + (field.unit && `, ${field.unit}`);
   if (field.clone) return {title, note: "colours repeat", swatches: []};
   const n = field.high - field.low + 1;
-  if (field.whole && n <= SWATCHES) {
+  if (field.whole && (n <= SWATCHES || named(field))) {
     const numbers = Array.from({length: n}, (_, i) => field.low + i);
     const swatches = numbers.map((number, i) => ({
       colour: colour((i + 0.5) / n), word: wordOf(field, number)}));
@@ -33,8 +33,12 @@ function legendOf(field, palette, lowest, highest) {
 
 /** The name of a number that stands for something, or the number. */
 function wordOf(field, number) {
-  const named = Object.keys(field.names || {}).length > 0;
-  return named ? field.names[number] || "" : String(number);
+  return named(field) ? field.names[number] || "" : String(number);
+}
+
+/** Whether numbers of a field stand for something. */
+function named(field) {
+  return Object.keys(field.names || {}).length > 0;
 }
 
 function drawLegend(element, {title, note, swatches, stops, ends}) {

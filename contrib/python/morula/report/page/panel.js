@@ -201,6 +201,9 @@ class Panel {
       words.push(`Cell ${id}`, `founder ${founder}`,
         `generation ${this.lineage.generation[id]}`,
         `born day ${shown(this.lineage.birth(id))}`);
+      const type = this.lineage.typeAt(id,
+        this.about.states[this.number].time);
+      if (type && field.name !== "type") words.push(`type ${type}`);
       byId("clone").value = founder;
       byId("founder").value = founder;
       byId("founder").dispatchEvent(new Event("change"));

@@ -64,12 +64,23 @@ function writeLegend(area, {title, note, swatches, stops, ends}) {
     write(area, ends[0], 12, bottom - 9);
     write(area, ends[1], 12 + wide, bottom - 9, "right");
   }
+  writeSwatches(area, swatches || []);
+}
+
+/** In one line, left of the scale: in smaller letters if there are many. */
+function writeSwatches(area, swatches) {
+  const {context, width, bottom} = area;
+  context.font = "13px sans-serif";
+  const wide = swatches.reduce((sum, {word}) =>
+    sum + 36 + context.measureText(word).width, 12);
+  const size = 13 * Math.min(1, 0.75 * width / wide);
   let x = 12;
-  for (const {colour, word} of swatches || []) {
+  for (const {colour, word} of swatches) {
     context.fillStyle = colour;
-    context.fillRect(x, bottom - 36, 14, 14);
+    context.fillRect(x, bottom - 36, size + 1, size + 1);
     context.fillStyle = area.text;
-    x += 20 + write(area, word, x + 19, bottom - 24) + 16;
+    x += 1.5 * size + write(area, word, x + 1.5 * size, bottom - 24, "left",
+      size) + 1.25 * size;
   }
 }
 

@@ -6,7 +6,7 @@
 
 /** Daughters of division k have the ids founders + 2k and the next one. */
 class Lineage {
-  constructor(about, bytes) {
+  constructor(about, bytes, types) {
     const n = about.divisions;
     this.founders = about.founders;
     this.end = about.end;
@@ -24,6 +24,34 @@ class Lineage {
         this.generation[id] = this.generation[mother] + 1;
       }
     });
+    this.typeNames = about.types || [];
+    if (types) this.readTypes(types);
+  }
+
+  /** Whose type changed, when and to which, then the types at birth. */
+  readTypes(bytes) {
+    const ever = this.founder.length, n = (bytes.length - ever) / 9;
+    const ids = new Uint32Array(bytes.buffer, 0, n);
+    const times = new Float32Array(bytes.buffer, 4 * n, n);
+    this.bornAs = bytes.subarray(9 * n);
+    this.changes = new Map();
+    ids.forEach((id, k) => {
+      if (!this.changes.has(id)) this.changes.set(id, []);
+      this.changes.get(id).push({time: times[k], type: bytes[8 * n + k]});
+    });
+  }
+
+  /** {time, type} from which day on a cell had which type (its number);
+   * nothing if cells have no types. */
+  history(id) {
+    return !this.bornAs ? [] : [{time: this.birth(id), type: this.bornAs[id]},
+      ...this.changes.get(id) || []];
+  }
+
+  /** The name of a cell's type at a time; nothing without types. */
+  typeAt(id, day) {
+    const had = this.history(id).filter(({time}) => time <= day);
+    return had.length ? this.typeNames[had[had.length - 1].type] : "";
   }
 
   daughters(k) {
@@ -61,17 +89,27 @@ class Lineage {
 }
 
 const ROWS = 400;
+const SERIES = 8;  // colours of types; more types get them again, dashed
 
 class Tree {
   constructor(lineage, about) {
     this.lineage = lineage;
     byId("tree-part").hidden = false;
     byId("founder").max = lineage.founders - 1;
+    this.legend(lineage.typeNames);
     byId("founder").addEventListener("change", () => this.draw());
     byId("largest").addEventListener("click", () => this.of(about.largest));
     byId("another").addEventListener("click", () =>
       this.of(Math.floor(Math.random() * lineage.founders)));
     this.of(about.largest);
+  }
+
+  /** Which line means which type. */
+  legend(names) {
+    byId("tree-types").hidden = !names.length;
+    byId("tree-types").append("Types:", ...names.flatMap((name, type) =>
+      [made("span", {class: `swatch type-${type % SERIES}`}), name]),
+      "; a dot is a change of type.");
   }
 
   get founder() { return Number(byId("founder").value); }
@@ -133,8 +171,7 @@ class Tree {
     parts.push(`<text x="${x(this.lineage.end) + 8}" y="${bottom + 14}">`
       + "day</text>");
     for (const cell of order) {
-      parts.push(line(x(cell.born), y(cell.row), x(cell.end), y(cell.row),
-        cell.divided ? "ended" : "living"));
+      parts.push(...this.lifeline(cell, x, y(cell.row), height > 5 ? 4 : 2));
       if (cell.divided)
         parts.push(line(x(cell.end), y(cell.rows[0]), x(cell.end),
           y(cell.rows[1]), "ended"));
@@ -148,17 +185,44 @@ class Tree {
       + `${parts.join("")}</svg>`;
   }
 
+  /** A cell's line; with types in pieces, and a dot where they meet. */
+  lifeline(cell, x, y, radius) {
+    const kind = cell.divided ? "ended" : "living";
+    const history = this.lineage.history(cell.id);
+    if (!history.length) return [line(x(cell.born), y, x(cell.end), y, kind)];
+    return history.flatMap(({time, type}, i) => {
+      const next = history[i + 1] || {time: cell.end};
+      const colour = `type-${type % SERIES}`;
+      const again = type < SERIES ? "" : " again";
+      const piece = line(x(time), y, x(next.time), y,
+        `${kind} of-type ${colour}${again}`);
+      return i === 0 ? [piece] : [piece, `<circle cx="${x(time).toFixed(1)}" `
+        + `cy="${y.toFixed(1)}" r="${radius}" class="${colour}"/>`];
+    });
+  }
+
+  /** Of the type at birth, and every change. */
+  lifeInWords(id) {
+    return this.lineage.history(id).map(({time, type}, i) =>
+      this.lineage.typeNames[type] + (i ? ` from day ${shown(time)}` : ""))
+      .join(", ");
+  }
+
   table(order) {
-    const rows = [...order].sort((a, b) => a.id - b.id).slice(0, ROWS);
-    byId("tree-table").innerHTML = '<table><thead><tr><th scope="col">cell'
-      + '</th><th scope="col">generation</th><th scope="col">born, day</th>'
-      + '<th scope="col">divided, day</th></tr></thead><tbody>'
-      + rows.map((cell) => `<tr><td>${cell.id}</td><td>`
-        + `${this.lineage.generation[cell.id]}</td><td>${shown(cell.born)}`
-        + `</td><td>${cell.divided ? shown(cell.end) : "lives"}</td></tr>`)
-        .join("") + "</tbody></table>"
-      + (order.length > ROWS ? `<p>The first ${ROWS} of ${order.length}.</p>`
-        : "");
+    const typed = this.lineage.typeNames.length > 0;
+    const head = ["cell", "generation", "born, day", "divided, day",
+      ...typed ? ["type"] : []];
+    const rows = [...order].sort((a, b) => a.id - b.id).slice(0, ROWS)
+      .map((cell) => [cell.id, this.lineage.generation[cell.id],
+        shown(cell.born), cell.divided ? shown(cell.end) : "lives",
+        ...typed ? [this.lifeInWords(cell.id)] : []]);
+    const row = (name, fields, attributes) => made("tr", {},
+      ...fields.map((field) => made(name, attributes, field)));
+    byId("tree-table").replaceChildren(made("table", {},
+      made("thead", {}, row("th", head, {scope: "col"})),
+      made("tbody", {}, ...rows.map((fields) => row("td", fields, {})))),
+      order.length > ROWS
+        ? made("p", {}, `The first ${ROWS} of ${order.length}.`) : "");
   }
 }
 

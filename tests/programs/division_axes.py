@@ -4,7 +4,7 @@
 """Along which axes cells divide. Two daughters are born along their mother's axis,
 the second where it points: lineage.csv tells all axes of a run."""
 import numpy
-from program import ProgramTest, main, overrides, read_csv
+from program import SCENES, ProgramTest, main, overrides, read_csv
 
 from tests.common.results import (Results, initial_positions, positions,
                                   stresses)
@@ -238,6 +238,27 @@ class DivisionAxes(ProgramTest):
         below, _ = self.differences("stretch below", Least_anisotropy="1.09")
         self.assertGreater(above[-1], 0.5 * above[1])
         self.assertLess(below[-1], -5 * below[1])
+
+    def test_two_layers(self):
+        """prm/examples/two-layers.prm: each layer divides along its own axis, and
+        the strip bends away from the one that gets longer."""
+        output = self.work / "layers"
+        self.execute(SCENES.parents[1] / "prm/examples/two-layers.prm",
+                     "-s", "Output/Formats=csv", output=output)
+        results = Results(output)
+        cells, lineage = results.last_cells(), results.lineage()
+        mothers, n = axes(lineage)
+        types = lineage["type"][mothers]
+        self.assertTrue((types == (lineage["y"][mothers] > 0)).all())
+        for kind, component in ((1, 0), (0, 1)):
+            chosen = n[types == kind, component]
+            # the mean cosine is I_1(20)/I_0(20) = 0.975, its scatter 0.035
+            self.assertGreater(len(chosen), 100)
+            self.assertLess(abs(chosen.mean() - 0.975), 0.02)
+        middle = abs(cells["X"]) < 10
+        ends = abs(cells["X"]) > 190
+        self.assertGreater(cells["y"][middle].mean() - cells["y"][ends].mean(),
+                           40)
 
     def test_ranks(self):
         """The lineage on two ranks is that on one."""

@@ -66,15 +66,15 @@ namespace Morula
                   "kappa: concentration of the axes around what Division axis "
                   "says, by the distribution of von Mises and Fisher. The "
                   "larger, the nearer: the root of the mean square angle tends "
-                  "to sqrt(2/kappa), in 2-D sqrt(1/kappa). Not negative; 0: no "
-                  "spread.",
+                  "to sqrt(2/kappa), in 2-D sqrt(1/kappa). An expression; not "
+                  "negative; 0: no spread.",
                   Evaluated::event)
     , least_anisotropy(
         path("Least anisotropy"),
         "1.02",
         "Ratio of the two largest elastic stretches below which Division axis "
         "= stretch takes a random axis; for stress, of 1 + (sigma_1 - "
-        "sigma_2)/(2 mu). At least 1.",
+        "sigma_2)/(2 mu). An expression; at least 1.",
         Evaluated::event)
     , axis_follows_rotation(
         path("Axis follows rotation"),

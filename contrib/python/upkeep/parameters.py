@@ -27,7 +27,23 @@ file, each part of a path but the last is a `subsection`; on the command line it
 sets wins, and `--explain` says what each of them is in the end.
 
 Expressions are muParser's: functions of X, Y, Z (initial position, um) and, where the
-meaning says so, t (day); components are separated by `;`. *um* is µm.
+meaning says so, t (day); components are separated by `;`. *um* is µm. Keys of cells
+have [more variables](glossary.md#variables-of-expressions): of the present cell.
+"""
+
+# Sections that exist only where the scene names types.
+OF_TYPES = """
+Each name is a section `Cell types/NAME` with these keys. `--parameters` does not show them, as
+they exist only where a scene names types.
+
+| key in `Cell types/NAME` | default | unit | meaning |
+| --- | --- | --- | --- |
+| `Where` | (empty) | — | Founders for which this expression of X, Y, Z is > 0 are of this type; of several types the last one counts, and the first type is that of all others. |
+| `Daughter types` | (empty) | — | Types of the two daughters, separated by a comma, the one at -n_s first; empty: the mother's. |
+| `Transitions/To OTHER` | `0` | 1/day | Rate at which cells of this type become OTHER, another of the names: an expression of their state, not negative. |
+| `Growth/Law` | (empty) | — | `none`, or the law of all; empty: that of all. |
+| `Proliferation/Law` | (empty) | — | `none`, or `cell cycle`; empty: as all. Cells that are past the onset of S divide, and then wait. |
+| any key of cells, by its path, e.g. `Material/Young's modulus` or `Proliferation/Cell cycle/Duration` | (empty) | of that key | Its value for cells of this type; empty: as for all. Keys of cells are those that are evaluated for a cell again and again ([list](glossary.md#variables-of-expressions)). |
 """
 
 
@@ -39,7 +55,8 @@ def cell(text):
 def allowed(key):
     if key.allowed:
         return cell(key.allowed)
-    is_expression = re.search("xpression|functions? of", key.meaning)
+    is_expression = re.search("xpression(?!s of cells)|functions? of",
+                              key.meaning)
     return "an expression" if is_expression else "any text"
 
 
@@ -58,6 +75,8 @@ def page(keys):
         former = "".join(f" Formerly `{path}`." for path in key.former)
         lines.append(f"| `{key.path}` | {cell(default)} | {key.unit or '—'} | "
                      f"{allowed(key)} | {cell(key.meaning)}{former} |\n")
+        if key.path == "Cell types/Names":
+            lines.append(OF_TYPES)
     return "".join(lines)
 
 

@@ -324,6 +324,7 @@ namespace Morula
   {
     if (!has_own_hazard() || std::isfinite(state.event_time))
       return;
+    // doc/theory.md (6.8)
     const double rate  = at.value(exit_rate);
     const double until = Random::exponential(seed, state.key, 1.);
     if (state.hazard + rate * (t1 - t0) >= until)

@@ -80,6 +80,7 @@ namespace Morula
     const unsigned int  n   = after.get(n_changes);
     const std::uint64_t key = cell.lineage_key();
     std::vector<double> rates;
+    // doc/theory.md (6.6), (6.7)
     for (std::size_t k = 0; k < ways.size(); ++k)
       {
         rates.push_back(cell.value(ways[k].rate, 0.5 * (t0 + t1)));

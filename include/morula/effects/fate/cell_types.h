@@ -18,7 +18,7 @@ namespace Morula
    * a rate r (1/day), an expression of the cell's state at the beginning of the
    * step, and is taken when ∫ r dt since the cell got its type reaches a number
    * that is exponentially distributed with mean 1, drawn from the lineage key:
-   * doc/theory.md, section 6.7. So events have exact times, and where rates do
+   * doc/theory.md, section 6.8. So events have exact times, and where rates do
    * not depend on steps, neither do the events.
    */
   template <int dim>

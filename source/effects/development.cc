@@ -30,7 +30,8 @@ namespace Morula
     , material(material)
     , random_seed(random_seed)
   {
-    keeps_rows = !this->effects.with_state.empty() || state_.any_in_use();
+    keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
+                 this->effects.contraction || this->effects.relaxation;
   }
 
   template <int dim>
@@ -59,7 +60,8 @@ namespace Morula
   bool
   CellDevelopment<dim>::grows() const
   {
-    return effects.law || effects.cycle;
+    return effects.law || effects.cycle || effects.contraction ||
+           effects.relaxation;
   }
 
   template <int dim>
@@ -164,6 +166,10 @@ namespace Morula
           effects.law->check_cell(founder, step);
         if (effects.rule && clock(cell).phase != CyclePhase::never)
           effects.rule->check_cell(founder, step);
+        if (effects.contraction)
+          effects.contraction->check_cell(founder, step);
+        if (effects.relaxation)
+          effects.relaxation->check_cell(founder, step);
       }
   }
 
@@ -295,49 +301,10 @@ namespace Morula
                                                   after.key);
     // doc/theory.md (6.3e)
     if (effects.rule->frame() == AxisFrame::present)
-      axis = invert(view.elastic_deformation() * growth_of_law(view, t)) * axis;
+      axis =
+        invert(view.elastic_deformation() * growth_left_of_cycle(view, t)) *
+        axis;
     after.axis = axis / axis.norm();
-  }
-
-  template <int dim>
-  Tensor<2, dim>
-  CellDevelopment<dim>::growth_of_law(const CellView<dim, const double> &cell,
-                                      const double t) const
-  {
-    const Tensor<2, dim> F_g = cell.growth();
-    if (!effects.cycle)
-      return F_g;
-    const CycleState<dim> state = clock(cell);
-    if (state.phase == CyclePhase::never)
-      return F_g;
-    return F_g *
-           invert(effects.cycle->growth(state, cell.founder_position(), t));
-  }
-
-  template <int dim>
-  Tensor<2, dim>
-  CellDevelopment<dim>::growth(const PresentCell<dim> &cell,
-                               const CycleState<dim>  &next,
-                               const double            t0,
-                               const double            t1) const
-  {
-    const CellView<dim, const double> &view = cell.cell();
-    const Point<dim>                   X    = view.founder_position();
-    Tensor<2, dim>                     of_cycle(unit_symmetric_tensor<dim>());
-    Tensor<2, dim>                     of_law = view.growth(); // at t0
-    if (effects.cycle)
-      {
-        if (effects.law)
-          of_law = of_law * invert(effects.cycle->growth(clock(view), X, t0));
-        of_cycle = effects.cycle->growth(next, X, t1);
-      }
-    if (!effects.law)
-      return of_cycle;
-    if (!effects.grows.empty() && !effects.grows[cell.type()])
-      return of_law * of_cycle;
-    return effects.law->growth(
-             {X, of_law, view.elastic_deformation(), &view, &cell}, t0, t1) *
-           of_cycle;
   }
 
   template <int dim>
@@ -353,8 +320,21 @@ namespace Morula
       set_clock(after, next);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before.cell(), after, t0, t1);
-    if (grows())
-      after.set(columns_.growth, growth(before, next, t0, t1));
+    if (!grows())
+      return;
+    Tensor<2, dim> F_g = behind_law(before.cell(), next, t1);
+    if (effects.law)
+      {
+        const Tensor<2, dim> of_law = law_growth(before, t0, t1);
+        if (effects.law_growth.exists())
+          after.set(effects.law_growth, of_law);
+        F_g = of_law * F_g;
+      }
+    if (effects.contraction)
+      F_g = effects.contraction->strain(before, after, t1) * F_g;
+    if (effects.relaxation)
+      F_g = relax(before, after, F_g, t0, t1);
+    after.set(columns_.growth, F_g);
   }
 
   template <int dim>

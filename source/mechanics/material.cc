@@ -40,8 +40,28 @@ namespace Morula
           "paper's, or the one whose shear part does not depend on the volume. "
           "The same at small strains.",
           {materials.names().front()})
+    , relaxation_time(
+        "Material/Relaxation time",
+        "0",
+        "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
+        "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
+        "day.",
+        Evaluated::step)
+    , yield_stress("Material/Yield stress",
+                   "0",
+                   "The von Mises stress up to which nothing relaxes; >= 0. "
+                   "Units: kPa.",
+                   Evaluated::step)
+    , relaxation_passes("Material/Relaxation passes",
+                        1,
+                        "Into how many parts the relaxation of a step is cut. "
+                        "More are more exact where tissue is held; under a "
+                        "load only shorter steps are.",
+                        {1, 10000})
     , materials(materials)
   {
+    relaxation_time.not_negative("day", "0 is elastic tissue.");
+    yield_stress.not_negative("kPa", "With 0 any shear stress relaxes.");
     const std::vector<std::string> names = materials.names();
     for (std::size_t i = 1; i < names.size(); ++i)
       law.add_word(names[i]);
@@ -64,6 +84,14 @@ namespace Morula
   {
     return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
                                               VolumetricStrain::projected;
+  }
+
+
+  bool
+  MaterialParameters::relaxes() const
+  {
+    const Expression &time = relaxation_time.expression(3);
+    return !time.is_constant() || time.plain_number() != 0.;
   }
 
 
@@ -94,8 +122,14 @@ namespace Morula
   KeyList
   MaterialParameters::list()
   {
-    return {
-      &youngs_modulus, &poissons_ratio, &energy_per, &volumetric_strain, &law};
+    return {&youngs_modulus,
+            &poissons_ratio,
+            &energy_per,
+            &volumetric_strain,
+            &law,
+            &relaxation_time,
+            &yield_stress,
+            &relaxation_passes};
   }
 
 

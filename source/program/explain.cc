@@ -119,6 +119,12 @@ namespace Morula
                    "axis = " + cycle.division_axis +
                      details_of(catalogue.division_rules, cycle.division_axis) +
                      (cycle.axis_follows_rotation ? ", follows rotation" : ""));
+      print_effect(out,
+                   "contraction",
+                   scene.has_contraction(),
+                   "gamma = " + scene.contraction.stretch.text() + ", along " +
+                     scene.contraction.direction.text() +
+                     (scene.contraction.keep_volume ? ", keeps volume" : ""));
       for (const auto &choice : catalogue.fates)
         print_effect(out,
                      topic_of(choice),
@@ -145,6 +151,12 @@ namespace Morula
                    !scene.material.youngs_modulus.expression(scene.dimension)
                       .is_constant(),
                    "E = " + scene.material.youngs_modulus.text() + " kPa");
+      print_effect(out,
+                   "relaxation",
+                   scene.material.relaxes(),
+                   "tau = " + scene.material.relaxation_time.text() +
+                     " day, yield stress = " +
+                     scene.material.yield_stress.text() + " kPa");
       print_effect(out,
                    "surface refinement",
                    scene.tissue.refine_surface,

@@ -182,6 +182,20 @@ namespace Morula
 
     template <int dim>
     void
+    check_contraction(const Scene &scene)
+    {
+      const ContractionParameters &contraction = scene.contraction;
+      if (!scene.has_contraction())
+        refuse_forgotten(scene,
+                         contraction.stretch,
+                         contraction,
+                         "Set " + contraction.stretch.path());
+      contraction.check_each(dim);
+    }
+
+
+    template <int dim>
+    void
     check_boundary_conditions(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
@@ -218,6 +232,7 @@ namespace Morula
                        scene.growth_law,
                        scene.law_of_growth());
       check_proliferation<dim>(scene);
+      check_contraction<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.fates);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);

@@ -4,6 +4,7 @@
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/scene/scene.h>
+#include <morula/seeding/shape.h>
 
 #include <boost/algorithm/string.hpp>
 
@@ -114,6 +115,13 @@ namespace Morula
 
 
   bool
+  Scene::has_contraction() const
+  {
+    return contraction.is_on();
+  }
+
+
+  bool
   Scene::has_proliferation() const
   {
     return proliferation_law != "none" ||
@@ -184,6 +192,7 @@ namespace Morula
     append(list, cell_cycle.list());
     for (auto &rule : catalogue.division_rules)
       append(list, rule.keys().list());
+    append(list, contraction.list());
     for (auto &fate : catalogue.fates)
       append(list, fate.keys().list());
     // Nitsche's term belongs to the library's own conditions.
@@ -283,6 +292,20 @@ namespace Morula
   }
 
 
+  namespace
+  {
+    /** Where the tissue has its centre, µm. */
+    template <int dim>
+    Point<dim>
+    center_of(const TissueParameters &tissue)
+    {
+      return tissue.shape == "mesh" || tissue.shape == "points" ?
+               Point<dim>() :
+               leading_components<dim>(tissue.center);
+    }
+  } // namespace
+
+
   template <int dim>
   SceneEffects<dim>
   effects_of(const Scene &scene)
@@ -308,7 +331,8 @@ namespace Morula
     const EffectSetting<dim> setting{scene.random_seed,
                                      scene.time.slack(),
                                      effects.columns,
-                                     effects.state};
+                                     effects.state,
+                                     center_of<dim>(scene.tissue)};
     const auto               make = [&](const auto &choice) {
       const unsigned int n = effects.columns.n_numbers();
       auto               effect = choice.template make<dim>(setting);
@@ -331,6 +355,29 @@ namespace Morula
       if (const auto *rule = find_choice(catalogue.division_rules,
                                          scene.cell_cycle.division_axis))
         development.rule = make(*rule);
+    if (scene.has_contraction())
+      {
+        development.contraction =
+          std::make_unique<Contraction<dim>>(scene.contraction, setting);
+        if (scene.has_growth())
+          development.law_growth = effects.columns.template add<Tensor<2, dim>>(
+            {"law_growth",
+             "",
+             "F_g of the growth law",
+             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+      }
+    if (scene.material.relaxes())
+      {
+        effects.columns.need_growth();
+        development.relaxation =
+          std::make_unique<Relaxation<dim>>(scene.material, effects.state);
+        if (!scene.has_proliferation())
+          development.relaxed = effects.columns.template add<Tensor<2, dim>>(
+            {"relaxed",
+             "",
+             "F_r, what has relaxed of F_g",
+             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+      }
     for (const auto &choice : catalogue.fates)
       if (choice.keys().is_on())
         effects.fates.push_back(make(choice));

@@ -37,6 +37,16 @@ namespace Morula
                       paths + ".",
                     "Remove these keys, or this one.");
     }
+
+    /** Whether some surface is pulled or pressed. */
+    bool
+    has_loads(const ConditionCounts &counts)
+    {
+      for (const auto &[name, n] : counts.acting)
+        if (n > 0 && name != "fixed" && name != "slip")
+          return true;
+      return false;
+    }
   } // namespace
 
 
@@ -56,7 +66,8 @@ namespace Morula
     const BoundaryConditions<dim> conditions(std::move(effects.conditions),
                                              scene.nitsche);
     const bool slips = conditions.has(SurfaceCondition::slip) &&
-                       (scene.has_growth() || scene.has_proliferation());
+                       (scene.has_growth() || scene.has_contraction() ||
+                        scene.has_proliferation());
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
 
@@ -64,6 +75,11 @@ namespace Morula
       scene, founders.positions, surface.positions, surface.normals, comm);
     if (effects.development.law)
       effects.development.law->review(at, review);
+    if (effects.development.contraction)
+      effects.development.contraction->review(at, review);
+    if (effects.development.relaxation &&
+        (has_loads(counts) || !effects.forces.empty()))
+      effects.development.relaxation->review(at, review);
     if (scene.has_proliferation())
       review_cell_cycle(scene.cell_cycle, at, review);
     if (effects.development.rule)

@@ -5,6 +5,7 @@
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/slip.h>
+#include <morula/effects/surface/traction.h>
 #include <morula/scene/warnings.h>
 
 #include <deal.II/base/mpi.h>
@@ -344,4 +345,39 @@ TEST(SceneWarnings, OfFormerNames)
   Scene scene   = good_scene();
   scene.renamed = {"scene.prm:3: the key 'A' is called 'B' today"};
   expect_warning(scene, {"Warning: scene.prm:3", "'B' today."});
+}
+
+
+TEST(SceneWarnings, OfStepsThatAreLongForCreep)
+{
+  Scene scene                    = good_scene();
+  scene.material.relaxation_time = "4 + X/100"; // from 3.55 on
+  EXPECT_TRUE(warnings_of<3>(scene).empty());   // nothing pulls
+  scene.keys<TractionParameters>().where    = "Z > 49";
+  scene.keys<TractionParameters>().traction = "0; 0; 0.1";
+  expect_warning(scene,
+                 {"Time/Step = '1 day'",
+                  "creeps too slowly by the factor 1 + Step / "
+                  "Material/Relaxation time, which is 1.28169 at",
+                  "of 3.55 day",
+                  "Shorten the step"});
+  scene.material.relaxation_time = "5";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+}
+
+
+TEST(SceneWarnings, OfContractionsThatJump)
+{
+  Scene scene                 = good_scene();
+  scene.contraction.direction = "1; 0; 0";
+  scene.contraction.stretch   = "1 - 0.1*t*(X > 0)";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.contraction.stretch = "1 - 0.11*min(t, 2)*(X > 0)";
+  expect_warning(scene,
+                 {"Time/Step = '1 day'",
+                  "Contraction/Stretch changes by up to 0.11;",
+                  "ramp the stretch"});
+  // At the start, too.
+  scene.contraction.stretch = "if(X > 0, 1.2, 1)";
+  expect_warning(scene, {"by up to 0.2;"});
 }

@@ -7,7 +7,9 @@
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_types.h>
+#include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/growth_law.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
@@ -59,15 +61,23 @@ namespace Morula
     std::optional<CellTypes<dim>>            types = {};
     /** Whether cells grow by the law, by type; empty: all do. */
     std::vector<bool> grows = {};
+    /** Or null. */
+    std::unique_ptr<const Contraction<dim>> contraction;
+    /** Or null. */
+    std::unique_ptr<const Relaxation<dim>> relaxation;
+    /** F_law, where the contraction stands left of it. */
+    Column<Tensor<2, dim>> law_growth;
+    /** F_r of (8.7), where there is no cycle to keep it. */
+    Column<Tensor<2, dim>> relaxed;
     /** All effects that have columns of their own; they stand elsewhere. */
     std::vector<const Effect<dim> *> with_state = {};
   };
 
   /**
    * All that becomes of a cell in a step before anything moves: its clock, what
-   * effects keep in columns, and F_g, the law's part times the cycle's: (6.1),
-   * (6.2). Pure functions of the committed state. Knows nothing of the balance
-   * of momentum.
+   * effects keep in columns, and F_g, the product of the effects' parts:
+   * doc/theory.md (8.7). Pure functions of the committed state. Knows nothing
+   * of the balance of momentum.
    */
   template <int dim>
   class CellDevelopment
@@ -203,17 +213,43 @@ namespace Morula
                 const double            t,
                 CycleState<dim>        &after) const;
 
-    /** F_g at t1 of a cell in its state at t0. */
+    /** What stands right of the law's part of F_g, at the time @p t of the
+     *  clock: the cycle's part and what has relaxed. */
+    Tensor<2, dim>
+    behind_law(const CellView<dim, const double> &cell,
+               const CycleState<dim>             &clock,
+               const double                       t) const;
+
+    /** The law's part at t1 of a cell in its state at t0. Only with a law. */
+    Tensor<2, dim>
+    law_growth(const PresentCell<dim> &cell,
+               const double            t0,
+               const double            t1) const;
+
+    /** The law's part and what stands right of it, at t1, of a cell in its
+     *  state at t0. */
     Tensor<2, dim>
     growth(const PresentCell<dim> &cell,
            const CycleState<dim>  &next,
            const double            t0,
            const double            t1) const;
 
+    /**
+     * F_g after relaxation, which is noted in @p after.
+     * @param F_g   of the other effects at t1
+     * @param after has the clock of t1
+     */
+    Tensor<2, dim>
+    relax(const PresentCell<dim>      &before,
+          const CellView<dim, double> &after,
+          const Tensor<2, dim>        &F_g,
+          const double                 t0,
+          const double                 t1) const;
+
     /** F_g without the cycle's part, at the time @p t of the state. */
     Tensor<2, dim>
-    growth_of_law(const CellView<dim, const double> &cell,
-                  const double                       t) const;
+    growth_left_of_cycle(const CellView<dim, const double> &cell,
+                         const double                       t) const;
 
     /** Sets all columns of @p after but F. */
     void

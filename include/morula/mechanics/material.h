@@ -30,11 +30,14 @@ namespace Morula
     /** @param materials what the law can be */
     explicit MaterialParameters(const Materials &materials = Materials());
 
-    ExpressionKey    youngs_modulus; // kPa
-    ExpressionKey    poissons_ratio;
-    Key<std::string> energy_per;
-    Key<std::string> volumetric_strain;
-    Key<std::string> law;
+    ExpressionKey     youngs_modulus; // kPa
+    ExpressionKey     poissons_ratio;
+    Key<std::string>  energy_per;
+    Key<std::string>  volumetric_strain;
+    Key<std::string>  law;
+    ExpressionKey     relaxation_time; // day
+    ExpressionKey     yield_stress;    // kPa
+    Key<unsigned int> relaxation_passes;
     /** What the law can be. */
     Materials materials;
 
@@ -44,6 +47,10 @@ namespace Morula
 
     VolumetricStrain
     volumetric_form() const;
+
+    /** Whether the shear of some cells relaxes. */
+    bool
+    relaxes() const;
 
     /** Warns of tissue that locks. */
     void

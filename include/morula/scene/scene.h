@@ -44,17 +44,18 @@ namespace Morula
     Key<std::string>  output_directory; // read() fills in what is empty
     Key<unsigned int> random_seed;
 
-    TimeParameters      time;
-    TissueParameters    tissue;
-    GridParameters      grid;
-    MaterialParameters  material;
-    Key<std::string>    growth_law;
-    Key<std::string>    proliferation_law;
-    CellCycleParameters cell_cycle;
-    CellTypesParameters cell_types;
-    NitscheParameters   nitsche;
-    SolverParameters    solver;
-    OutputParameters    output;
+    TimeParameters        time;
+    TissueParameters      tissue;
+    GridParameters        grid;
+    MaterialParameters    material;
+    Key<std::string>      growth_law;
+    Key<std::string>      proliferation_law;
+    CellCycleParameters   cell_cycle;
+    CellTypesParameters   cell_types;
+    ContractionParameters contraction;
+    NitscheParameters     nitsche;
+    SolverParameters      solver;
+    OutputParameters      output;
 
     /** The effects, with the values of their keys. */
     Catalogue catalogue;
@@ -82,13 +83,17 @@ namespace Morula
     std::string
     law_of_growth() const;
 
-    /** Whether an effect changes F_g without proliferation. */
+    /** Whether there is a growth law. */
     bool
     has_growth() const;
 
     /** Whether cells of the type number @p type grow by the law. */
     bool
     grows(const unsigned int type) const;
+
+    /** Whether cells contract. */
+    bool
+    has_contraction() const;
 
     bool
     has_proliferation() const;

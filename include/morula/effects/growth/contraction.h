@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_growth_contraction_h
+#define morula_effects_growth_contraction_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
+#include <morula/effects/state/direction.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Section "Contraction". */
+  struct ContractionParameters : public EffectKeys
+  {
+    ContractionParameters();
+
+    ExpressionKey    stretch;
+    CellDirectionKey direction;
+    Key<bool>        keep_volume;
+
+    bool
+    is_on() const override;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /**
+   * F_a = γ a⊗a + γ' (I - a⊗a), doc/theory.md (9.1): what the length of a cell
+   * would become along the unit vector @p a if nothing held it.
+   * @param gamma γ > 0
+   * @param keep_volume whether det F_a = 1; otherwise γ' = 1
+   */
+  template <int dim>
+  Tensor<2, dim>
+  active_strain(const Tensor<1, dim> &a,
+                const double          gamma,
+                const bool            keep_volume);
+
+  /** Cells that contract, as a part of F_g: doc/theory.md, section 9. */
+  template <int dim>
+  class Contraction : public Effect<dim>
+  {
+  public:
+    using Parameters = ContractionParameters;
+
+    /** @throws InputError for an expression that cannot be parsed */
+    Contraction(const Parameters         &parameters,
+                const EffectSetting<dim> &setting);
+
+    /**
+     * F_a at @p t1 (day), with the state at the beginning of the step. Writes
+     * γ into the column `contraction` of @p after.
+     * @throws InputError where γ is not positive
+     */
+    Tensor<2, dim>
+    strain(const PresentCell<dim>      &before,
+           const CellView<dim, double> &after,
+           const double                 t1) const;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+    /** Warns of steps in which γ changes by more than was measured. */
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
+  private:
+    Expression           stretch;
+    DirectionOfCell<dim> direction;
+    bool                 keep_volume;
+    /** γ. */
+    Column<double> column;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/development.h>
+
+// The parts of F_g and their product: doc/theory.md (8.7).
+
+namespace Morula
+{
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::growth_left_of_cycle(
+    const CellView<dim, const double> &cell, const double t) const
+  {
+    const Tensor<2, dim> F_g = cell.growth();
+    if (!effects.cycle)
+      return F_g;
+    const CycleState<dim> state = clock(cell);
+    if (state.phase == CyclePhase::never)
+      return F_g;
+    return F_g *
+           invert(effects.cycle->growth(state, cell.founder_position(), t));
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::behind_law(const CellView<dim, const double> &cell,
+                                   const CycleState<dim>             &clock,
+                                   const double                       t) const
+  {
+    if (effects.cycle)
+      return effects.cycle->growth(clock, cell.founder_position(), t);
+    return effects.relaxed.exists() ?
+             cell.get(effects.relaxed) :
+             Tensor<2, dim>(unit_symmetric_tensor<dim>());
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::law_growth(const PresentCell<dim> &cell,
+                                   const double            t0,
+                                   const double            t1) const
+  {
+    const CellView<dim, const double> &view = cell.cell();
+    Tensor<2, dim>                     at_t0;
+    if (effects.law_growth.exists())
+      at_t0 = view.get(effects.law_growth);
+    else if (effects.cycle)
+      at_t0 = view.growth() * invert(behind_law(view, clock(view), t0));
+    else if (effects.relaxed.exists())
+      at_t0 = view.growth() * invert(view.get(effects.relaxed));
+    else
+      at_t0 = view.growth();
+    if (!effects.grows.empty() && !effects.grows[cell.type()])
+      return at_t0;
+    return effects.law->growth({view.founder_position(),
+                                at_t0,
+                                view.elastic_deformation(),
+                                &view,
+                                &cell},
+                               t0,
+                               t1);
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::growth(const PresentCell<dim> &cell,
+                               const CycleState<dim>  &next,
+                               const double            t0,
+                               const double            t1) const
+  {
+    const Tensor<2, dim> behind = behind_law(cell.cell(), next, t1);
+    return effects.law ? law_growth(cell, t0, t1) * behind : behind;
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::relax(const PresentCell<dim>      &before,
+                              const CellView<dim, double> &after,
+                              const Tensor<2, dim>        &F_g,
+                              const double                 t0,
+                              const double                 t1) const
+  {
+    const Tensor<2, dim> D = effects.relaxation->flow(before, F_g, t0, t1);
+    if (D == Tensor<2, dim>(unit_symmetric_tensor<dim>()))
+      return F_g;
+    // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r).
+    if (effects.cycle)
+      {
+        CycleState<dim>      state = clock(after);
+        const Tensor<2, dim> K     = F_g * invert(state.growth_pre);
+        state.growth_pre           = invert(K) * D * F_g;
+        set_clock(after, state);
+      }
+    else
+      {
+        const Tensor<2, dim> K = F_g * invert(after.get(effects.relaxed));
+        after.set(effects.relaxed, invert(K) * D * F_g);
+      }
+    return D * F_g;
+  }
+
+  template class CellDevelopment<2>;
+  template class CellDevelopment<3>;
+} // namespace Morula

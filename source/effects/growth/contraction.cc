@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/time_parameters.h>
+#include <morula/effects/growth/contraction.h>
+#include <morula/effects/state/present_cell.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  ContractionParameters::ContractionParameters()
+    : stretch("Contraction/Stretch",
+              "1",
+              "Length along Direction that a cell would have if nothing held "
+              "it, as a ratio to the length without contraction, gamma; > 0. "
+              "Below 1 cells contract, above 1 they lengthen. A value that "
+              "differs from 1 from the start on acts in the first step: ramp "
+              "it, as 1 - 0.3*min(t, 1).",
+              Evaluated::step)
+    , direction("Contraction/Direction",
+                "surface normal",
+                "Along what cells contract, in the body as it was at t = 0: a "
+                "vector, an expression with the components separated by ';', "
+                "or radial (from Tissue/Center), or surface normal (of the "
+                "surface near the founder).")
+    , keep_volume("Contraction/Keep volume",
+                  true,
+                  "Whether cells widen across Direction as they contract, so "
+                  "that they keep their volume.")
+  {
+    stretch.symbol("gamma").positive("(a ratio of lengths)",
+                                     "1 is no contraction.");
+  }
+
+
+  bool
+  ContractionParameters::is_on() const
+  {
+    const Expression &gamma = stretch.expression(3);
+    return !gamma.is_constant() || gamma.plain_number() != 1.;
+  }
+
+
+  KeyList
+  ContractionParameters::list()
+  {
+    return {&stretch, &direction, &keep_volume};
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  active_strain(const Tensor<1, dim> &a,
+                const double          gamma,
+                const bool            keep_volume)
+  {
+    const double across = keep_volume ? std::pow(gamma, -1. / (dim - 1)) : 1.;
+    return across * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+           (gamma - across) * outer_product(a, a);
+  }
+
+
+  template <int dim>
+  Contraction<dim>::Contraction(const Parameters         &parameters,
+                                const EffectSetting<dim> &setting)
+    : stretch(setting.state.use(parameters.stretch))
+    , direction(parameters.direction, setting)
+    , keep_volume(parameters.keep_volume)
+  {
+    setting.columns.need_growth();
+    column = setting.columns.template add<double>(
+      {"contraction",
+       "",
+       "length along Contraction/Direction that the cell would have free of "
+       "stress, as a ratio to that without contraction",
+       1.,
+       AtDivision::copied,
+       true});
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  Contraction<dim>::strain(const PresentCell<dim>      &before,
+                           const CellView<dim, double> &after,
+                           const double                 t1) const
+  {
+    const double gamma = before.value(stretch, t1);
+    after.set(column, gamma);
+    return active_strain(direction.of(before, t1), gamma, keep_volume);
+  }
+
+
+  template <int dim>
+  void
+  Contraction<dim>::check_cell(const PresentCell<dim> &founder,
+                               const double            step) const
+  {
+    founder.value(stretch, step);
+    direction.of(founder, step);
+  }
+
+
+  template <int dim>
+  void
+  Contraction<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    // What depends on the state, only the run can tell.
+    constexpr double most_evaluations = 2e5;
+    const double     n_steps =
+      std::ceil(scene.end_time / scene.step * (1. - time_slack));
+    double largest = 0.;
+    if (!stretch.depends_on_state() && n_steps <= most_evaluations)
+      {
+        const std::size_t every = std::max<std::size_t>(
+          1, std::ceil(n_steps * scene.founders.size() / most_evaluations));
+        for (std::size_t i = 0; i < scene.founders.size(); i += every)
+          {
+            double before = 1.;
+            for (double n = 1.; n <= n_steps; ++n)
+              {
+                const double now =
+                  stretch.value(scene.founders[i],
+                                std::min(n * scene.step, scene.end_time));
+                largest = std::max(largest, std::abs(now - before));
+                before  = now;
+              }
+          }
+      }
+    largest = Utilities::MPI::max(largest, scene.comm);
+    if (largest > 0.1 + 1e-9)
+      review.warn(TimeParameters::step_path,
+                  as_text(scene.step) + " day",
+                  "in one step " + stretch.key() + " changes by up to " +
+                    as_text(largest) +
+                    "; such steps are as large as growth by a factor of 1.1 "
+                    "(doc/accuracy-and-cost.md, advice).",
+                  "Shorten the step, or ramp the stretch over several steps.");
+  }
+
+
+  template Tensor<2, 2>
+  active_strain(const Tensor<1, 2> &, const double, const bool);
+  template Tensor<2, 3>
+  active_strain(const Tensor<1, 3> &, const double, const bool);
+  template class Contraction<2>;
+  template class Contraction<3>;
+} // namespace Morula

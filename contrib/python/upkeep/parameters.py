@@ -57,7 +57,9 @@ def allowed(key):
         return cell(key.allowed)
     is_expression = re.search("xpression(?!s of cells)|functions? of",
                               key.meaning)
-    return "an expression" if is_expression else "any text"
+    # Numbers say what is allowed.
+    is_number = re.fullmatch(r"[\d.e-]+", key.default)
+    return "an expression" if is_expression or is_number else "any text"
 
 
 def page(keys):

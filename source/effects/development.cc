@@ -61,7 +61,7 @@ namespace Morula
   CellDevelopment<dim>::grows() const
   {
     return effects.law || effects.cycle || effects.contraction ||
-           effects.relaxation;
+           effects.relaxation || effects.forgets_stress;
   }
 
   template <int dim>
@@ -332,6 +332,9 @@ namespace Morula
       }
     if (effects.contraction)
       F_g = effects.contraction->strain(before, after, t1) * F_g;
+    // With the growth of t0 nothing would be left of F_e.
+    if (effects.forgets_stress && after.get(state_.type) != before.type())
+      F_g = absorb(before.elastic(), F_g, after);
     if (effects.relaxation)
       F_g = relax(before, after, F_g, t0, t1);
     after.set(columns_.growth, F_g);

@@ -82,8 +82,17 @@ namespace Morula
                               const double                 t1) const
   {
     const Tensor<2, dim> D = effects.relaxation->flow(before, F_g, t0, t1);
-    if (D == Tensor<2, dim>(unit_symmetric_tensor<dim>()))
-      return F_g;
+    return D == Tensor<2, dim>(unit_symmetric_tensor<dim>()) ?
+             F_g :
+             absorb(D, F_g, after);
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::absorb(const Tensor<2, dim>        &D,
+                               const Tensor<2, dim>        &F_g,
+                               const CellView<dim, double> &after) const
+  {
     // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r).
     if (effects.cycle)
       {

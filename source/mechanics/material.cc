@@ -58,6 +58,14 @@ namespace Morula
                         "More are more exact where tissue is held; under a "
                         "load only shorter steps are.",
                         {1, 10000})
+    , on_transition(
+        "Material/On transition",
+        "keep strain",
+        "What a cell has of its elastic strain when it changes its "
+        "type, and so perhaps its stiffness: all, so that its stress "
+        "changes, or nothing, so that it is free of stress as it "
+        "stands.",
+        {"keep strain|forget stress"})
     , materials(materials)
   {
     relaxation_time.not_negative("day", "0 is elastic tissue.");
@@ -129,7 +137,15 @@ namespace Morula
             &law,
             &relaxation_time,
             &yield_stress,
-            &relaxation_passes};
+            &relaxation_passes,
+            &on_transition};
+  }
+
+
+  bool
+  MaterialParameters::forgets_stress() const
+  {
+    return on_transition == "forget stress";
   }
 
 

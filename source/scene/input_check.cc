@@ -167,6 +167,10 @@ namespace Morula
     check_types(const Scene &scene)
     {
       const CellTypesParameters &types = scene.cell_types;
+      if (!types.present() && !scene.material.on_transition.is_default())
+        scene.material.on_transition.refuse(
+          "its default, as there are no types of cells",
+          "Set " + types.names.path() + ", or remove this key.");
       for (unsigned int i = 0; i < types.types.size(); ++i)
         {
           const CellTypeKeys &type = types.types[i];

@@ -371,12 +371,18 @@ namespace Morula
         effects.columns.need_growth();
         development.relaxation =
           std::make_unique<Relaxation<dim>>(scene.material, effects.state);
-        if (!scene.has_proliferation())
-          development.relaxed = effects.columns.template add<Tensor<2, dim>>(
-            {"relaxed",
-             "",
-             "F_r, what has relaxed of F_g",
-             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+      }
+    development.forgets_stress =
+      scene.cell_types.present() && scene.material.forgets_stress();
+    if ((development.relaxation || development.forgets_stress) &&
+        !scene.has_proliferation())
+      {
+        effects.columns.need_growth();
+        development.relaxed = effects.columns.template add<Tensor<2, dim>>(
+          {"relaxed",
+           "",
+           "F_r, what has relaxed of F_g",
+           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
       }
     for (const auto &choice : catalogue.fates)
       if (choice.keys().is_on())

@@ -65,6 +65,8 @@ namespace Morula
     std::unique_ptr<const Contraction<dim>> contraction;
     /** Or null. */
     std::unique_ptr<const Relaxation<dim>> relaxation;
+    /** Whether cells that change their type forget their stress. */
+    bool forgets_stress = false;
     /** F_law, where the contraction stands left of it. */
     Column<Tensor<2, dim>> law_growth;
     /** F_r of (8.7), where there is no cycle to keep it. */
@@ -233,6 +235,16 @@ namespace Morula
            const CycleState<dim>  &next,
            const double            t0,
            const double            t1) const;
+
+    /**
+     * D F_g, which is noted in @p after: as if D had come before all growth.
+     * @param F_g   of all effects at t1
+     * @param after has the clock of t1
+     */
+    Tensor<2, dim>
+    absorb(const Tensor<2, dim>        &D,
+           const Tensor<2, dim>        &F_g,
+           const CellView<dim, double> &after) const;
 
     /**
      * F_g after relaxation, which is noted in @p after.

@@ -38,6 +38,7 @@ namespace Morula
     ExpressionKey     relaxation_time; // day
     ExpressionKey     yield_stress;    // kPa
     Key<unsigned int> relaxation_passes;
+    Key<std::string>  on_transition;
     /** What the law can be. */
     Materials materials;
 
@@ -47,6 +48,10 @@ namespace Morula
 
     VolumetricStrain
     volumetric_form() const;
+
+    /** Whether cells forget their stress when they change their type. */
+    bool
+    forgets_stress() const;
 
     /** Whether the shear of some cells relaxes. */
     bool

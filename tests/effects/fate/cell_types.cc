@@ -217,6 +217,54 @@ TEST(CellTypes, HaveValuesOfTheirOwn)
 }
 
 
+// A cell under strain becomes stiffer: it keeps its strain, or stands free of
+// stress as it is.
+TEST(CellTypes, MayForgetTheirStress)
+{
+  for (const std::string what : {"keep strain", "forget stress"})
+    for (const std::string law : {"none", "cell cycle"})
+      {
+        const Scene              scene   = read({"Dimension=2",
+                                                 "Cell types/Names=soft, hard",
+                                                 "Proliferation/Law=" + law,
+                                                 "Proliferation/Cell cycle/G0 exit rate=0",
+                                                 "Cell types/hard/Material/Young's modulus=9",
+                                                 "Cell types/soft/Transitions/To hard=1e6",
+                                                 "Material/On transition=" + what});
+        SceneEffects<2>          effects = effects_of<2>(scene);
+        const CellDevelopment<2> development(std::move(effects.development),
+                                             effects.columns,
+                                             effects.state,
+                                             TissueMaterial(scene.material),
+                                             scene.random_seed);
+        Tissue<2>                tissue(GridParameters(),
+                         development.columns(),
+                         MPI_COMM_WORLD);
+        tissue.place(
+          founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
+          PointList<2>());
+        const Tensor<2, 2> F       = tissue.cells()[0].F();
+        const auto         of_step = development.of_step(tissue, 0., 0.1);
+        ASSERT_EQ(of_step.changes.size(), 1u);
+        EXPECT_DOUBLE_EQ(youngs_modulus(of_step.lame[0]), 9.);
+        development.commit(tissue, of_step, 0., 0.1);
+        for (const double t : {0.1, 0.2})
+          {
+            const Tensor<2, 2> F_e = tissue.cells()[0].elastic_deformation();
+            const Tensor<2, 2> expected =
+              what == "forget stress" ?
+                Tensor<2, 2>(unit_symmetric_tensor<2>()) :
+                F;
+            EXPECT_NEAR((F_e - expected).norm(), 0., 1e-14) << what << law;
+            development.commit(tissue,
+                               development.of_step(tissue, t, t + 0.1),
+                               t,
+                               t + 0.1);
+          }
+      }
+}
+
+
 TEST(CellTypes, RefuseWhatCannotBe)
 {
   EXPECT_EQ(complaint({}), "accepted");

@@ -5,6 +5,7 @@
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/isotropic.h>
+#include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
@@ -31,6 +32,7 @@ namespace Morula
   Catalogue::Catalogue()
   {
     add<IsotropicGrowth>(growth_laws, "isotropic");
+    add<RateGrowth>(growth_laws, "rate");
     add<FixedAxis>(division_rules, "fixed");
     add<StretchAxis>(division_rules, "stretch");
     add<StressAxis>(division_rules, "stress");

@@ -328,6 +328,7 @@ namespace Morula
         const Tensor<2, dim> of_law = law_growth(before, t0, t1);
         if (effects.law_growth.exists())
           after.set(effects.law_growth, of_law);
+        effects.law->remember(growing(before, t0), t0, t1, after);
         F_g = of_law * F_g;
       }
     if (effects.contraction)

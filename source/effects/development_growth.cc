@@ -36,10 +36,9 @@ namespace Morula
   }
 
   template <int dim>
-  Tensor<2, dim>
-  CellDevelopment<dim>::law_growth(const PresentCell<dim> &cell,
-                                   const double            t0,
-                                   const double            t1) const
+  GrowingCell<dim>
+  CellDevelopment<dim>::growing(const PresentCell<dim> &cell,
+                                const double            t0) const
   {
     const CellView<dim, const double> &view = cell.cell();
     Tensor<2, dim>                     at_t0;
@@ -51,15 +50,20 @@ namespace Morula
       at_t0 = view.growth() * invert(view.get(effects.relaxed));
     else
       at_t0 = view.growth();
+    return {
+      view.founder_position(), at_t0, view.elastic_deformation(), &view, &cell};
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  CellDevelopment<dim>::law_growth(const PresentCell<dim> &cell,
+                                   const double            t0,
+                                   const double            t1) const
+  {
+    const GrowingCell<dim> at_t0 = growing(cell, t0);
     if (!effects.grows.empty() && !effects.grows[cell.type()])
-      return at_t0;
-    return effects.law->growth({view.founder_position(),
-                                at_t0,
-                                view.elastic_deformation(),
-                                &view,
-                                &cell},
-                               t0,
-                               t1);
+      return at_t0.growth;
+    return effects.law->growth(at_t0, t0, t1);
   }
 
   template <int dim>

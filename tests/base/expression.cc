@@ -217,3 +217,18 @@ TEST(Expression, CopiesShareTheParser)
   EXPECT_EQ(copies[2].text(), "2*X");
   EXPECT_EQ(copies[2].key(), key);
 }
+
+
+TEST(Expression, HasANormalDistributionOfTheNoise)
+{
+  const Expression e(key, "normal(3, 2)", 1, 1, {{Variable::noise}});
+  EXPECT_EQ(e.used(), std::vector<Variable>{Variable::noise});
+  VariableValues values{};
+  for (const auto &[noise, value] : {std::pair(0.5, 3.),
+                                     std::pair(0.8413447460685429, 5.),
+                                     std::pair(0.15865525393145707, 1.)})
+    {
+      values[static_cast<unsigned int>(Variable::noise)] = noise;
+      EXPECT_NEAR(e.value(values), value, 1e-12);
+    }
+}

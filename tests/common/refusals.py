@@ -195,6 +195,29 @@ IN_2D = [
     without_z("Body force/Force density", "0; -Z; 0"),
 ]
 
+RATE = {"Growth/Law": "rate"}
+GROWTH_BY_RATES = [
+    wrong("a share without direction", "Growth/Rate/Share along", "0",
+          "1/3 or empty without Growth/Rate/Direction",
+          "Say along which Direction", keys=RATE),
+    wrong("a share above 1", "Growth/Rate/Share along", "1.5",
+          "a share from 0 to 1", "It is 1.5",
+          keys={**RATE, "Growth/Rate/Direction": "0; 0; 1"}),
+    wrong("a direction of no length", "Growth/Rate/Direction", "0; 0; 0",
+          "a vector that is not zero", "Choose a direction that all cells have",
+          keys={**RATE, "Growth/Rate/Share along": "0"}),
+    wrong("another word for a direction", "Growth/Rate/Direction", "outwards",
+          "an expression that muParser understands", "outwards",
+          keys={**RATE, "Growth/Rate/Share along": "0"}),
+    wrong("cells that vanish in a step", "Growth/Rate/Rate", "-500",
+          "a rate that leaves cells between 1e-6 and 1e300 of their volume",
+          "Let the rate end", keys=RATE),
+    wrong("a rate without value", "Growth/Rate/Rate", "log(J_e - 1)",
+          "a finite value", "t = ", keys=RATE),
+    wrong("homeostasis that flees its stress", "Growth/Rate/Homeostasis", "-1",
+          "a value >= 0 1/(day kPa)", "0 is no growth by stress", keys=RATE),
+]
+
 CONTRADICTIONS = [
     wrong("a cell cycle of nobody", CYCLE + "Where", "Z > 400",
           "a condition that holds at some founder",
@@ -439,8 +462,8 @@ OUTLIERS = [
            "Name the columns"),
 ]
 
-KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + CONTRADICTIONS + FILES + \
-    OUTLIERS
+KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + GROWTH_BY_RATES + \
+    CONTRADICTIONS + FILES + OUTLIERS
 
 # Scenes of their own: (name, text or None, words that must be in the message).
 SCENES = [

@@ -258,6 +258,10 @@ namespace Morula
           const double                 t0,
           const double                 t1) const;
 
+    /** What the law sees of a cell in its state at t0. */
+    GrowingCell<dim>
+    growing(const PresentCell<dim> &cell, const double t0) const;
+
     /** F_g without the cycle's part, at the time @p t of the state. */
     Tensor<2, dim>
     growth_left_of_cycle(const CellView<dim, const double> &cell,

@@ -65,6 +65,15 @@ namespace Morula
 
   template <int dim>
   void
+  GrowthLaw<dim>::remember(const GrowingCell<dim> &,
+                           const double,
+                           const double,
+                           const CellView<dim, double> &) const
+  {}
+
+
+  template <int dim>
+  void
   GrowthLaw<dim>::check(const Preview<dim> &scene) const
   {
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());

@@ -109,6 +109,8 @@ namespace Morula
   CellDirectionKey::check(const unsigned int dim) const
   {
     ExpressionKey::check(dim);
+    if (empty())
+      return;
     const Expression &of_all       = expression(dim);
     const auto        check_vector = [&](const Expression &vector) {
       if (!vector.used().empty())

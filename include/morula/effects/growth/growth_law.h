@@ -61,6 +61,17 @@ namespace Morula
     virtual double
     expected_volume_ratio(const Point<dim> &X, const double t) const = 0;
 
+    /**
+     * Writes what the law keeps in columns of its own, at the end of the step
+     * that growth() spoke of.
+     * @param after the cell at @p t1
+     */
+    virtual void
+    remember(const GrowingCell<dim>      &cell,
+             const double                 t0,
+             const double                 t1,
+             const CellView<dim, double> &after) const;
+
     /** Asks for what the first step and the last will ask. */
     void
     check(const Preview<dim> &scene) const override;

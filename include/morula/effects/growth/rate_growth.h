@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_growth_rate_growth_h
+#define morula_effects_growth_rate_growth_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/growth/growth_law.h>
+#include <morula/effects/growth/growth_rates.h>
+#include <morula/effects/state/direction.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /** Section "Growth/Rate". */
+  struct RateGrowthParameters : public EffectKeys
+  {
+    RateGrowthParameters();
+
+    ExpressionKey    rate;        // of the volume, 1/day
+    ExpressionKey    share_along; // of the rate; empty: isotropic
+    CellDirectionKey direction;
+    Key<bool>        predictor;
+    ExpressionKey    homeostasis;        // 1/(day kPa)
+    ExpressionKey    homeostatic_stress; // kPa
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /**
+   * Growth at rates that follow the state of each cell: F_law(t1) = exp(Δt L)
+   * F_law(t0) with a rate of the volume, along and across a direction, and one
+   * towards a homeostatic stress: doc/theory.md, section 10.
+   */
+  template <int dim>
+  class RateGrowth : public GrowthLaw<dim>
+  {
+  public:
+    using Parameters = RateGrowthParameters;
+
+    /** @throws InputError for expressions that cannot be parsed, or for a share
+     *          without direction */
+    RateGrowth(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    Tensor<2, dim>
+    growth(const GrowingCell<dim> &cell,
+           const double            t0,
+           const double            t1) const override;
+
+    /** 1 where the rate depends on the state of cells: nobody knows it yet. */
+    double
+    expected_volume_ratio(const Point<dim> &X, const double t) const override;
+
+    void
+    remember(const GrowingCell<dim>      &cell,
+             const double                 t0,
+             const double                 t1,
+             const CellView<dim, double> &after) const override;
+
+    void
+    check(const Preview<dim> &scene) const override;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
+  private:
+    /** The rates of a cell at the beginning of a step. */
+    struct Rates
+    {
+      /** k of the volume, and what homeostasis adds to it, tr H. */
+      GrowthFeedback of_rate, of_homeostasis;
+      /** The deviator of H, 1/day. */
+      SymmetricTensor<2, dim> shape;
+
+      /** Both. */
+      GrowthFeedback
+      all() const;
+    };
+
+    /** What the predictor keeps of the past. */
+    struct Memory
+    {
+      /** ln (J_e det F_law), at time @p time (day). */
+      Column<double> place, time;
+      /** What the first step withheld; 0 after the second. */
+      Column<double> withheld;
+    };
+
+    /** Whether L needs no more than X and t. */
+    bool
+    is_known_before() const;
+
+    Rates
+    rates(const PresentCell<dim> &cell, const double t0, const double t1) const;
+
+    /** k_∥ a⊗a + k_⊥ (I − a⊗a) for the rate @p k of the volume. */
+    SymmetricTensor<2, dim>
+    directed(const double            k,
+             const PresentCell<dim> *cell,
+             const double            t) const;
+
+    /** What the first step leaves to be made good, and how fast the cell's
+     *  place widens. */
+    FirstStep
+    seen(const GrowingCell<dim> &cell, const double t0) const;
+
+    /** L of doc/theory.md (10.1). */
+    SymmetricTensor<2, dim>
+    rate_of_growth(const GrowingCell<dim> &cell,
+                   const double            t0,
+                   const double            t1) const;
+
+    Expression                          rate;
+    std::optional<Expression>           share;
+    std::optional<DirectionOfCell<dim>> direction;
+    std::optional<Expression>           homeostasis, homeostatic_stress;
+    bool                                predictor;
+    bool                                follows_stress;
+    double                              slack;
+    std::optional<Memory>               memory;
+  };
+} // namespace Morula
+
+#endif

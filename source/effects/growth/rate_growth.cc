@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/state/present_cell.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** By which det F_g is larger where the predictor asks how the rate answers
+     *  to growth. */
+    constexpr double probe = 1e-4;
+
+    /** det F_law of a cell of which nothing is left. */
+    constexpr double least_volume_ratio = 1e-6;
+
+    /** Whether the expression's value changes if a cell grows in its place. */
+    bool
+    follows_elastic_state(const Expression &expression)
+    {
+      constexpr std::array<Variable, 5> of_stress = {{Variable::J_e,
+                                                      Variable::pressure,
+                                                      Variable::tension,
+                                                      Variable::shear,
+                                                      Variable::energy}};
+      return std::any_of(of_stress.begin(),
+                         of_stress.end(),
+                         [&expression](const Variable variable) {
+                           return expression.uses(variable);
+                         });
+    }
+
+    std::string
+    place_and_time_of(const std::string &what,
+                      const double       value,
+                      const std::string &X,
+                      const double       t)
+    {
+      std::ostringstream place;
+      place << what << " is " << value << " at the cell from (" << X
+            << ") um, t = " << t << " day. ";
+      return place.str();
+    }
+
+    template <int dim>
+    std::string
+    text_of(const Point<dim> &X)
+    {
+      std::ostringstream text;
+      text << X;
+      return text.str();
+    }
+
+    /** The components of σ in the space of the tissue. */
+    template <int dim>
+    SymmetricTensor<2, dim>
+    in_tissue(const SymmetricTensor<2, 3> &stress)
+    {
+      SymmetricTensor<2, dim> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          result[i][j] = stress[i][j];
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  RateGrowth<dim>::RateGrowth(const RateGrowthParameters &parameters,
+                              const EffectSetting<dim>   &setting)
+    : rate(setting.state.use(parameters.rate))
+    , predictor(parameters.predictor)
+    , slack(setting.slack)
+  {
+    if (!parameters.direction.empty())
+      direction.emplace(parameters.direction, setting);
+    if (!parameters.share_along.empty())
+      share = setting.state.use(parameters.share_along);
+    if (share && !direction &&
+        (!share->used().empty() ||
+         std::abs(share->value(Point<dim>(), 0.) * dim - 1.) > 1e-6))
+      throw InputError(share->key(),
+                       share->text(),
+                       dim == 2 ? "1/2 or empty without Growth/Rate/Direction" :
+                                  "1/3 or empty without Growth/Rate/Direction",
+                       "Say along which Direction, or leave both empty for "
+                       "isotropic growth.");
+    homeostasis = setting.state.use(parameters.homeostasis);
+    if (homeostasis->is_constant() && *homeostasis->plain_number() == 0.)
+      homeostasis.reset();
+    else
+      homeostatic_stress = setting.state.use(parameters.homeostatic_stress);
+    follows_stress = follows_elastic_state(rate);
+    if (predictor && (follows_stress || homeostasis))
+      memory =
+        Memory{setting.columns.template add<double>(
+                 {"rate_place",
+                  "",
+                  "ln (J_e det F_law) at the beginning of the step before",
+                  0.}),
+               setting.columns.template add<double>(
+                 {"rate_place_time", "day", "time of rate_place", 0.}),
+               setting.columns.template add<double>(
+                 {"rate_withheld",
+                  "",
+                  "ln det F_law that the first step withheld",
+                  0.})};
+  }
+
+
+  template <int dim>
+  bool
+  RateGrowth<dim>::is_known_before() const
+  {
+    return !rate.depends_on_state() && !homeostasis &&
+           (!share || !share->depends_on_state());
+  }
+
+
+  template <int dim>
+  GrowthFeedback
+  RateGrowth<dim>::Rates::all() const
+  {
+    return {of_rate.rate + of_homeostasis.rate,
+            of_rate.damping + of_homeostasis.damping};
+  }
+
+
+  template <int dim>
+  typename RateGrowth<dim>::Rates
+  RateGrowth<dim>::rates(const PresentCell<dim> &cell,
+                         const double            t0,
+                         const double            t1) const
+  {
+    const double t = (t0 + t1) / 2., dt = t1 - t0;
+    Rates        rates;
+    rates.of_rate.rate = cell.value(rate, t);
+    if (predictor && follows_stress)
+      { // doc/theory.md (10.4)
+        const double grown = cell.value_if_grown(rate, t, 1. + probe);
+        rates.of_rate.damping =
+          std::max(0., dt * (rates.of_rate.rate - grown) / std::log1p(probe));
+      }
+    if (homeostasis)
+      { // doc/theory.md (10.3)
+        const double         kappa  = cell.value(*homeostasis, t);
+        const double         target = cell.value(*homeostatic_stress, t);
+        const Tensor<2, dim> R =
+          project_onto_orthogonal_tensors(cell.elastic());
+        const Tensor<2, dim> sigma(in_tissue<dim>(cell.quantities().stress));
+        const auto           H = kappa * (symmetrize(transpose(R) * sigma * R) -
+                                target * unit_symmetric_tensor<dim>());
+        rates.of_homeostasis.rate = trace(H);
+        rates.shape               = deviator(H);
+        if (predictor)
+          {
+            const Lame lame = cell.lame();
+            rates.of_homeostasis.damping =
+              dt * kappa * (2. * lame.mu + dim * lame.lambda);
+            rates.shape /= 1. + 2. * dt * kappa * lame.mu;
+          }
+      }
+    return rates;
+  }
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  RateGrowth<dim>::directed(const double            k,
+                            const PresentCell<dim> *cell,
+                            const double            t) const
+  {
+    if (!share || !direction)
+      return k / dim * unit_symmetric_tensor<dim>();
+    if (cell == nullptr) // any direction does for the size of a step
+      {
+        Tensor<1, dim> x;
+        x[0]           = 1.;
+        const double s = share->value(Point<dim>(), t);
+        return rate_along_and_across(x, s * k, (1. - s) * k / (dim - 1));
+      }
+    const double s = cell->value(*share, t);
+    if (!(s >= 0. && s <= 1.))
+      throw InputError(share->key(),
+                       share->text(),
+                       "a share from 0 to 1",
+                       place_and_time_of(
+                         "It", s, text_of(cell->cell().founder_position()), t) +
+                         "The rest of the rate is growth across Direction.");
+    return rate_along_and_across(direction->of(*cell, t),
+                                 s * k,
+                                 (1. - s) * k / (dim - 1));
+  }
+
+
+  template <int dim>
+  FirstStep
+  RateGrowth<dim>::seen(const GrowingCell<dim> &cell, const double t0) const
+  {
+    const double dt = t0 - cell.cell->get(memory->time);
+    if (dt <= slack) // the first step: as if held
+      return {};
+    const double withheld = cell.cell->get(memory->withheld);
+    const double grown    = std::log(determinant(cell.growth));
+    const double J_e      = cell.cell->elastic_volume_ratio();
+    if (withheld != 0.)
+      return after_first_step(grown, withheld, -std::log(J_e), dt);
+    return {0., (std::log(J_e) + grown - cell.cell->get(memory->place)) / dt};
+  }
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  RateGrowth<dim>::rate_of_growth(const GrowingCell<dim> &cell,
+                                  const double            t0,
+                                  const double            t1) const
+  {
+    const double t = (t0 + t1) / 2.;
+    if (cell.present == nullptr)
+      return directed(rate.value(cell.founder_position, t), nullptr, t);
+    const Rates          now = rates(*cell.present, t0, t1);
+    const GrowthFeedback all = now.all();
+    double               k = now.of_rate.rate, h = now.of_homeostasis.rate;
+    if (memory)
+      {
+        const FirstStep past = seen(cell, t0);
+        // Made good by each part as it contributes.
+        const double sum  = std::abs(k) + std::abs(h);
+        const double of_k = sum > 0. ? std::abs(k) / sum : 0.;
+        const double due  = past.due / (t1 - t0);
+        k = predicted_rate(now.of_rate, all, past.widening) + of_k * due;
+        h = predicted_rate(now.of_homeostasis, all, past.widening) +
+            (sum > 0. ? 1. - of_k : 0.) * due;
+      }
+    return directed(k, cell.present, t) + now.shape +
+           h / dim * unit_symmetric_tensor<dim>();
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
+                          const double            t0,
+                          const double            t1) const
+  {
+    if (t1 <= t0)
+      return cell.growth;
+    const Tensor<2, dim> F =
+      grown(cell.growth, rate_of_growth(cell, t0, t1), t1 - t0);
+    const double ratio = determinant(F);
+    if (!(ratio >= least_volume_ratio && std::isfinite(ratio)))
+      throw InputError(
+        rate.key(),
+        rate.text(),
+        "a rate that leaves cells between 1e-6 and 1e300 of their volume",
+        place_and_time_of(
+          "det F_g of this law", ratio, text_of(cell.founder_position), t1) +
+          "Let the rate end, e.g. by a factor of (growth > 0.1) for cells that "
+          "wither.");
+    return F;
+  }
+
+
+  template <int dim>
+  void
+  RateGrowth<dim>::remember(const GrowingCell<dim>      &cell,
+                            const double                 t0,
+                            const double                 t1,
+                            const CellView<dim, double> &after) const
+  {
+    if (!memory)
+      return;
+    if (t0 <= slack)
+      {
+        const GrowthFeedback all = rates(*cell.present, t0, t1).all();
+        after.set(memory->withheld,
+                  (t1 - t0) * (all.rate - predicted_rate(all, all, 0.)));
+      }
+    else if (cell.cell->get(memory->withheld) != 0.)
+      // The second step made it good: the place is measured from t = 0 once
+      // more.
+      after.set(memory->withheld, 0.);
+    else
+      {
+        after.set(memory->place,
+                  std::log(cell.cell->elastic_volume_ratio() *
+                           determinant(cell.growth)));
+        after.set(memory->time, t0);
+      }
+  }
+
+
+  template <int dim>
+  double
+  RateGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
+                                         const double      t) const
+  {
+    if (!is_known_before())
+      return 1.;
+    constexpr unsigned int n_steps = 64; // midpoint rule
+    double                 growth  = 0.;
+    const unsigned int     n       = rate.depends_on_time() ? n_steps : 1;
+    for (unsigned int i = 0; i < n; ++i)
+      growth += rate.value(X, (i + 0.5) * t / n) * t / n;
+    return std::exp(growth);
+  }
+
+
+  template <int dim>
+  void
+  RateGrowth<dim>::check(const Preview<dim> &scene) const
+  {
+    if (is_known_before())
+      GrowthLaw<dim>::check(scene);
+  }
+
+
+  template <int dim>
+  void
+  RateGrowth<dim>::check_cell(const PresentCell<dim> &founder,
+                              const double            step) const
+  {
+    const auto &view = founder.cell();
+    growth({view.founder_position(),
+            Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+            founder.elastic(),
+            &view,
+            &founder},
+           0.,
+           step);
+  }
+
+
+  template <int dim>
+  void
+  RateGrowth<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    if (is_known_before())
+      GrowthLaw<dim>::review(scene, review);
+  }
+
+
+  template class RateGrowth<2>;
+  template class RateGrowth<3>;
+} // namespace Morula

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/growth/growth_rates.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/body_on_grid.h"
+
+using namespace Morula;
+
+namespace
+{
+  /** Neither along an axis nor of special components. */
+  template <int dim>
+  Tensor<1, dim>
+  some_direction()
+  {
+    Tensor<1, dim> a;
+    for (unsigned int i = 0; i < dim; ++i)
+      a[i] = 0.3 + 0.7 * i;
+    return a / a.norm();
+  }
+
+  /** e^{k_par dt} a⊗a + e^{k_perp dt} (I − a⊗a). */
+  template <int dim>
+  void
+  check_closed_form()
+  {
+    const auto           a  = some_direction<dim>();
+    const Tensor<2, dim> aa = outer_product(a, a);
+    const Tensor<2, dim> I  = unit_tensor<dim>();
+    Tensor<2, dim>       before(I);
+    before[0][1] = 0.2;
+    before[1][1] = 1.3;
+    for (const auto &[along, across] : {std::pair<double, double>{0.7, 0.},
+                                        {0., 0.4},
+                                        {-0.3, 0.9},
+                                        {0.25, 0.25}})
+      {
+        const auto L   = rate_along_and_across(a, along, across);
+        const auto now = grown(before, L, 0.5);
+        const auto exact =
+          (std::exp(0.5 * along) * aa + std::exp(0.5 * across) * (I - aa)) *
+          before;
+        EXPECT_LE((now - exact).norm(), 4e-15);
+        EXPECT_NEAR(std::log(determinant(now) / determinant(before)),
+                    0.5 * (along + (dim - 1) * across),
+                    1e-14);
+        // Two halves are one step, and back again is nothing.
+        EXPECT_LE((grown(grown(before, L, 0.2), L, 0.3) - now).norm(), 1e-14);
+        EXPECT_LE((grown(now, L, -0.5) - before).norm(), 1e-14);
+      }
+  }
+
+  /** How many times an excess of the growth over its limit grows in 200 steps,
+   *  where the tissue gives way by a part of what a cell grows. */
+  double
+  amplification(const double c, const double relief, const bool predicts)
+  {
+    double g = 1., f = relief, before = 0.;
+    for (unsigned int n = 0; n < 200; ++n)
+      {
+        const GrowthFeedback feedback{-c * (g - f), c};
+        const double         increment =
+          // The bare formula, as the signs of both rates alternate here.
+          predicts ? (feedback.rate + c * (f - before)) / (1. + c) :
+                     feedback.rate;
+        before = f;
+        g += increment;
+        f = relief * g;
+        if (std::abs(g) > 1e100)
+          break;
+      }
+    return std::abs(g);
+  }
+} // namespace
+
+
+TEST(GrowthRates,
+     GrowAsTheClosedForm){MORULA_BOTH_DIMENSIONS(check_closed_form)}
+
+
+TEST(GrowthRates, PredictBetweenFreeAndHeld)
+{
+  const GrowthFeedback k{0.5, 3.};
+  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.), 0.125); // k / (1 + c)
+  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.25), 0.3125);
+  // A place that narrows does not turn growth into shrinkage.
+  EXPECT_DOUBLE_EQ(predicted_rate(k, k, -4.), 0.125);
+  const GrowthFeedback shrinks{-0.5, 3.};
+  EXPECT_DOUBLE_EQ(predicted_rate(shrinks, shrinks, -0.5), -0.5);
+  EXPECT_DOUBLE_EQ(predicted_rate(shrinks, shrinks, 0.5), -0.125);
+  const GrowthFeedback indifferent{0.5, 0.};
+  EXPECT_EQ(predicted_rate(indifferent, indifferent, 0.1), 0.5);
+}
+
+
+TEST(GrowthRates, PredictPartsThatAddUp)
+{
+  const GrowthFeedback k{0.5, 1.}, h{0.1, 2.}, all{0.6, 3.};
+  EXPECT_DOUBLE_EQ(predicted_rate(k, all, 0.2) + predicted_rate(h, all, 0.2),
+                   predicted_rate(all, all, 0.2));
+}
+
+
+TEST(GrowthRates, PredictorRemovesTheLimitOfTheStep)
+{
+  // Held tissue: with c > 2 the excess of the explicit rate explodes.
+  EXPECT_LT(amplification(1.9, 0., false), 1e-6);
+  EXPECT_GT(amplification(2.1, 0., false), 1e6);
+  for (const double c : {0.1, 2.1, 40., 4000.})
+    for (const double relief : {0., 0.3, 0.6, 0.9})
+      EXPECT_LT(amplification(c, relief, true), c < 1. ? 0.5 : 0.01)
+        << c << " " << relief;
+  // The two roots of large c have the square modulus alpha: in 200 steps
+  // alpha^100, up to their phase.
+  EXPECT_LT(amplification(1e6, 0.9, true), 10. * std::pow(0.9, 100));
+  EXPECT_LT(amplification(1e6, 0.6, true), 10. * std::pow(0.6, 100));
+}
+
+
+TEST(GrowthRates, FirstStepIsMadeGoodWhereTheTissueGaveWay)
+{
+  // k dt = 0.1 and c = 4: 0.02 has grown.
+  const FirstStep free = after_first_step(0.02, 0.08, 0., 0.2);
+  EXPECT_NEAR(free.due, 0.08, 1e-15);
+  EXPECT_NEAR(free.widening, 0.5, 1e-15);
+  const FirstStep held = after_first_step(0.02, 0.08, 0.02, 0.2);
+  EXPECT_NEAR(held.due, 0., 1e-15);
+  EXPECT_NEAR(held.widening, 0., 1e-15);
+  // Half of it: k dt / (1 + c/2) were right.
+  const FirstStep half = after_first_step(0.02, 0.08, 0.01, 0.2);
+  EXPECT_NEAR(0.02 + half.due, 0.1 / 3., 1e-15);
+  EXPECT_NEAR(half.widening * 0.2, 0.05 / 3., 1e-15);
+  // Nothing grew, or it was pulled.
+  EXPECT_EQ(after_first_step(0., 0., 0.1, 0.2).due, 0.);
+  EXPECT_NEAR(after_first_step(0.02, 0.08, -0.5, 0.2).due, 0.08, 1e-15);
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/growth/rate_growth.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "common/body_on_grid.h"
+#include "effects/lone_cell.h"
+
+using namespace Morula;
+
+namespace
+{
+  RateGrowthParameters
+  keys(const std::string &rate,
+       const std::string &share     = "",
+       const std::string &direction = "")
+  {
+    RateGrowthParameters parameters;
+    parameters.rate        = rate;
+    parameters.share_along = share;
+    parameters.direction   = direction;
+    return parameters;
+  }
+
+  /** One cell that grows, with F as the tests set it. */
+  template <int dim>
+  struct Growing : public LoneCell<dim>
+  {
+    explicit Growing(const RateGrowthParameters &parameters)
+      : law(std::make_unique<RateGrowth<dim>>(parameters, this->setting()))
+    {
+      Point<dim> X;
+      X[0] = 3.;
+      this->place(X);
+    }
+
+    /** A step in which F becomes what @p moves makes of it and F_g. */
+    template <typename Moves>
+    void
+    step(const double t0, const double t1, const Moves &moves)
+    {
+      const auto                        cell = this->cell();
+      const CellView<dim, const double> view(cell);
+      const auto                        present = this->present();
+      const GrowingCell<dim>            growing{cell.founder_position(),
+                                     cell.growth(),
+                                     cell.elastic_deformation(),
+                                     &view,
+                                     &present};
+      const Tensor<2, dim>              F_g = law->growth(growing, t0, t1);
+      std::vector<double>               row = this->row;
+      const CellView<dim, double> after(make_array_view(row), this->columns);
+      law->remember(growing, t0, t1, after);
+      after.set(this->columns.growth, F_g);
+      after.set(this->columns.deformation, moves(cell.F(), F_g));
+      this->row = row;
+    }
+
+    double
+    log_growth()
+    {
+      return std::log(determinant(this->cell().growth()));
+    }
+
+    std::unique_ptr<RateGrowth<dim>> law;
+  };
+
+  template <int dim>
+  Tensor<2, dim>
+  held(const Tensor<2, dim> &F, const Tensor<2, dim> &)
+  {
+    return F;
+  }
+
+  template <int dim>
+  Tensor<2, dim>
+  free(const Tensor<2, dim> &, const Tensor<2, dim> &F_g)
+  {
+    return F_g;
+  }
+
+  template <int dim>
+  void
+  check_shares()
+  {
+    Tensor<1, dim> y;
+    y[1]                    = 1.;
+    const Tensor<2, dim> I  = unit_tensor<dim>();
+    const Tensor<2, dim> yy = outer_product(y, y);
+    for (const double s : {0., 0.25, 1.})
+      {
+        Growing<dim> cell(keys("0.3 + 0.1*t", std::to_string(s), "0; 2; 0"));
+        // No column of its own: the rate follows no stress.
+        EXPECT_FALSE(cell.columns.template find<double>("rate_place").exists());
+        cell.step(0., 0.5, free<dim>);
+        cell.step(0.5, 1., free<dim>);
+        const double         k = 0.35; // the mean over the day
+        const Tensor<2, dim> exact =
+          std::exp(s * k) * yy + std::exp((1. - s) * k / (dim - 1)) * (I - yy);
+        EXPECT_LE((cell.cell().growth() - exact).norm(), 1e-14) << s;
+      }
+    Growing<dim> isotropic(keys("-0.3"));
+    isotropic.step(0., 1., free<dim>);
+    EXPECT_LE((isotropic.cell().growth() - std::exp(-0.3 / dim) * I).norm(),
+              1e-14);
+  }
+
+  /** k = k0 (1 + h ln J_e): linear, so that each step can be told by hand. */
+  template <int dim>
+  void
+  check_predictor()
+  {
+    const std::string feedback = "0.5*(1 + 8*ln(J_e))";
+    const double      dt = 0.5, c = dt * 0.5 * 8.;
+    // Held: k / (1 + c) each time, g -> (g + k0 dt)/(1 + c).
+    Growing<dim> in_box(keys(feedback));
+    double       g = 0.;
+    for (unsigned int n = 0; n < 4; ++n)
+      {
+        in_box.step(n * dt, (n + 1) * dt, held<dim>);
+        g += dt * 0.5 * (1. - 8. * g) / (1. + c);
+        EXPECT_NEAR(in_box.log_growth(), g, 1e-4);
+      }
+    // Free: exact from the second step on.
+    Growing<dim> outside(keys(feedback));
+    outside.step(0., dt, free<dim>);
+    EXPECT_NEAR(outside.log_growth(), 0.5 * dt / (1. + c), 1e-4);
+    for (unsigned int n = 1; n < 5; ++n)
+      {
+        outside.step(n * dt, (n + 1) * dt, free<dim>);
+        EXPECT_NEAR(outside.log_growth(), 0.5 * (n + 1) * dt, 1e-4);
+      }
+    // Explicit steps swing, as c > 2 at twice the length.
+    RateGrowthParameters parameters = keys(feedback);
+    parameters.predictor            = false;
+    Growing<dim> swings(parameters);
+    EXPECT_FALSE(swings.columns.template find<double>("rate_place").exists());
+    for (unsigned int n = 0; n < 6; ++n)
+      swings.step(n, n + 1., held<dim>);
+    EXPECT_GT(std::abs(swings.log_growth() - 0.125), 10.);
+  }
+
+  /** A pull along x, in a frame turned by 30 degrees: growth along the pull in
+   *  the frame of the cell. */
+  template <int dim>
+  void
+  check_homeostasis()
+  {
+    RateGrowthParameters parameters = keys("0");
+    parameters.homeostasis          = "0.01";
+    parameters.predictor            = false;
+    Growing<dim>   cell(parameters);
+    Tensor<2, dim> U = unit_tensor<dim>(), R = unit_tensor<dim>();
+    U[0][0] = 1.2;
+    R[0][0] = R[1][1] = std::cos(0.5);
+    R[1][0]           = std::sin(0.5);
+    R[0][1]           = -R[1][0];
+    cell.cell().set(cell.columns.deformation, R * U);
+    const auto sigma = cell.present().quantities().stress;
+    EXPECT_GT(std::abs(sigma[0][1]), 0.05); // turned
+    cell.step(0., 1., held<dim>);
+    const Lame   lame = cell.present().lame();
+    const double J    = 1.2;
+    const auto   F_g  = cell.cell().growth();
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          const double tau = lame.mu * (i == 0 ? 1.2 * 1.2 - 1. : 0.) +
+                             lame.lambda * std::log(J);
+          EXPECT_NEAR(F_g[i][j], i == j ? std::exp(0.01 * tau / J) : 0., 1e-12);
+        }
+  }
+
+  template <typename Do>
+  std::string
+  refusal(const Do &what)
+  {
+    try
+      {
+        what();
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  void
+  expect_parts(const std::string              &message,
+               const std::vector<std::string> &parts)
+  {
+    for (const std::string &part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+} // namespace
+
+
+TEST(RateGrowth, GrowsAlongAndAcross){MORULA_BOTH_DIMENSIONS(check_shares)}
+
+
+TEST(RateGrowth,
+     PredictsWhatStressWillSay){MORULA_BOTH_DIMENSIONS(check_predictor)}
+
+
+TEST(RateGrowth,
+     SeeksAStressInTheFrameOfTheCell){MORULA_BOTH_DIMENSIONS(check_homeostasis)}
+
+
+TEST(RateGrowth, ExpectsVolumesThatItKnows)
+{
+  LoneCell<2>         scene;
+  const RateGrowth<2> known(keys("0.2*X*t"), scene.setting());
+  EXPECT_NEAR(known.expected_volume_ratio(Point<2>(3., 0.), 2.),
+              std::exp(0.6 * 2.),
+              1e-12);
+  const RateGrowth<2> unknown(keys("0.2*J_e"), scene.setting());
+  EXPECT_EQ(unknown.expected_volume_ratio(Point<2>(3., 0.), 2.), 1.);
+}
+
+
+TEST(RateGrowth, RefusesAShareWithoutDirection)
+{
+  EXPECT_NO_THROW(Growing<3>(keys("1", "1/3")));
+  EXPECT_NO_THROW(Growing<2>(keys("1", "1/2")));
+  expect_parts(refusal([] { Growing<2>(keys("1", "1/3")); }),
+               {"Growth/Rate/Share along", "1/2", "Growth/Rate/Direction"});
+  expect_parts(refusal([] { Growing<3>(keys("1", "0.2*t")); }),
+               {"Growth/Rate/Share along", "1/3", "Growth/Rate/Direction"});
+}
+
+
+TEST(RateGrowth, RefusesSharesAndVolumesOutOfRange)
+{
+  expect_parts(refusal([] {
+                 Growing<3>(keys("1", "2*t", "1; 0; 0")).step(0., 3., free<3>);
+               }),
+               {"Growth/Rate/Share along", "from 0 to 1", "It is 3"});
+  expect_parts(refusal([] { Growing<3>(keys("-20")).step(0., 1., free<3>); }),
+               {"Growth/Rate/Rate", "1e-6", "growth > 0.1"});
+  expect_parts(refusal([] { Growing<3>(keys("2000")).step(0., 1., free<3>); }),
+               {"Growth/Rate/Rate", "1e300"});
+  expect_parts(refusal(
+                 [] { Growing<3>(keys("1/(X-3)")).step(0., 1., free<3>); }),
+               {"Growth/Rate/Rate", "finite"});
+}

@@ -207,7 +207,7 @@ GROWTH_BY_RATES = [
           "a vector that is not zero", "Choose a direction that all cells have",
           keys={**RATE, "Growth/Rate/Share along": "0"}),
     wrong("another word for a direction", "Growth/Rate/Direction", "outwards",
-          "an expression that muParser understands", "outwards",
+          "3 expressions separated by ';'", "There are 1.",
           keys={**RATE, "Growth/Rate/Share along": "0"}),
     wrong("cells that vanish in a step", "Growth/Rate/Rate", "-500",
           "a rate that leaves cells between 1e-6 and 1e300 of their volume",

@@ -124,7 +124,8 @@ CHOICES = [
             "a section that exists", "Did you mean 'Grid/Spacing'?"),
     Refusal("a key in the wrong section", {"Growth/Stretch": "2"},
             "Growth/Stretch", "'2'", "a key that exists",
-            "That name stands in subsection Growth/Isotropic."),
+            "That name stands in subsection Growth/Isotropic, and in "
+            "subsection Contraction."),
     Refusal("a key outside its section", {"Spacing": "50"}, "Spacing", "'50'",
             "a key that exists", "That name stands in subsection Grid."),
     wrong("misspelt choice", "Tissue/Shape", "spere", "any one of sphere, box",

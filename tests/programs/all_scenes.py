@@ -34,6 +34,8 @@ WARNED = {f"hard/{name}.prm": ["Grid/Spacing"] for name in (
     "breaking-off", "division", "enclosed-sphere", "from-27-cells",
     "small-and-thin", "solver", "thin-strip", "twelve-generations")}
 WARNED["step-6.prm"] = ["Grid/Spacing"]
+# The growing layer is to be many grid cells thick, in seconds.
+WARNED["examples/folding-by-tangential-growth.prm"] = ["Grid/Spacing"]
 
 # Only its own program knows its growth law: tests/steps runs it.
 OTHERS = {"step-7.prm"}

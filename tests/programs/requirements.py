@@ -81,7 +81,7 @@ string(REPLACE "{headers}" "{poor}" DEAL_II_INCLUDE_DIRS
 
     def test_other_libraries(self):
         for package, word in (("Boost", "Boost.Program_options 1.74 or later"),
-                              ("CGAL", "CGAL 5.4 or later"),
+                              ("CGAL", "CGAL 5.5 or later"),
                               ("GTest", "The tests need GoogleTest")):
             self.assertIn(word, self.refused(
                 package, "", f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON",

@@ -142,7 +142,7 @@ namespace
     parameters.predictor            = false;
     Growing<dim> swings(parameters);
     EXPECT_FALSE(swings.columns.template find<double>("rate_place").exists());
-    for (unsigned int n = 0; n < 6; ++n)
+    for (unsigned int n = 0; n < 5; ++n)
       swings.step(n, n + 1., held<dim>);
     EXPECT_GT(std::abs(swings.log_growth() - 0.125), 10.);
   }

@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Bad input: exit code 1, key (or option, or file), value, limit and remedy on
 stderr, nothing on stdout, and no output directory. The kinds are listed in
-tests/common/refusals.py, those of a resumed run in resume_refusals.py.
+tests/common/refusals/, those of a resumed run in resume_refusals.py.
 """
 import re
 import resource
@@ -14,7 +14,7 @@ from morula.keys import keys_of
 from program import ProgramTest, main, overrides
 
 from tests.common import refusals
-from tests.common.refusals import CYCLE
+from tests.common.refusals.refusal import CYCLE
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -44,7 +44,7 @@ class BadInput(ProgramTest):
                                            refusal.limit, refusal.remedy)])
 
     def test_table(self):
-        """At least forty kinds, none twice."""
+        """At least sixty kinds, none twice."""
         names = [refusal.name for refusal in refusals.KEYS]
         self.assertGreaterEqual(len(names), 60)
         self.assertEqual(len(names), len(set(names)))

@@ -243,21 +243,42 @@ def ranks(runner, program, blas):
     return rows
 
 
+EVEN = {"Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.05 * t"}
+RATE = {"Growth/Law": "rate", "Growth/Rate/Rate": "0.15"}
+DIVIDING = {"Proliferation/Law": "cell cycle"}
+CYCLE = "Proliferation/Cell cycle/"
 EFFECTS = [
     ("nothing but the tissue", {}),
     ("a held half", {"Boundary conditions/Fixed where": "Z <= 0"}),
     ("a body force", {"Body force/Force density": "0; 0; 1e-6"}),
     ("pressure on the surface", {"Boundary conditions/Pressure where": "1",
                                  "Boundary conditions/Pressure": "0.01"}),
-    ("even growth", {"Growth/Law": "isotropic",
-                     "Growth/Isotropic/Stretch": "1 + 0.05 * t"}),
-    ("growth and division", {"Proliferation/Law": "cell cycle"}),
-    ("the same, held until grown",
-     {"Proliferation/Law": "cell cycle",
-      "Proliferation/Cell cycle/Size checkpoint": "0.9"}),
-    ("even growth, ln J_e projected",
-     {"Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.05 * t",
-      "Material/Volumetric strain": "projected"}),
+    ("even growth", EVEN),
+    ("— ln J_e projected", {**EVEN, "Material/Volumetric strain": "projected"}),
+    ("— stress relaxes", {**EVEN, "Material/Relaxation time": 0.5}),
+    ("— cells contract", {**EVEN, "Contraction/Stretch": "1 - 0.01*t",
+                          "Contraction/Direction": "0; 0; 1"}),
+    ("growth by rates", RATE),
+    ("— across the surface normal", {
+        **RATE, "Growth/Rate/Direction": "surface normal",
+        "Growth/Rate/Share along": "0"}),
+    ("— of the pressure", {**RATE,
+                           "Growth/Rate/Rate": "0.15*ramp(pressure, 1, 0)"}),
+    ("growth and division", DIVIDING),
+    ("— held until grown", {**DIVIDING, CYCLE + "Size checkpoint": "0.9"}),
+    ("— along the stretch", {**DIVIDING, CYCLE + "Division axis": "stretch"}),
+    ("— along the surface normal", {
+        **DIVIDING, CYCLE + "Division axis": "surface normal"}),
+    ("— two types, one becomes the other", {
+        **DIVIDING, "Cell types/Names": "stem, leaf",
+        "Cell types/stem/Transitions/To leaf": "0.2"}),
+    ("— five keys of the cell's state", {
+        **DIVIDING, CYCLE + "G0 exit rate": "0.375*ramp(pressure, 1, 0)",
+        CYCLE + "Duration": "normal(1, 0.05)",
+        CYCLE + "Size checkpoint": "0.1*(generation > 3)",
+        "Material/Young's modulus": "1 + 0.1*generation",
+        "Growth/Law": "isotropic",
+        "Growth/Isotropic/Stretch": "1 + 0.001*t"}),
 ]
 
 
@@ -268,7 +289,6 @@ def effects(runner):
     for name, keys in EFFECTS:
         run = runner.run("effect", HALF_FIXED,
                          {"Growth/Law": "none", "Boundary conditions/Fixed where": "",
-                          
                           "Time/End time": 1, "Time/Step": 0.1, **keys})
         cells = int(run.rows[-1]["cells"])
         time = run.time("total") - run.time(*BESIDE_STEPS)

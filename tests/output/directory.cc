@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/complaint.h"
 #include "output/scratch_directory.h"
 
 using namespace Morula;
@@ -28,15 +29,8 @@ namespace
   std::string
   complaint(const std::string &directory, const RunSetup &run)
   {
-    try
-      {
-        prepare_directory(directory, run, MPI_COMM_WORLD);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of(
+      [&] { prepare_directory(directory, run, MPI_COMM_WORLD); });
   }
 } // namespace
 

@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <memory>
 
+#include "common/complaint.h"
 #include "output/scratch_directory.h"
 
 using namespace Morula;
@@ -43,15 +44,7 @@ namespace
   std::string
   second_run(const std::string &directory)
   {
-    try
-      {
-        const DirectoryLock lock(directory, comm);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { const DirectoryLock lock(directory, comm); });
   }
 
   /** The same where it only looks. */

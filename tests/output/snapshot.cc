@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 
+#include "common/complaint.h"
 #include "output/scratch_directory.h"
 
 using namespace Morula;
@@ -178,15 +179,7 @@ namespace
   std::string
   complaint(const std::string &path)
   {
-    try
-      {
-        read_snapshot<dim>(path, MPI_COMM_WORLD);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { read_snapshot<dim>(path, MPI_COMM_WORLD); });
   }
 } // namespace
 
@@ -304,15 +297,8 @@ namespace
           const CellColumns<3>     &columns,
           const BoundaryColumns<3> &boundary = BoundaryColumns<3>())
   {
-    try
-      {
-        check_columns(data, columns, boundary, MPI_COMM_WORLD);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of(
+      [&] { check_columns(data, columns, boundary, MPI_COMM_WORLD); });
   }
 } // namespace
 

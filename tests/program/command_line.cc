@@ -9,6 +9,8 @@
 
 #include <sstream>
 
+#include "common/complaint.h"
+
 using namespace Morula;
 
 namespace
@@ -16,15 +18,7 @@ namespace
   std::string
   complaint(const std::vector<std::string> &words)
   {
-    try
-      {
-        CommandLine::parse(words);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "accepted";
+    return complaint_of([&] { CommandLine::parse(words); });
   }
 } // namespace
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -22,25 +23,9 @@ namespace
   std::string
   complaint(const std::string &text)
   {
-    try
-      {
-        read(text);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "accepted";
+    return complaint_of([&] { read(text); });
   }
 
-  void
-  expect_parts(const std::string              &message,
-               const std::vector<std::string> &parts)
-  {
-    for (const std::string &part : parts)
-      EXPECT_NE(message.find(part), std::string::npos)
-        << "'" << part << "' is missing in: " << message;
-  }
 } // namespace
 
 

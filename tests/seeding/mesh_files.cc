@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -19,15 +20,7 @@ namespace
   refusal(const std::string &content, const std::string &ending)
   {
     const TemporaryFile file(ending, content);
-    try
-      {
-        SurfaceMesh mesh(file.path);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { SurfaceMesh mesh(file.path); });
   }
 
   bool

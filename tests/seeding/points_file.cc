@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -50,15 +51,7 @@ namespace
   std::string
   refusal(const std::string &content)
   {
-    try
-      {
-        read_and_gather<dim>(content);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { read_and_gather<dim>(content); });
   }
 
   bool

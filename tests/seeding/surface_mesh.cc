@@ -16,6 +16,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -144,15 +145,7 @@ namespace
   refusal(const std::string &content, const std::string &ending = ".off")
   {
     const TemporaryFile file(ending, content);
-    try
-      {
-        SurfaceMesh mesh(file.path);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { SurfaceMesh mesh(file.path); });
   }
 
   bool

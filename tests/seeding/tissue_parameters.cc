@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -16,15 +17,7 @@ namespace
   std::string
   refusal(const TissueParameters &parameters, const unsigned int dim = 3)
   {
-    try
-      {
-        parameters.check(dim);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return complaint_of([&] { parameters.check(dim); });
   }
 
   /** The refusal after changing the defaults. */

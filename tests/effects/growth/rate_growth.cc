@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/body_on_grid.h"
+#include "common/complaint.h"
 #include "effects/lone_cell.h"
 
 using namespace Morula;
@@ -178,28 +179,7 @@ namespace
         }
   }
 
-  template <typename Do>
-  std::string
-  refusal(const Do &what)
-  {
-    try
-      {
-        what();
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
 
-  void
-  expect_parts(const std::string              &message,
-               const std::vector<std::string> &parts)
-  {
-    for (const std::string &part : parts)
-      EXPECT_NE(message.find(part), std::string::npos) << message;
-  }
 } // namespace
 
 
@@ -230,24 +210,26 @@ TEST(RateGrowth, RefusesAShareWithoutDirection)
 {
   EXPECT_NO_THROW(Growing<3>(keys("1", "1/3")));
   EXPECT_NO_THROW(Growing<2>(keys("1", "1/2")));
-  expect_parts(refusal([] { Growing<2>(keys("1", "1/3")); }),
+  expect_parts(complaint_of([] { Growing<2>(keys("1", "1/3")); }),
                {"Growth/Rate/Share along", "1/2", "Growth/Rate/Direction"});
-  expect_parts(refusal([] { Growing<3>(keys("1", "0.2*t")); }),
+  expect_parts(complaint_of([] { Growing<3>(keys("1", "0.2*t")); }),
                {"Growth/Rate/Share along", "1/3", "Growth/Rate/Direction"});
 }
 
 
 TEST(RateGrowth, RefusesSharesAndVolumesOutOfRange)
 {
-  expect_parts(refusal([] {
+  expect_parts(complaint_of([] {
                  Growing<3>(keys("1", "2*t", "1; 0; 0")).step(0., 3., free<3>);
                }),
                {"Growth/Rate/Share along", "from 0 to 1", "It is 3"});
-  expect_parts(refusal([] { Growing<3>(keys("-20")).step(0., 1., free<3>); }),
+  expect_parts(complaint_of(
+                 [] { Growing<3>(keys("-20")).step(0., 1., free<3>); }),
                {"Growth/Rate/Rate", "1e-6", "growth > 0.1"});
-  expect_parts(refusal([] { Growing<3>(keys("2000")).step(0., 1., free<3>); }),
+  expect_parts(complaint_of(
+                 [] { Growing<3>(keys("2000")).step(0., 1., free<3>); }),
                {"Growth/Rate/Rate", "1e300"});
-  expect_parts(refusal(
+  expect_parts(complaint_of(
                  [] { Growing<3>(keys("1/(X-3)")).step(0., 1., free<3>); }),
                {"Growth/Rate/Rate", "finite"});
 }

@@ -10,42 +10,16 @@
 
 namespace Morula
 {
-  namespace
+  std::vector<std::string>
+  event_columns()
   {
-    std::vector<std::string>
-    event_columns()
-    {
-      return {"time", "id", "event", "from", "to"};
-    }
-  } // namespace
-
-  EventsFile::EventsFile(const std::string              &path,
-                         const std::vector<std::string> &type_names,
-                         const MPI_Comm                  comm)
-    : type_names(type_names)
-    , comm(comm)
-    , file(path, event_columns(), comm)
-  {}
-
-  EventsFile::EventsFile(const std::string              &path,
-                         const std::vector<std::string> &type_names,
-                         const TableExtent              &kept,
-                         const MPI_Comm                  comm)
-    : type_names(type_names)
-    , comm(comm)
-    , file(path, event_columns(), kept, comm)
-  {}
-
-  void
-  EventsFile::check(const std::string &path,
-                    const TableExtent &kept,
-                    const MPI_Comm     comm)
-  {
-    AppendedCsv::check(path, event_columns(), kept, comm);
+    return {"time", "id", "event", "from", "to"};
   }
 
-  void
-  EventsFile::append(const std::vector<TypeChange> &changes)
+  std::string
+  event_rows(const std::vector<TypeChange>  &changes,
+             const std::vector<std::string> &type_names,
+             const MPI_Comm                  comm)
   {
     std::vector<TypeChange> all;
     for (const auto &part : gather_to_root(changes, comm))
@@ -65,6 +39,6 @@ namespace Morula
         text += ',' + std::to_string(change.id) + ",transition," +
                 type_names[change.from] + ',' + type_names[change.to] + '\n';
       }
-    file.append(text);
+    return text;
   }
 } // namespace Morula

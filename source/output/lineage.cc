@@ -8,51 +8,21 @@
 
 namespace Morula
 {
-  namespace
+  std::vector<std::string>
+  lineage_columns(const bool with_types)
   {
-    std::vector<std::string>
-    lineage_columns(const bool with_types)
-    {
-      std::vector<std::string> columns = {
-        "id", "parent", "generation", "birth_time", "x", "y", "z"};
-      if (with_types)
-        columns.push_back("type");
-      return columns;
-    }
-  } // namespace
-
-  template <int dim>
-  LineageFile<dim>::LineageFile(const std::string &path,
-                                const bool         with_types,
-                                const MPI_Comm     comm)
-    : comm(comm)
-    , with_types(with_types)
-    , file(path, lineage_columns(with_types), comm)
-  {}
-
-  template <int dim>
-  LineageFile<dim>::LineageFile(const std::string &path,
-                                const bool         with_types,
-                                const TableExtent &kept,
-                                const MPI_Comm     comm)
-    : comm(comm)
-    , with_types(with_types)
-    , file(path, lineage_columns(with_types), kept, comm)
-  {}
-
-  template <int dim>
-  void
-  LineageFile<dim>::check(const std::string &path,
-                          const bool         with_types,
-                          const TableExtent &kept,
-                          const MPI_Comm     comm)
-  {
-    AppendedCsv::check(path, lineage_columns(with_types), kept, comm);
+    std::vector<std::string> columns = {
+      "id", "parent", "generation", "birth_time", "x", "y", "z"};
+    if (with_types)
+      columns.push_back("type");
+    return columns;
   }
 
   template <int dim>
-  void
-  LineageFile<dim>::append(const std::vector<Birth<dim>> &births)
+  std::string
+  lineage_rows(const std::vector<Birth<dim>> &births,
+               const bool                     with_types,
+               const MPI_Comm                 comm)
   {
     CsvRows local;
     for (const Birth<dim> &birth : births)
@@ -74,9 +44,11 @@ namespace Morula
     std::string        text;
     for (const std::string_view row : rows.in_id_order())
       text += row;
-    file.append(text);
+    return text;
   }
 
-  template class LineageFile<2>;
-  template class LineageFile<3>;
+  template std::string
+  lineage_rows<2>(const std::vector<Birth<2>> &, const bool, const MPI_Comm);
+  template std::string
+  lineage_rows<3>(const std::vector<Birth<3>> &, const bool, const MPI_Comm);
 } // namespace Morula

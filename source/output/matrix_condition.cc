@@ -6,35 +6,16 @@
 
 namespace Morula
 {
-  namespace
+  std::vector<std::string>
+  condition_columns()
   {
-    const std::vector<std::string> names = {
-      "step", "time", "unknowns", "smallest", "largest", "condition"};
+    return {"step", "time", "unknowns", "smallest", "largest", "condition"};
   }
 
-  MatrixConditionFile::MatrixConditionFile(const std::string &path,
-                                           const MPI_Comm     comm)
-    : file(path, names, comm)
-  {}
-
-  MatrixConditionFile::MatrixConditionFile(const std::string &path,
-                                           const TableExtent &kept,
-                                           const MPI_Comm     comm)
-    : file(path, names, kept, comm)
-  {}
-
-  void
-  MatrixConditionFile::check(const std::string &path,
-                             const TableExtent &kept,
-                             const MPI_Comm     comm)
-  {
-    AppendedCsv::check(path, names, kept, comm);
-  }
-
-  void
-  MatrixConditionFile::append(const unsigned int       step,
-                              const double             time,
-                              const ConditionEstimate &estimate)
+  std::string
+  condition_row(const unsigned int       step,
+                const double             time,
+                const ConditionEstimate &estimate)
   {
     const std::vector<double> values = {double(step),
                                         time,
@@ -44,6 +25,6 @@ namespace Morula
                                         estimate.condition()};
     CsvRows                   rows;
     rows.add(step, values.data(), values.size());
-    file.append(rows.text);
+    return rows.text;
   }
 } // namespace Morula

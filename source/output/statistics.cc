@@ -6,21 +6,6 @@
 
 namespace Morula
 {
-  namespace
-  {
-    std::vector<std::string>
-    statistics_columns(const std::vector<std::string> &type_names)
-    {
-      StatisticsRow row;
-      for (const std::string &name : type_names)
-        row.cells_of_types.emplace_back(name, 0);
-      std::vector<std::string> all;
-      for (const auto &column : row.columns())
-        all.push_back(column.first);
-      return all;
-    }
-  } // namespace
-
   std::vector<std::pair<std::string, double>>
   StatisticsRow::columns() const
   {
@@ -62,36 +47,26 @@ namespace Morula
     return list;
   }
 
-  StatisticsFile::StatisticsFile(const std::string              &path,
-                                 const std::vector<std::string> &type_names,
-                                 const MPI_Comm                  comm)
-    : file(path, statistics_columns(type_names), comm)
-  {}
-
-  StatisticsFile::StatisticsFile(const std::string              &path,
-                                 const std::vector<std::string> &type_names,
-                                 const TableExtent              &kept,
-                                 const MPI_Comm                  comm)
-    : file(path, statistics_columns(type_names), kept, comm)
-  {}
-
-  void
-  StatisticsFile::check(const std::string              &path,
-                        const std::vector<std::string> &type_names,
-                        const TableExtent              &kept,
-                        const MPI_Comm                  comm)
+  std::vector<std::string>
+  statistics_columns(const std::vector<std::string> &type_names)
   {
-    AppendedCsv::check(path, statistics_columns(type_names), kept, comm);
+    StatisticsRow row;
+    for (const std::string &name : type_names)
+      row.cells_of_types.emplace_back(name, 0);
+    std::vector<std::string> names;
+    for (const auto &column : row.columns())
+      names.push_back(column.first);
+    return names;
   }
 
-  void
-  StatisticsFile::append(const StatisticsRow &row)
+  std::string
+  statistics_row(const StatisticsRow &row)
   {
     std::vector<double> values;
     for (const auto &column : row.columns())
       values.push_back(column.second);
     CsvRows rows;
     rows.add(row.step, values.data(), values.size());
-    file.append(rows.text);
+    return rows.text;
   }
 } // namespace Morula

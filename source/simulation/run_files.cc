@@ -36,12 +36,37 @@ namespace Morula
                              0;
     }
 
+    struct Table
+    {
+      std::string              name; // of the file, without ending
+      std::vector<std::string> columns;
+      // A resumed run may have it although the run began without.
+      bool may_begin_later = false;
+    };
+
+    std::vector<Table>
+    tables_of(const Scene &scene)
+    {
+      const std::vector<std::string> types = scene.cell_types.name_list();
+      std::vector<Table> tables = {{"statistics", statistics_columns(types)},
+                                   {"lineage",
+                                    lineage_columns(!types.empty())}};
+      if (!types.empty())
+        tables.push_back({"events", event_columns()});
+      if (scene.output.condition_estimate)
+        tables.push_back({"condition", condition_columns(), true});
+      return tables;
+    }
+
+    /** What a snapshot calls the number of a table's rows ends so. */
+    const std::string rows_suffix = "_rows";
+
     /** The rows of a table that a snapshot counts. */
     template <int dim>
     TableExtent
     extent_of(const std::string &table, const SnapshotData<dim> &data)
     {
-      return {static_cast<std::uint64_t>(data.number(table + "_rows")),
+      return {static_cast<std::uint64_t>(data.number(table + rows_suffix)),
               digest_of_integers(data.integer_table(table + "_digest", 2))};
     }
 
@@ -51,7 +76,7 @@ namespace Morula
                  const TableExtent &extent,
                  SnapshotData<dim> &data)
     {
-      data.numbers[table + "_rows"]          = extent.n_rows;
+      data.numbers[table + rows_suffix]      = extent.n_rows;
       data.integer_tables[table + "_digest"] = as_integers(extent.digest);
     }
 
@@ -67,6 +92,7 @@ namespace Morula
                           const MPI_Comm                          comm)
     : scene(scene)
     , comm(comm)
+    , type_names(scene.cell_types.name_list())
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
     , next_output(
@@ -78,8 +104,6 @@ namespace Morula
                                   scene.time))
   {
     lock.emplace(scene.output_directory, comm);
-    const std::vector<std::string> types     = scene.cell_types.name_list();
-    const bool                     has_types = !types.empty();
     if (resumed_from)
       {
         output_times = resumed_from->table("output_times");
@@ -91,41 +115,20 @@ namespace Morula
                                                                section),
                                            seconds};
             }
-        const TableExtent rows   = extent_of("statistics", *resumed_from);
-        const TableExtent births = extent_of("lineage", *resumed_from);
-        // All tables are checked before the first of them is cut.
-        StatisticsFile::check(path("statistics.csv"), types, rows, comm);
-        LineageFile<dim>::check(path("lineage.csv"), has_types, births, comm);
-        if (has_types)
-          EventsFile::check(path("events.csv"),
-                            extent_of("events", *resumed_from),
-                            comm);
-        if (continues_conditions(resumed_from))
-          MatrixConditionFile::check(path("condition.csv"),
-                                     extent_of("condition", *resumed_from),
-                                     comm);
-        statistics.emplace(path("statistics.csv"), types, rows, comm);
-        lineage.emplace(path("lineage.csv"), has_types, births, comm);
-        if (has_types)
-          events.emplace(path("events.csv"),
-                         types,
-                         extent_of("events", *resumed_from),
-                         comm);
+        continue_tables(*resumed_from);
         prepare_resume(scene.output_directory,
                        setup(),
                        output_times.size(),
                        comm);
       }
     else
-      {
-        prepare_directory(scene.output_directory, setup(), comm);
-        statistics.emplace(path("statistics.csv"), types, comm);
-        lineage.emplace(path("lineage.csv"), has_types, comm);
-        if (has_types)
-          events.emplace(path("events.csv"), types, comm);
-      }
-    if (scene.output.condition_estimate)
-      open_conditions(resumed_from);
+      prepare_directory(scene.output_directory, setup(), comm);
+    for (const Table &table : tables_of(scene))
+      if (tables.count(table.name) == 0)
+        tables.try_emplace(table.name,
+                           path(table.name + ".csv"),
+                           table.columns,
+                           comm);
     progress.emplace(path("log.txt"),
                      resumed_from.has_value(),
                      resumed_from ? resumed_from->time : 0.,
@@ -170,26 +173,24 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  RunFiles<dim>::continues_conditions(
-    const std::optional<SnapshotData<dim>> &resumed_from) const
-  {
-    return scene.output.condition_estimate && resumed_from &&
-           resumed_from->numbers.count("condition_rows") > 0;
-  }
-
-  template <int dim>
   void
-  RunFiles<dim>::open_conditions(
-    const std::optional<SnapshotData<dim>> &resumed_from)
+  RunFiles<dim>::continue_tables(const SnapshotData<dim> &resumed_from)
   {
-    // A resumed run may have estimates although the run began without them.
-    if (continues_conditions(resumed_from))
-      conditions.emplace(path("condition.csv"),
-                         extent_of("condition", *resumed_from),
-                         comm);
-    else
-      conditions.emplace(path("condition.csv"), comm);
+    // All tables are checked before the first of them is cut.
+    for (const bool check : {true, false})
+      for (const Table &table : tables_of(scene))
+        {
+          const std::string &name = table.name;
+          const std::string  file = path(name + ".csv");
+          if (table.may_begin_later &&
+              resumed_from.numbers.count(name + rows_suffix) == 0)
+            continue;
+          const TableExtent kept = extent_of(name, resumed_from);
+          if (check)
+            AppendedCsv::check(file, table.columns, kept, comm);
+          else
+            tables.try_emplace(name, file, table.columns, kept, comm);
+        }
   }
 
   template <int dim>
@@ -222,10 +223,11 @@ namespace Morula
                       const std::vector<TypeChange> &changes)
   {
     row.wall_seconds = wall_seconds();
-    statistics->append(row);
-    lineage->append(births);
-    if (events)
-      events->append(changes);
+    tables.at("statistics").append(statistics_row(row));
+    tables.at("lineage").append(
+      lineage_rows(births, !type_names.empty(), comm));
+    if (!type_names.empty())
+      tables.at("events").append(event_rows(changes, type_names, comm));
     progress->step({row.step,
                     row.time,
                     row.dt,
@@ -247,7 +249,7 @@ namespace Morula
                            const double             time,
                            const ConditionEstimate &estimate)
   {
-    conditions->append(step, time, estimate);
+    tables.at("condition").append(condition_row(step, time, estimate));
   }
 
   template <int dim>
@@ -318,20 +320,11 @@ namespace Morula
     next_snapshot =
       next_multiple(data.time, scene.output.snapshot_interval, scene.time);
     // What the snapshot counts must be on the disk before it.
-    statistics->sync();
-    lineage->sync();
-    if (events)
+    for (auto &[name, table] : tables)
       {
-        events->sync();
-        store_extent("events", events->extent(), data);
+        table.sync();
+        store_extent(name, table.extent(), data);
       }
-    if (conditions)
-      {
-        conditions->sync();
-        store_extent("condition", conditions->extent(), data);
-      }
-    store_extent("statistics", statistics->extent(), data);
-    store_extent("lineage", lineage->extent(), data);
     data.parameters              = scene.parameters();
     data.numbers["wall_seconds"] = wall_seconds();
     data.tables["output_times"]  = output_times;

@@ -3,6 +3,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/output/appended_csv.h>
 #include <morula/output/lineage.h>
 #include <morula/output/statistics.h>
 
@@ -75,10 +76,10 @@ TEST(Statistics, HaveTheColumnsOfTheContract)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
-  StatisticsFile         file(path, {}, MPI_COMM_WORLD);
+  AppendedCsv            file(path, statistics_columns({}), MPI_COMM_WORLD);
   EXPECT_EQ(file.extent().n_rows, 0u);
-  file.append(row(0));
-  file.append(row(1));
+  file.append(statistics_row(row(0)));
+  file.append(statistics_row(row(1)));
   EXPECT_EQ(file.extent().n_rows, 2u);
   file.sync();
   EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
@@ -90,20 +91,20 @@ TEST(Statistics, AreCutWhenResumed)
   const std::string      path = directory / "statistics.csv";
   TableExtent            two, three;
   {
-    StatisticsFile file(path, {}, MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_columns({}), MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 4; ++step)
       {
         if (step == 2)
           two = file.extent();
-        file.append(row(step));
+        file.append(statistics_row(row(step)));
       }
   }
   tear(path, "4,0.25,3,4,5");
   {
-    StatisticsFile file(path, {}, two, MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_columns({}), two, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
     MPI_Barrier(MPI_COMM_WORLD);
-    file.append(row(7));
+    file.append(statistics_row(row(7)));
     three = file.extent();
     EXPECT_EQ(three.n_rows, 3u);
   }
@@ -113,8 +114,10 @@ TEST(Statistics, AreCutWhenResumed)
   // a torn row does not count
   tear(path, "8,0.25");
   const TableExtent four = {4, three.digest};
-  EXPECT_THROW(StatisticsFile(path, {}, four, MPI_COMM_WORLD), InputError);
-  EXPECT_NO_THROW(StatisticsFile(path, {}, three, MPI_COMM_WORLD));
+  EXPECT_THROW(AppendedCsv(path, statistics_columns({}), four, MPI_COMM_WORLD),
+               InputError);
+  EXPECT_NO_THROW(
+    AppendedCsv(path, statistics_columns({}), three, MPI_COMM_WORLD));
 }
 
 TEST(Statistics, RefuseToResumeFromOtherFiles)
@@ -122,19 +125,24 @@ TEST(Statistics, RefuseToResumeFromOtherFiles)
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
   const TableExtent      nothing, one = {1, 0};
-  EXPECT_THROW(StatisticsFile(path, {}, nothing, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(
+    AppendedCsv(path, statistics_columns({}), nothing, MPI_COMM_WORLD),
+    InputError);
   on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
-  EXPECT_THROW(StatisticsFile(path, {}, one, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(AppendedCsv(path, statistics_columns({}), one, MPI_COMM_WORLD),
+               InputError);
   EXPECT_EQ(content(path), "step,time\n0,0\n");
 }
 
 TEST(Statistics, SayWhenTheDiskIsFull)
 {
   const ScratchDirectory directory;
-  StatisticsFile         file(directory / "statistics.csv", {}, MPI_COMM_WORLD);
-  file.append(row(0));
+  AppendedCsv            file(directory / "statistics.csv",
+                   statistics_columns({}),
+                   MPI_COMM_WORLD);
+  file.append(statistics_row(row(0)));
   const FullDisk full(statistics_header.size() + row_text(0).size() + 5);
-  EXPECT_THROW(file.append(row(1)), std::runtime_error);
+  EXPECT_THROW(file.append(statistics_row(row(1))), std::runtime_error);
 }
 
 TEST(Lineage, IsInIdOrder)
@@ -145,10 +153,13 @@ TEST(Lineage, IsInIdOrder)
   const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   const std::string  header  = "id,parent,generation,birth_time,x,y,z\n";
 
-  LineageFile<3> file(path, false, MPI_COMM_WORLD);
+  AppendedCsv file(path, lineage_columns(false), MPI_COMM_WORLD);
+  const auto  append = [&](const std::vector<Birth<3>> &births) {
+    file.append(lineage_rows(births, false, MPI_COMM_WORLD));
+  };
   // the last rank holds the first founder
   const types::particle_index id = n_ranks - 1 - rank;
-  file.append({{id, -1, 0, 0., Point<3>(1.5, 2., id)}});
+  append({{id, -1, 0, 0., Point<3>(1.5, 2., id)}});
   std::string expected = header;
   for (unsigned int i = 0; i < n_ranks; ++i)
     {
@@ -165,8 +176,8 @@ TEST(Lineage, IsInIdOrder)
   if (rank == n_ranks - 1)
     births = {{11, 0, 1, 0.625, Point<3>(0., 0., 1e-7)},
               {10, 0, 1, 0.625, Point<3>(0., 0., -1e-7)}};
-  file.append(births);
-  file.append({});
+  append(births);
+  append({});
   expected += "10,0,1,0.625,0,0,-1e-07\n11,0,1,0.625,0,0,1e-07\n";
   EXPECT_EQ(content(path), expected);
   EXPECT_EQ(file.extent().n_rows, n_ranks + 2);
@@ -174,10 +185,10 @@ TEST(Lineage, IsInIdOrder)
 
   Digest founders;
   founders.add(expected.substr(0, end_of_founders));
-  LineageFile<3> resumed(path,
-                         false,
-                         {n_ranks, founders.value()},
-                         MPI_COMM_WORLD);
+  AppendedCsv resumed(path,
+                      lineage_columns(false),
+                      {n_ranks, founders.value()},
+                      MPI_COMM_WORLD);
   EXPECT_EQ(content(path), expected.substr(0, end_of_founders));
 }
 
@@ -185,11 +196,11 @@ TEST(Lineage, HasAZeroZInTwoDimensions)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "lineage.csv";
-  LineageFile<2>         file(path, {}, MPI_COMM_WORLD);
+  AppendedCsv            file(path, lineage_columns(false), MPI_COMM_WORLD);
   std::vector<Birth<2>>  births;
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};
-  file.append(births);
+  file.append(lineage_rows(births, false, MPI_COMM_WORLD));
   EXPECT_EQ(content(path),
             "id,parent,generation,birth_time,x,y,z\n"
             "3,1,2,0.3333333333,4,5,0\n");

@@ -3,6 +3,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/output/appended_csv.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/statistics.h>
@@ -249,9 +250,9 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
   const std::string      path = directory / "statistics.csv";
   TableExtent            kept;
   {
-    StatisticsFile file(path, {}, MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_columns({}), MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 20; ++step)
-      file.append(row(step));
+      file.append(statistics_row(row(step)));
     kept = file.extent();
   }
   MPI_Barrier(MPI_COMM_WORLD);
@@ -263,7 +264,7 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     bool       refused     = false;
     try
       {
-        StatisticsFile::check(path, {}, kept, MPI_COMM_WORLD);
+        AppendedCsv::check(path, statistics_columns({}), kept, MPI_COMM_WORLD);
       }
     catch (const InputError &)
       {
@@ -272,7 +273,7 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     EXPECT_EQ(refused, !only_longer) << name;
   };
   for_damaged(path, 300, judge);
-  StatisticsFile::check(path, {}, kept, MPI_COMM_WORLD);
+  AppendedCsv::check(path, statistics_columns({}), kept, MPI_COMM_WORLD);
 }
 
 TEST(Seal, IsTheDigestThatTheDocumentationNames)

@@ -4,70 +4,30 @@
 #ifndef morula_output_lineage_h
 #define morula_output_lineage_h
 
-#include <morula/output/appended_csv.h>
 #include <morula/particles/birth.h>
 
-#include <deal.II/base/point.h>
-#include <deal.II/particles/property_pool.h>
+#include <mpi.h>
 
 #include <string>
 #include <vector>
 
 namespace Morula
 {
-  using namespace dealii;
+  /** The columns of lineage.csv. @param with_types whether cells have types */
+  std::vector<std::string>
+  lineage_columns(const bool with_types);
 
   /**
-   * lineage.csv: one row per cell that ever lived, in id order. All members are
-   * collective; errors as in AppendedCsv.
+   * Rows of lineage.csv, which has one for each cell that ever lived: all
+   * ranks' births since the last call, in id order. Their ids follow those in
+   * the file. Collective; on other ranks than 0 it is empty.
+   * @param births of this rank, in any order
    */
   template <int dim>
-  class LineageFile
-  {
-  public:
-    /** A new file. @param with_types whether cells have types */
-    LineageFile(const std::string &path,
-                const bool         with_types,
-                const MPI_Comm     comm);
-
-    /** Continues the file behind the rows that are to be @p kept. */
-    LineageFile(const std::string &path,
-                const bool         with_types,
-                const TableExtent &kept,
-                const MPI_Comm     comm);
-
-    /** See AppendedCsv. */
-    static void
-    check(const std::string &path,
-          const bool         with_types,
-          const TableExtent &kept,
-          const MPI_Comm     comm);
-
-    /**
-     * Appends all ranks' births since the last call; their ids follow those in
-     * the file, in any order and on any rank.
-     */
-    void
-    append(const std::vector<Birth<dim>> &births);
-
-    /** See AppendedCsv. */
-    void
-    sync()
-    {
-      file.sync();
-    }
-
-    TableExtent
-    extent() const
-    {
-      return file.extent();
-    }
-
-  private:
-    MPI_Comm    comm;
-    bool        with_types;
-    AppendedCsv file;
-  };
+  std::string
+  lineage_rows(const std::vector<Birth<dim>> &births,
+               const bool                     with_types,
+               const MPI_Comm                 comm);
 } // namespace Morula
 
 #endif

@@ -4,7 +4,6 @@
 #ifndef morula_output_statistics_h
 #define morula_output_statistics_h
 
-#include <morula/output/appended_csv.h>
 #include <morula/output/longest_cell.h>
 #include <morula/output/tissue_sums.h>
 
@@ -43,49 +42,14 @@ namespace Morula
     columns() const;
   };
 
-  /** statistics.csv. All members are collective and throw as those of
-   *  AppendedCsv. */
-  class StatisticsFile
-  {
-  public:
-    /** Starts a new file. @param type_names of the cells, if they have types */
-    StatisticsFile(const std::string              &path,
-                   const std::vector<std::string> &type_names,
-                   const MPI_Comm                  comm);
+  /** The names of the columns of statistics.csv. @param type_names of the
+   *  cells, if they have types */
+  std::vector<std::string>
+  statistics_columns(const std::vector<std::string> &type_names);
 
-    /** Continues the file behind the rows that are to be @p kept. */
-    StatisticsFile(const std::string              &path,
-                   const std::vector<std::string> &type_names,
-                   const TableExtent              &kept,
-                   const MPI_Comm                  comm);
-
-    /** See AppendedCsv. */
-    static void
-    check(const std::string              &path,
-          const std::vector<std::string> &type_names,
-          const TableExtent              &kept,
-          const MPI_Comm                  comm);
-
-    /** Appends a row. */
-    void
-    append(const StatisticsRow &row);
-
-    /** See AppendedCsv. */
-    void
-    sync()
-    {
-      file.sync();
-    }
-
-    TableExtent
-    extent() const
-    {
-      return file.extent();
-    }
-
-  private:
-    AppendedCsv file;
-  };
+  /** The row as it stands in the file. */
+  std::string
+  statistics_row(const StatisticsRow &row);
 } // namespace Morula
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef morula_simulation_run_files_h
 #define morula_simulation_run_files_h
 
+#include <morula/output/appended_csv.h>
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
 #include <morula/output/events.h>
@@ -18,6 +19,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -108,11 +110,8 @@ namespace Morula
   private:
     void
     warn_of_missing_states(); // written with another Output/Formats
-    bool
-    continues_conditions(
-      const std::optional<SnapshotData<dim>> &resumed_from) const;
     void
-    open_conditions(const std::optional<SnapshotData<dim>> &resumed_from);
+    continue_tables(const SnapshotData<dim> &resumed_from);
 
     RunSetup
     setup() const;
@@ -128,21 +127,20 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene                  scene;
-    const MPI_Comm               comm;
-    std::optional<DirectoryLock> lock; // until the end
-    const double                 wall_seconds_before;
-    const Timer                 &clock;
-    std::vector<double>          output_times;
+    const Scene                    scene;
+    const MPI_Comm                 comm;
+    const std::vector<std::string> type_names;
+    std::optional<DirectoryLock>   lock; // until the end
+    const double                   wall_seconds_before;
+    const Timer                   &clock;
+    std::vector<double>            output_times;
     // The next ones are due at these multiples of their intervals.
-    unsigned int                       next_output;
-    unsigned int                       next_snapshot;
-    SectionTimes                       sections_before;
-    std::optional<Progress>            progress;
-    std::optional<StatisticsFile>      statistics;
-    std::optional<LineageFile<dim>>    lineage;
-    std::optional<EventsFile>          events;     // if cells have types
-    std::optional<MatrixConditionFile> conditions; // if the scene asks for it
+    unsigned int            next_output;
+    unsigned int            next_snapshot;
+    SectionTimes            sections_before;
+    std::optional<Progress> progress;
+    // The tables that the scene has, by their names without ending.
+    std::map<std::string, AppendedCsv> tables;
   };
 } // namespace Morula
 

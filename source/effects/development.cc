@@ -93,13 +93,6 @@ namespace Morula
   }
 
   template <int dim>
-  const CellTypes<dim> *
-  CellDevelopment<dim>::types() const
-  {
-    return effects.types ? &*effects.types : nullptr;
-  }
-
-  template <int dim>
   CellReader<dim>
   CellDevelopment<dim>::reader(const double t) const
   {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
 #include <morula/mechanics/spline_field.h>
@@ -9,11 +8,10 @@
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
-#include <morula/simulation/step_checks.h>
-#include <morula/simulation/step_points.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -226,90 +224,6 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::try_step(const SplineSpace<dim> &space,
-                            const RigidModes<dim>  &rigid_modes,
-                            Equilibrium::Vector    &u)
-  {
-    if (development.present())
-      {
-        const TimerOutput::Scope section(timer, "growth");
-        everywhere(comm, [&]() {
-          growth_of_step =
-            development.of_step(tissue, time_steps.time(), time_steps.next());
-        });
-        // Of the step's cells, so that a resumed run has the same.
-        if (material.depends_on_state())
-          find_typical_stiffness();
-      }
-    MaterialPoints<dim> points;
-    {
-      const TimerOutput::Scope section(timer, "points");
-      points = material_points(tissue, space, growth_of_step, material);
-    }
-    const auto           list = terms(points, space);
-    MomentumBalance<dim> balance(space, list, timer, comm);
-    const LinearProblem  linear =
-      balance.linear_problem(typical_stiffness, inertia(space, rigid_modes));
-    estimate_condition(balance, linear);
-    u = start_of_step(space, rigid_modes).value_or(balance.rest());
-    Equilibrium::Evaluation evaluation;
-    try
-      {
-        evaluation = solve(balance,
-                           linear,
-                           balance.scales(typical_stiffness),
-                           scene.solver,
-                           timer,
-                           u,
-                           newton_report);
-      }
-    catch (const StepFailed &failure)
-      {
-        throw StepFailed(failure.what() + (". " + balance.describe(u)));
-      }
-    if (boundary_conditions.has_dirichlet())
-      check_gap(balance.extremes(evaluation),
-                scene.solver.largest_gap,
-                scene.grid.spacing);
-
-    // A large cell is several quadrature points, but deforms as the field does
-    // at its own position: no energy has kept that from turning inside out.
-    if (points.subdivided &&
-        inverts(DisplacementField<dim>(space, u, comm), tissue.cells(), comm))
-      throw StepFailed("a cell is turned inside out");
-  }
-
-  template <int dim>
-  std::optional<Equilibrium::Vector>
-  Simulation<dim>::start_of_step(const SplineSpace<dim> &space,
-                                 const RigidModes<dim>  &modes) const
-  {
-    if (!boundary_conditions.has_dirichlet())
-      return {};
-    std::vector<HeldPoint<dim>> points;
-    everywhere(comm, [&]() {
-      points = held_points(boundary_conditions,
-                           tissue,
-                           time_steps.time(),
-                           time_steps.next());
-    });
-    return rigid_start(space, modes, points, comm);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::estimate_condition(MomentumBalance<dim> &balance,
-                                      const LinearProblem  &linear)
-  {
-    // Once a step, in its first attempt.
-    if (!scene.output.condition_estimate || condition)
-      return;
-    const TimerOutput::Scope section(timer, "condition estimate");
-    condition = Morula::estimate_condition(balance, linear, balance.rest());
-  }
-
-  template <int dim>
-  void
   Simulation<dim>::write_rows()
   {
     const TimerOutput::Scope section(timer, "rows");
@@ -322,72 +236,6 @@ namespace Morula
   {
     if (condition)
       files->condition(n_steps, row.time - row.dt, *condition);
-  }
-
-  template <int dim>
-  typename MomentumBalance<dim>::TermList
-  Simulation<dim>::terms(const MaterialPoints<dim> &points,
-                         const SplineSpace<dim>    &space)
-  {
-    const double                            t = time_steps.next();
-    typename MomentumBalance<dim>::TermList list;
-    list.push_back(
-      internal_force(points, material.volumetric_form(), scene.solver.kernel));
-    // Expressions may have no value at this time: then all ranks must know.
-    const auto add = [&](const std::string &name, const auto &make) {
-      const TimerOutput::Scope section(timer, name);
-      everywhere(comm, [&]() { list.push_back(make()); });
-    };
-    for (const auto &named : forces)
-      add(named.name, [&]() {
-        return named.force->term(tissue, cell_positions(tissue, space), t);
-      });
-    if (boundary_conditions.has_dirichlet())
-      add("nitsche", [&]() {
-        return nitsche_term(
-          boundary_conditions, material, tissue, space, growth_of_step, t);
-      });
-    for (const auto &named : boundary_conditions.list())
-      if (named.condition->kind() == SurfaceCondition::loaded)
-        add(named.name, [&]() {
-          return named.condition->term(loaded_points(tissue, space), t);
-        });
-    return list;
-  }
-
-  template <int dim>
-  std::vector<typename RigidModes<dim>::Mass>
-  Simulation<dim>::masses(const SplineSpace<dim> &space) const
-  {
-    const Cells<dim>                           &cells = tissue.cells();
-    std::vector<typename RigidModes<dim>::Mass> list;
-    for (const auto &grid_cell : cells.grid_cells())
-      for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-        list.push_back({space.piece(grid_cell.number),
-                        cells.position(p),
-                        cells.initial_volume(p)});
-    return list;
-  }
-
-  template <int dim>
-  RigidModes<dim>
-  Simulation<dim>::rigid_modes(const SplineSpace<dim> &space) const
-  {
-    return RigidModes<dim>(space,
-                           masses(space),
-                           supports(boundary_conditions, tissue, space),
-                           comm);
-  }
-
-  template <int dim>
-  std::vector<Equilibrium::Vector>
-  Simulation<dim>::inertia(const SplineSpace<dim> &space,
-                           const RigidModes<dim>  &modes)
-  {
-    if (!modes.any())
-      return {};
-    const TimerOutput::Scope section(timer, "rigid motion");
-    return modes.inertia(masses(space));
   }
 
   template <int dim>

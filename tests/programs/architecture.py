@@ -81,7 +81,8 @@ class Architecture(ProgramTest):
         block = page().split("## One step")[1].split("```")[1]
         calls = re.findall(r"^ +(?:\w+\.)?(\w+)\(\)", block, flags=re.M)
         self.assertGreater(len(calls), 8)
-        text = text_of("simulation/simulation")
+        text = text_of("simulation/simulation") + \
+            text_of("simulation/simulation_equilibrium")
         self.assertEqual([name for name in calls
                           if not re.search(rf"\b{name}\(", text)], [])
 

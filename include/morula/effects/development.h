@@ -159,10 +159,6 @@ namespace Morula
            const double             t0,
            const double             t1) const;
 
-    /** The types of cells, or null. */
-    const CellTypes<dim> *
-    types() const;
-
     /**
      * Sets what a daughter has that her mother has not, and lets her live until
      * the end of the step.

@@ -109,6 +109,11 @@ namespace Morula
     try_step(const SplineSpace<dim> &space,
              const RigidModes<dim>  &rigid_modes,
              Equilibrium::Vector    &u);
+    void
+    solve_balance(const SplineSpace<dim>    &space,
+                  const RigidModes<dim>     &rigid_modes,
+                  const MaterialPoints<dim> &points,
+                  Equilibrium::Vector       &u);
     std::optional<Equilibrium::Vector>
     start_of_step(const SplineSpace<dim> &space,
                   const RigidModes<dim>  &modes) const;

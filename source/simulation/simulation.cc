@@ -8,6 +8,7 @@
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/step_points.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -6,39 +6,18 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
+#include "common/temporary_file.h"
 
-#include <filesystem>
-#include <fstream>
 
 using namespace Morula;
 
 namespace
 {
-  /** A scene that is removed at the end of a test. */
-  class SceneFile
-  {
-  public:
-    const std::string name;
-
-    explicit SceneFile(const std::string &text)
-      : name(std::filesystem::temp_directory_path() /
-             ("morula-method-" + std::to_string(getpid()) + ".prm"))
-    {
-      std::ofstream(name) << text;
-    }
-
-    ~SceneFile()
-    {
-      std::filesystem::remove(name);
-    }
-  };
-
   Scene
   read(const std::string &text, const std::vector<std::string> &overrides = {})
   {
-    const SceneFile file(text);
-    return Scene::read(file.name, overrides);
+    const TemporaryFile file(".prm", text);
+    return Scene::read(file.path, overrides);
   }
 
   const std::string consistent = "set Method = consistent\n";

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
 #include <stdexcept>
+
+#include "common/temporary_file.h"
 
 using namespace Morula;
 
@@ -88,12 +88,8 @@ namespace
   Scene
   read(const std::vector<std::string> &overrides)
   {
-    const std::string empty = "catalogue-test.prm";
-    std::ofstream     file(empty);
-    file.close();
-    const Scene scene = Scene::read(empty, overrides, catalogue());
-    std::remove(empty.c_str());
-    return scene;
+    const TemporaryFile empty(".prm", "");
+    return Scene::read(empty.path, overrides, catalogue());
   }
 
   /** What the scene's growth law expects at t = 1 day. */

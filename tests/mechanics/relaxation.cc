@@ -10,6 +10,7 @@
 #include <random>
 
 #include "common/body_on_grid.h"
+#include "common/diagonal.h"
 #include "common/materials.h"
 #include "common/own_law.h"
 
@@ -18,16 +19,6 @@ using namespace Morula;
 namespace
 {
   const Lame constants = lame(1., 0.4);
-
-  template <int dim>
-  Tensor<2, dim>
-  diagonal(const std::vector<double> &values)
-  {
-    Tensor<2, dim> F;
-    for (unsigned int i = 0; i < dim; ++i)
-      F[i][i] = values[i];
-    return F;
-  }
 
   /** F_e after relaxation. */
   template <int dim>

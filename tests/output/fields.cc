@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/diagonal.h"
 #include "common/materials.h"
 
 using namespace Morula;
@@ -45,16 +46,6 @@ namespace
     CellColumns<dim>    columns;
     std::vector<double> row;
   };
-
-  template <int dim>
-  Tensor<2, dim>
-  diagonal(const std::vector<double> &entries)
-  {
-    Tensor<2, dim> t;
-    for (unsigned int d = 0; d < dim; ++d)
-      t[d][d] = entries[d];
-    return t;
-  }
 
   /** A table's row by column names; the csv columns only. */
   template <int dim>

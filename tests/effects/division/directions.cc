@@ -11,6 +11,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/diagonal.h"
+
 using namespace dealii;
 using namespace Morula;
 
@@ -39,11 +41,8 @@ namespace
   Tensor<2, dim>
   deformation(const std::vector<double> &stretches)
   {
-    Tensor<2, dim> diagonal;
-    for (unsigned int d = 0; d < dim; ++d)
-      diagonal[d][d] = stretches[d];
     const Tensor<2, dim> Q = rotation<dim>();
-    return Q * diagonal * transpose(Q) * Q * Q;
+    return Q * diagonal<dim>(stretches) * transpose(Q) * Q * Q;
   }
 
   template <int dim>

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""prm/examples/growth-plate.prm, five days of a narrow one: how fast the plate
+"""prm/examples/growth-plate.prm, twelve days of a narrow one: how fast the plate
 grows, and which part of that is hypertrophy."""
 import numpy
 
@@ -10,7 +10,7 @@ from tests.common.results import Results, read_csv
 from program import TESTS, ProgramTest, main, overrides
 
 SCENE = TESTS.parent / "prm/examples/growth-plate.prm"
-NARROW = overrides({"Time/End time": "5", "Tissue/Size": "100, 300",
+NARROW = overrides({"Tissue/Size": "200, 300",
                     "Output/Formats": "csv"})
 PROLIFERATING, HYPERTROPHIC, BONE = range(3)
 HEIGHT = 300.0  # um, of the proliferating zone

@@ -47,6 +47,8 @@ class GrowthPlate(ProgramTest):
         print("heights, um:", mean, "deviations:",
               abs(heights / mean[:, None] - 1).max(axis=1))
         self.assertLess(abs(heights / mean[:, None] - 1).max(), 0.05)
+        # What doc/theory.md (10.7) says of growth along an axis has been relaxed.
+        self.assertLess(max(abs(c["sigma_xy"]).max() for c in cells), 0.1)
         share = 1 - RATE * mean[0] / velocity
         print("share of hypertrophy:", share)
         self.assertLess(abs(share - (1 - 1 / LONGER)), 0.03)

@@ -13,6 +13,7 @@
 //   build/step-7 prm/step-7.prm
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/state/present_cell.h>
 #include <morula/program/program.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -117,7 +118,9 @@ namespace Step7
 
   // The division rule: cells divide across their longest axis (Hertwig, 1884).
   // A cell that is longer than wide by less than a given factor cannot tell,
-  // and takes the random direction that it would have taken anyway.
+  // and takes the random direction that it would have taken anyway. With a
+  // memory, it is not the shape of the moment that counts, but a mean over the
+  // past that forgets within that time.
   struct LongAxisParameters : public EffectKeys
   {
     Key<double> least_elongation{
@@ -126,12 +129,17 @@ namespace Step7
       "Ratio of the largest to the second largest elastic "
       "stretch below which a cell takes a random axis; >= 1.",
       {1.}};
+    Key<double> memory{"Memory",
+                       0.,
+                       "day: within which a cell forgets what shape it had; 0: "
+                       "its present shape counts.",
+                       {0.}};
 
     using Keys::list;
     KeyList
     list() override
     {
-      return {&least_elongation};
+      return {&least_elongation, &memory};
     }
   };
 
@@ -141,29 +149,63 @@ namespace Step7
   // The direction that is stretched most is the eigenvector of $C_e = F_e^T
   // F_e$ with the largest eigenvalue, the square of the stretch. deal.II sorts
   // them, largest first.
+  //
+  // The mean $M$ obeys $\dot M = (C_e - M)/\tau$. A rule keeps nothing between
+  // calls: what outlives a step stands in a column of the cells, which the rule
+  // adds and which exists only with a memory. Snapshots save it, and daughters
+  // have their mother's, with nothing to be done for it. advance() is called in
+  // every attempt at a step; for $C_e$ of the step's beginning it is exact.
   template <int dim>
   class LongAxis : public DivisionRule<dim>
   {
   public:
     using Parameters = LongAxisParameters;
 
-    explicit LongAxis(const Parameters &parameters)
+    LongAxis(const Parameters &parameters, const EffectSetting<dim> &setting)
       : least_elongation(parameters.least_elongation)
-    {}
+      , memory(parameters.memory)
+    {
+      if (memory > 0.)
+        remembered = setting.columns.template add<Tensor<2, dim>>(
+          {"remembered_shape",
+           "",
+           "mean of C_e over the past",
+           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    }
 
+    void
+    advance(const CellView<dim, const double> &before,
+            const CellView<dim, double>       &after,
+            const double                       t0,
+            const double                       t1) const override
+    {
+      if (!remembered.exists())
+        return;
+      const Tensor<2, dim> F_e  = before.elastic_deformation();
+      const double         kept = std::exp(-(t1 - t0) / memory);
+      after.set(remembered,
+                kept * before.get(remembered) +
+                  (1. - kept) * (transpose(F_e) * F_e));
+    }
+
+    // The library asks the founders before they have columns, too.
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override
     {
-      const auto eigenpairs =
-        eigenvectors(symmetrize(transpose(cell.elastic) * cell.elastic));
-      const double elongation =
+      const bool           remembers  = remembered.exists() && cell.present;
+      const Tensor<2, dim> C          = remembers ?
+                                          cell.present->cell().get(remembered) :
+                                          transpose(cell.elastic) * cell.elastic;
+      const auto           eigenpairs = eigenvectors(symmetrize(C));
+      const double         elongation =
         std::sqrt(eigenpairs[0].first / eigenpairs[1].first);
       return elongation >= least_elongation ? eigenpairs[0].second :
                                               cell.random;
     }
 
   private:
-    const double least_elongation;
+    const double           least_elongation, memory;
+    Column<Tensor<2, dim>> remembered;
   };
 } // namespace Step7
 

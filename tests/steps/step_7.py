@@ -10,6 +10,7 @@ from steps import ROOT, StepTest, main, overrides, read_csv
 
 RULE = "Proliferation/Cell cycle/Division axis"
 LAW = "Growth/Crowding limited/"
+MEMORY = "Proliferation/Cell cycle/Long axis/Memory"
 
 # A rigid box: all of its surface is held, and all cells grow alike. So F = I.
 BOX = {"Tissue/Size": "100, 100",
@@ -51,9 +52,9 @@ class Step7(StepTest):
         # It comes to rest at 1 - c.
         self.assertAlmostEqual(self.elastic_volume(0.1, 2), a, delta=1e-4)
 
-    def daughters(self, rule):
+    def daughters(self, rule, **keys):
         """|cos| of the angles between daughters' distances and the x axis."""
-        self.step(*overrides({**SHORT, RULE: rule}))
+        self.step(*overrides({**SHORT, RULE: rule, **keys}))
         lineage = read_csv(self.work / "output/lineage.csv")
         born = lineage[lineage["parent"] >= 0]
         first, second = born[0::2], born[1::2]
@@ -72,15 +73,26 @@ class Step7(StepTest):
         self.assertAlmostEqual(self.daughters("random").mean(), 2 / math.pi,
                                delta=0.1)
 
+    def test_memory(self):
+        """Who forgets within a step of a tenth of a day divides along the pull;
+        who remembers 1000 days, in which nothing was stretched, does not know
+        of it."""
+        self.assertGreater(
+            self.daughters("long axis", **{MEMORY: "0.05"}).mean(), 0.95)
+        self.assertAlmostEqual(
+            self.daughters("long axis", **{MEMORY: "1000"}).mean(),
+            2 / math.pi, delta=0.1)
+
     def test_resume(self):
         whole, resumed = self.work / "whole", self.work / "resumed"
-        self.step(*overrides(SHORT), output=whole)
-        self.step(*overrides({**SHORT, "Time/End time": "0.5"}),
+        scene = {**SHORT, MEMORY: "0.2"}
+        self.step(*overrides(scene), output=whole)
+        self.step(*overrides({**scene, "Time/End time": "0.5"}),
                   output=resumed)
-        message = self.step(*overrides({**SHORT, LAW + "Rate": "0.06"}),
+        message = self.step(*overrides({**scene, LAW + "Rate": "0.06"}),
                             "--resume", output=resumed, code=1)
         self.assertIn(LAW + "Rate", message)
-        self.step(*overrides(SHORT), "--resume", output=resumed)
+        self.step(*overrides(scene), "--resume", output=resumed)
         self.assert_same_file(whole / "lineage.csv", resumed / "lineage.csv")
         names = [sorted(path.glob("cells-*.csv"))[-1]
                  for path in (whole, resumed)]

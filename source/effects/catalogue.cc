@@ -9,6 +9,7 @@
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
+#include <morula/effects/surface/surface_tension.h>
 #include <morula/effects/surface/traction.h>
 
 #include <algorithm>
@@ -44,6 +45,7 @@ namespace Morula
     add<Slip>(boundary_conditions, "slip");
     add<Traction>(boundary_conditions, "traction");
     add<Pressure>(boundary_conditions, "pressure");
+    add<SurfaceTension>(boundary_conditions, "surface tension");
   }
 
 

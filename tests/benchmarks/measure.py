@@ -253,6 +253,7 @@ EFFECTS = [
     ("a body force", {"Body force/Force density": "0; 0; 1e-6"}),
     ("pressure on the surface", {"Boundary conditions/Pressure where": "1",
                                  "Boundary conditions/Pressure": "0.01"}),
+    ("surface tension", {"Boundary conditions/Surface tension": "0.1"}),
     ("even growth", EVEN),
     ("— ln J_e projected", {**EVEN, "Material/Volumetric strain": "projected"}),
     ("— stress relaxes", {**EVEN, "Material/Relaxation time": 0.5}),

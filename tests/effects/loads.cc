@@ -3,6 +3,7 @@
 
 #include <morula/effects/surface/dead_load.h>
 #include <morula/effects/surface/following_pressure.h>
+#include <morula/effects/surface/surface_energy.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -159,18 +160,72 @@ namespace
   }
 
   template <int dim>
+  SurfaceEnergy<dim>
+  random_tension(std::mt19937 &generator)
+  {
+    std::vector<typename SurfaceEnergy<dim>::Load> loads;
+    for (unsigned int p = 0; p < 3; ++p)
+      loads.push_back({1.5 * p, 40. * random_tensor<1, dim>(generator)});
+    return {random_points_in_cell<dim>(generator, 3), loads};
+  }
+
+  template <int dim>
+  void
+  check_tension()
+  {
+    std::mt19937 generator(5);
+    const auto   term = random_tension<dim>(generator);
+    EXPECT_TRUE(term.is_conservative());
+    expect_derivatives(term, random_field<dim>(generator, 0.2));
+  }
+
+  /** A patch under an affine map: the energy is that of the area gained. */
+  template <int dim>
+  void
+  check_stretched_patch()
+  {
+    const double       tension = 3., area = 7.;
+    GroupedPoints<dim> points{{0, 1}, {Point<dim>()}, 50.};
+    points.xi[0][0] = 0.3;
+    Tensor<1, dim> a;
+    a[0] = area;
+    const SurfaceEnergy<dim> term(points, {{tension, a}});
+    const TermOnOneCell<dim> at(term, GrowthAt::current);
+    Tensor<2, dim>           A; // stretches of 1.5, 1.2 (and 1.1), a shear
+    A[0][0]                 = 0.5;
+    A[1][1]                 = 0.2;
+    A[dim - 1][dim - 1]     = dim == 3 ? 0.1 : 0.2;
+    const double in_plane   = dim == 3 ? 1.2 * 1.1 : 1.2;
+    const auto   displaced  = affine_field(Tensor<1, dim>(), A, 50.);
+    const double difference = tension * area * (in_plane - 1.);
+    EXPECT_NEAR(at.energy(displaced), difference, 1e-12 * area);
+    // Along its normal a patch feels nothing.
+    const auto residual = at.residual(displaced);
+    double     largest  = 0.;
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      {
+        EXPECT_NEAR(residual[a], 0., 1e-12);
+        largest = std::max(largest, std::abs(residual[BSpline<dim>::n + a]));
+      }
+    EXPECT_GT(largest, 0.01);
+  }
+
+  template <int dim>
   void
   check_inversion()
   {
     std::mt19937   generator(4);
-    const auto     term = random_pressure<dim>(generator);
+    const auto     term    = random_pressure<dim>(generator);
+    const auto     tension = random_tension<dim>(generator);
     Tensor<2, dim> mirror;
     mirror[0][0] = -2.5;
     for (const auto wanted :
          {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
-      EXPECT_TRUE(
-        TermOnOneCell<dim>(term, GrowthAt::current)
-          .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));
+      for (const Term<dim> *load :
+           std::vector<const Term<dim> *>{&term, &tension})
+        EXPECT_TRUE(
+          TermOnOneCell<dim>(*load, GrowthAt::current)
+            .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));
   }
 } // namespace
 
@@ -187,7 +242,15 @@ TEST(FollowingPressure, OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume){
   MORULA_BOTH_DIMENSIONS(check_closed_surface)}
 
 
-TEST(FollowingPressure, NoticesInversion)
+TEST(SurfaceEnergy, ResidualAndTangentAreTheEnergysDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_tension)}
+
+
+TEST(SurfaceEnergy,
+     IsThatOfTheAreaGained){MORULA_BOTH_DIMENSIONS(check_stretched_patch)}
+
+
+TEST(SurfaceLoads, NoticeInversion)
 {
   MORULA_BOTH_DIMENSIONS(check_inversion)
 }

@@ -25,6 +25,7 @@ subsection Boundary conditions
   set Traction       = 0.001; 0; 0
   set Pressure where = Z > 59
   set Pressure       = 0.001
+  set Surface tension = 0.001
 end
 subsection Body force
   set Force density = 0; 0; -1e-6

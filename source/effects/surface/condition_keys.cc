@@ -6,8 +6,9 @@
 namespace Morula
 {
   ConditionKeys::ConditionKeys(const std::string &path,
-                               const std::string &documentation)
-    : where(path, "", documentation, Evaluated::founder)
+                               const std::string &documentation,
+                               const std::string &anywhere)
+    : where(path, anywhere, documentation, Evaluated::founder)
   {}
 
 

@@ -53,6 +53,7 @@ IN_2D = [
           ("Fixed", "Displacement", "0; 0.1*t*Z; 0"),
           ("Traction", "Traction", "0; 0; Z"),
           ("Pressure", "Pressure", "Z"))),
+    without_z(CONDITIONS + "Surface tension", "Z"),
     without_z("Body force/Force density", "0; -Z; 0"),
 ]
 

@@ -17,6 +17,7 @@ SWITCHES = (
     ("slip", "Boundary conditions/Slip where", ""),
     ("traction", "Boundary conditions/Traction where", ""),
     ("pressure", "Boundary conditions/Pressure where", ""),
+    ("surface tension", "Boundary conditions/Surface tension", "0"),
     ("body force", "Body force/Force density", "0;0;0"))
 
 

@@ -14,8 +14,13 @@ namespace Morula
   /** The keys of a condition that acts where an expression is positive. */
   struct ConditionKeys : public EffectKeys
   {
-    /** @param path of the key that says where; without text: nowhere */
-    ConditionKeys(const std::string &path, const std::string &documentation);
+    /**
+     * @param path     of the key that says where; without text: nowhere
+     * @param anywhere what it says if the scene does not set it
+     */
+    ConditionKeys(const std::string &path,
+                  const std::string &documentation,
+                  const std::string &anywhere = "");
 
     ExpressionKey where;
 

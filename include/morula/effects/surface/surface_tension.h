@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_surface_tension_h
+#define morula_effects_surface_surface_tension_h
+
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/condition_keys.h>
+
+namespace Morula
+{
+  /** The keys of the surface tension, in section "Boundary conditions". */
+  struct SurfaceTensionParameters : public ConditionKeys
+  {
+    SurfaceTensionParameters();
+
+    ExpressionKey tension; // kPa µm
+
+    bool
+    is_on() const override;
+    using Keys::list;
+    KeyList
+    list() override;
+    std::string
+    details() const override;
+  };
+
+  /** Tension of the surface, which squeezes a ball by Laplace's pressure:
+   *  doc/theory.md (4.8a), (4.8c). */
+  template <int dim>
+  class SurfaceTension : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = SurfaceTensionParameters;
+
+    /** @throws InputError for expressions that cannot be parsed */
+    explicit SurfaceTension(const Parameters &parameters);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    /** @throws InputError where the tension has no value or is negative */
+    std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const override;
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    /** γ at a point that the tension acts on, kPa µm. @throws InputError */
+    double
+    value(const Point<dim> &X, const double t) const;
+
+    const Expression where, tension;
+  };
+} // namespace Morula
+
+#endif

@@ -30,16 +30,20 @@ namespace Morula
       }
     };
 
-    /** Adds a point with the weight W k. */
+    /** Adds a point. */
     template <int dim>
     void
     add_to_mean(const SpatialGradients<dim> &gradients,
-                const double                 log_J,
-                const double                 weight,
+                const ElasticPoint<dim>     &state,
+                const double                 W,
                 VolumeMean<dim>             &mean)
     {
-      mean.modulus += weight;
-      mean.sum += weight * log_J;
+      const double modulus = W * state.response().volumetric.modulus;
+      const bool   pooled  = mean.form == VolumetricStrain::pooled;
+      const double weight  = pooled ? W * state.strain().J : modulus;
+      mean.modulus += modulus;
+      mean.weight += weight;
+      mean.sum += pooled ? W : weight * state.strain().log_J;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           mean.gradients[i][a] += weight * gradients.g[i][a];
@@ -67,6 +71,21 @@ namespace Morula
             for (unsigned int j = 0; j < dim; ++j)
               system.magnitude[i * n + a] +=
                 std::abs(tau[i][j] * gradients.g[j][a]);
+    }
+
+    /** A and γ with what the volumetric part adds to them at a point. */
+    template <int dim>
+    std::pair<double, double>
+    volumetric_part(const ElasticPoint<dim> &state,
+                    const StrainOfGridCell  *strain)
+    {
+      const auto &r = state.response();
+      if (strain == nullptr)
+        return {r.total_A(), r.total_gamma()};
+      if (strain->form != VolumetricStrain::pooled)
+        return {r.A, r.total_gamma()};
+      const double pull = strain->mean_stress * state.strain().J;
+      return {r.A + pull, r.gamma + pull};
     }
 
     /** The coefficients of (2.5), times W. */
@@ -214,43 +233,38 @@ namespace Morula
           }
         add_stress(gradients, W * state.distortional_stress(), system);
         system.add_energy(W * response.energy, W * response.magnitude);
-        add_to_mean(gradients,
-                    state.strain().log_J,
-                    W * response.volumetric.modulus,
-                    *mean);
+        add_to_mean(gradients, state, W, *mean);
       });
   }
 
   template <int dim>
   bool
-  InternalForce<dim>::add_tangent(const unsigned int     grid_cell,
-                                  const LocalField<dim> &field,
-                                  const GrowthAt         growth,
-                                  const double          *theta,
-                                  LocalSystem<dim>      &system) const
+  InternalForce<dim>::add_tangent(const unsigned int      grid_cell,
+                                  const LocalField<dim>  &field,
+                                  const GrowthAt          growth,
+                                  const StrainOfGridCell *strain,
+                                  LocalSystem<dim>       &system) const
   {
     std::vector<double> upper(system.matrix.size(), 0.);
     const bool          coupled = points.material->coupled();
-    const bool          valid =
-      for_each_point(grid_cell,
-                     field,
-                     growth,
-                     theta,
-                     system,
-                     [&](const SpatialGradients<dim> &gradients,
-                         const ElasticPoint<dim>     &state,
-                         const double                 W) {
-                       const auto &r = state.response();
-                       add_blocks(gradients,
-                                  state.b(),
-                                  {W * (theta == nullptr ? r.total_A() : r.A),
-                                   W * (r.alpha - r.total_gamma()),
-                                   W * r.alpha,
-                                   W * r.B,
-                                   W * r.C},
-                                  coupled,
-                                  upper.data());
-                     });
+    const bool          valid   = for_each_point(
+      grid_cell,
+      field,
+      growth,
+      strain != nullptr ? &strain->theta : nullptr,
+      system,
+      [&](const SpatialGradients<dim> &gradients,
+          const ElasticPoint<dim>     &state,
+          const double                 W) {
+        const auto [A, gamma] = volumetric_part(state, strain);
+        const auto &r         = state.response();
+        add_blocks(
+          gradients,
+          state.b(),
+          {W * A, W * (r.alpha - gamma), W * r.alpha, W * r.B, W * r.C},
+          coupled,
+          upper.data());
+      });
     if (valid)
       add_lower_blocks<dim>(upper, system.matrix);
     return valid;
@@ -262,7 +276,7 @@ namespace Morula
                            const LocalField<dim> &field,
                            const GrowthAt         growth) const
   {
-    VolumeMean<dim>  mean;
+    VolumeMean<dim>  mean{form};
     LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
     add_forces(grid_cell, field, growth, &mean, unused);
     return mean;
@@ -270,23 +284,25 @@ namespace Morula
 
   template <int dim>
   void
-  InternalForce<dim>::add_projected_tangent(const unsigned int     grid_cell,
-                                            const LocalField<dim> &field,
-                                            const GrowthAt         growth,
-                                            LocalSystem<dim>      &system) const
+  InternalForce<dim>::add_tangent_of_grid_cell(const unsigned int     grid_cell,
+                                               const LocalField<dim> &field,
+                                               const GrowthAt         growth,
+                                               LocalSystem<dim> &system) const
   {
     const VolumeMean<dim> mean = this->mean(grid_cell, field, growth);
     const double          theta =
       system.last != nullptr ? system.last->at(field) : mean.theta();
-    if (!add_tangent(grid_cell, field, growth, &theta, system))
+    const Volumetric<double> U      = points.material->volumetric(theta);
+    const StrainOfGridCell   strain = mean.at_points(U, theta);
+    if (!add_tangent(grid_cell, field, growth, &strain, system))
       return;
-    mean.add_tangent(points.material->volumetric(theta), system);
+    mean.add_tangent(U, system);
     // What the next residual is of: the growth at t + dt.
     system.linearisation = {field,
                             mean.derivative(),
                             growth == GrowthAt::current ?
                               mean.theta() :
-                              mean_log_volume_ratio(grid_cell, field)};
+                              log_volume_ratio(grid_cell, field)};
   }
 
   template <int dim>
@@ -305,10 +321,10 @@ namespace Morula
           add_forces(grid_cell, field, growth, nullptr, system);
       }
     else if (wants_tangent)
-      add_projected_tangent(grid_cell, field, growth, system);
+      add_tangent_of_grid_cell(grid_cell, field, growth, system);
     else
       {
-        VolumeMean<dim> mean;
+        VolumeMean<dim> mean{form};
         if (add_forces(grid_cell, field, growth, &mean, system))
           mean.add_forces(points.material->volumetric(mean.theta()), system);
       }
@@ -316,8 +332,8 @@ namespace Morula
 
   template <int dim>
   double
-  InternalForce<dim>::mean_log_volume_ratio(const unsigned int     grid_cell,
-                                            const LocalField<dim> &field) const
+  InternalForce<dim>::log_volume_ratio(const unsigned int     grid_cell,
+                                       const LocalField<dim> &field) const
   {
     return mean(grid_cell, field, GrowthAt::current).theta();
   }

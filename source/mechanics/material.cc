@@ -30,10 +30,12 @@ namespace Morula
         "Material/Volumetric strain",
         "pointwise",
         "The elastic volume change in the volumetric part of the energy (that "
-        "with lambda, or kappa): each cell's own, or its mean over the cells "
-        "of a grid cell. Projected, tissue does not lock as Poisson's ratio "
-        "approaches 0.5; choose it above about 0.47.",
-        {"pointwise|projected"})
+        "with lambda, or kappa): each cell's own, its mean over the cells "
+        "of a grid cell, or that of the sum of their volumes. Projected or "
+        "pooled, tissue does not lock as Poisson's ratio approaches 0.5; "
+        "choose one of them above about 0.47. Pooled, cells that grow or "
+        "shrink do not press those beside them in their grid cell.",
+        {"pointwise|projected|pooled"})
     , law("Material/Law",
           "neo-Hookean",
           "The elastic energy as a function of the elastic deformation: the "
@@ -91,7 +93,8 @@ namespace Morula
   MaterialParameters::volumetric_form() const
   {
     return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
-                                              VolumetricStrain::projected;
+           volumetric_strain == "projected" ? VolumetricStrain::projected :
+                                              VolumetricStrain::pooled;
   }
 
 

@@ -64,7 +64,7 @@ namespace Morula
   {
     if (!this->points.any(grid_cell))
       return true;
-    KernelVolume volume;
+    KernelVolume volume{this->form};
     if (mean != nullptr)
       volume.gradients = &mean->gradients[0][0];
     const KernelResult found =
@@ -77,7 +77,8 @@ namespace Morula
     if (mean != nullptr)
       {
         mean->modulus += volume.modulus;
-        mean->sum += volume.log_J;
+        mean->weight += volume.weight;
+        mean->sum += volume.sum;
       }
     system.add_energy(found.energy, found.energy_magnitude);
     return admit(found, grid_cell, system);
@@ -85,15 +86,15 @@ namespace Morula
 
   template <int dim>
   bool
-  VectorizedInternalForce<dim>::add_tangent(const unsigned int     grid_cell,
-                                            const LocalField<dim> &field,
-                                            const GrowthAt         growth,
-                                            const double          *theta,
-                                            LocalSystem<dim>      &system) const
+  VectorizedInternalForce<dim>::add_tangent(const unsigned int      grid_cell,
+                                            const LocalField<dim>  &field,
+                                            const GrowthAt          growth,
+                                            const StrainOfGridCell *strain,
+                                            LocalSystem<dim> &system) const
   {
     return !this->points.any(grid_cell) ||
            admit(kernels.tangent(input(grid_cell, field, growth),
-                                 theta,
+                                 strain,
                                  system.matrix.data()),
                  grid_cell,
                  system);

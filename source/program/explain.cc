@@ -167,6 +167,10 @@ namespace Morula
                    scene.material.volumetric_form() ==
                      VolumetricStrain::projected,
                    "one mean of ln J_e a grid cell");
+      print_effect(out,
+                   "pooled volume",
+                   scene.material.volumetric_form() == VolumetricStrain::pooled,
+                   "one sum of volumes a grid cell");
     }
 
     /** @param used  the scene's

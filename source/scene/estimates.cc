@@ -63,7 +63,7 @@ namespace Morula
         return 2e-6 * n_cells;
       constexpr double newton_iterations = 4.;
       const bool       is_projected =
-        scene.material.volumetric_form() == VolumetricStrain::projected;
+        scene.material.volumetric_form() != VolumetricStrain::pointwise;
       const double n_points =
         n_cells * std::pow(scene.grid.points_per_cell.value(), dim);
       const double point    = dim == 2 ? (is_projected ? 0.8e-6 : 0.6e-6) :

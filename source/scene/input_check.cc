@@ -68,6 +68,21 @@ namespace Morula
                       remedy + ", or remove this key.");
     }
 
+    void
+    check_material(const MaterialParameters &material, const unsigned int dim)
+    {
+      material.check_each(dim);
+      // W is the weight of a cell in the grid cell's volume, too.
+      if (material.volumetric_form() == VolumetricStrain::pooled &&
+          !material.per_grown_volume())
+        material.energy_per.refuse(
+          "grown volume, as " + material.volumetric_strain.path() + " = pooled",
+          "The cells of a grid cell then share one pressure by the volumes "
+          "that they have grown to: set " +
+            material.energy_per.path() + " = grown volume, or " +
+            material.volumetric_strain.path() + " = projected.");
+    }
+
     /** Checks an effect's keys and makes it, for what it refuses. */
     template <int dim, template <int> class Interface>
     void
@@ -229,7 +244,7 @@ namespace Morula
                     dim); // first: the next looks through all places of cells
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
-      scene.material.check_each(dim);
+      check_material(scene.material, dim);
       check_types<dim>(scene);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,

@@ -3,16 +3,12 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
-#include <morula/mechanics/spline_field.h>
-#include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
-#include <morula/simulation/step_points.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <cmath>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -175,8 +171,8 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "grid");
     tissue.defragment(); // here, where a step holds least memory
-    return tissue.splines(material.volumetric_form() ==
-                          VolumetricStrain::projected);
+    return tissue.splines(material.volumetric_form() !=
+                          VolumetricStrain::pointwise);
   }
 
   template <int dim>
@@ -237,40 +233,6 @@ namespace Morula
   {
     if (condition)
       files->condition(n_steps, row.time - row.dt, *condition);
-  }
-
-  template <int dim>
-  std::vector<double>
-  Simulation<dim>::elastic_volumes(
-    const SplineSpace<dim>       &space,
-    const DisplacementField<dim> &displacement) const
-  {
-    std::vector<double> ratios;
-    if (material.volumetric_form() == VolumetricStrain::pointwise)
-      return ratios;
-    // From then on the cells have the volume that counted in the step.
-    const MaterialPoints<dim> points =
-      material_points(tissue, space, growth_of_step, material);
-    const auto force =
-      internal_force(points, material.volumetric_form(), scene.solver.kernel);
-    // On all ranks: a cell on a grid line has part in several grid cells.
-    const GridBox<dim> &box = space.box();
-    std::vector<double> theta(box.size(), 0.);
-    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-      theta[space.grid_cells()[c].number] =
-        force->mean_log_volume_ratio(c, displacement.on_grid_cell(c));
-    Utilities::MPI::sum(theta, comm, theta);
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      {
-        double mean = 0.;
-        space.occupancy().for_each_share(
-          tissue.cells().position(p),
-          [&](const Point<dim> &share, const unsigned int n) {
-            mean += theta[box.number(box.locate(share))] / n;
-          });
-        ratios.push_back(std::exp(mean));
-      }
-    return ratios;
   }
 
   template <int dim>

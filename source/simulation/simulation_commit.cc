@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/spline_field.h>
+#include <morula/simulation/elastic_volumes.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
@@ -76,7 +77,12 @@ namespace Morula
   {
     const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, u, comm);
-    const std::vector<double>    volumes = elastic_volumes(space, displacement);
+    const std::vector<double>    volumes = elastic_volumes(tissue,
+                                                        space,
+                                                        growth_of_step,
+                                                        material,
+                                                        scene.solver.kernel,
+                                                        displacement);
     const Moved<dim>             cells =
       moved(tissue.cells(), displacement, Motion(), comm);
     // Where the surface stands off from the cells the field is extrapolated: no

@@ -2,10 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 // The internal force on grid cells of 125 particles (2-D: 25), plain and
-// vectorised, of each material, with the volumetric strain of each point and
-// projected, next to what the core can do: a matrix product and the triad of
-// STREAM. The environment variable MORULA_BLAS names a shared library with a
-// fast dgemm_. contrib/benchmark runs this and writes doc/performance.md.
+// vectorised, of each material, with the volumetric strain of each point,
+// projected and pooled, next to what the core can do: a matrix product and the
+// triad of STREAM. The environment variable MORULA_BLAS names a shared library
+// with a fast dgemm_. contrib/benchmark runs this and writes
+// doc/performance.md.
 
 #include <morula/mechanics/materials/materials.h>
 #include <morula/mechanics/vectorized_internal_force.h>
@@ -204,6 +205,9 @@ namespace
         register_assembly<dim>(what + "projected ",
                                material,
                                VolumetricStrain::projected);
+        register_assembly<dim>(what + "pooled ",
+                               material,
+                               VolumetricStrain::pooled);
       }
   }
 } // namespace

@@ -256,6 +256,8 @@ EFFECTS = [
     ("surface tension", {"Boundary conditions/Surface tension": "0.1"}),
     ("even growth", EVEN),
     ("— ln J_e projected", {**EVEN, "Material/Volumetric strain": "projected"}),
+    ("— volumes pooled", {**EVEN, "Material/Volumetric strain": "pooled",
+                          "Material/Energy per": "grown volume"}),
     ("— stress relaxes", {**EVEN, "Material/Relaxation time": 0.5}),
     ("— cells contract", {**EVEN, "Contraction/Stretch": "1 - 0.01*t",
                           "Contraction/Direction": "0; 0; 1"}),

@@ -16,8 +16,12 @@ using namespace Morula;
 
 namespace
 {
-  const std::vector<VolumetricStrain> both_forms = {
-    VolumetricStrain::pointwise, VolumetricStrain::projected};
+  /** One volumetric strain a grid cell. */
+  const std::vector<VolumetricStrain> forms_of_grid_cells = {
+    VolumetricStrain::projected, VolumetricStrain::pooled};
+  const std::vector<VolumetricStrain> all_forms = {VolumetricStrain::pointwise,
+                                                   VolumetricStrain::projected,
+                                                   VolumetricStrain::pooled};
 
   template <int dim>
   MaterialPoints<dim>
@@ -51,7 +55,7 @@ namespace
             SCOPED_TRACE(name);
             const auto points = random_material_points<dim>(
               generator, 4, growing, uniform, material_of_test(name));
-            for (const VolumetricStrain form : both_forms)
+            for (const VolumetricStrain form : all_forms)
               {
                 const InternalForce<dim> term(points, form);
                 EXPECT_TRUE(term.is_conservative());
@@ -60,36 +64,88 @@ namespace
           }
   }
 
-  /** Where all points have the same ln J_e, it is its own mean. */
+  /** Where all points have the same ln J_e, it is that of the grid cell.
+   *  Pooled, the pressure is that of the mean modulus. */
+  template <int dim>
+  void
+  check_uniform_volume_ratio_of(const std::string     &law,
+                                const VolumetricStrain form)
+  {
+    SCOPED_TRACE(law);
+    std::mt19937 generator(5);
+    auto         points = random_material_points<dim>(generator,
+                                              4,
+                                              false,
+                                              form == VolumetricStrain::pooled,
+                                              material_of_test(law));
+    for (auto &state : points.current)
+      state.A *= std::pow(0.9 / determinant(state.A), 1. / dim);
+    const auto field = affine_field(random_tensor<1, dim>(generator),
+                                    0.2 * random_tensor<2, dim>(generator),
+                                    points.h);
+    const InternalForce<dim> plain(points);
+    const InternalForce<dim> of_grid_cell(points, form);
+    const TermOnOneCell<dim> expected(plain, GrowthAt::current);
+    const TermOnOneCell<dim> found(of_grid_cell, GrowthAt::current);
+    expect_near(found.residual(field), expected.residual(field), 1e-12);
+    EXPECT_NEAR(found.energy(field),
+                expected.energy(field),
+                1e-12 * expected.energy(field));
+    const double J = 0.9 * determinant(field.step_deformation(
+                             SplineValues<dim>(points.xi[0], points.h)));
+    EXPECT_NEAR(of_grid_cell.log_volume_ratio(0, field), std::log(J), 1e-12);
+  }
+
   template <int dim>
   void
   check_uniform_volume_ratio()
   {
     for (const std::string &name : all_materials().names())
+      for (const VolumetricStrain form : forms_of_grid_cells)
+        check_uniform_volume_ratio_of<dim>(name, form);
+  }
+
+  /** Without shear, the pooled energy is that of one body of the sum of the
+   *  volumes, and so is the pressure: what single points have makes no
+   *  difference. */
+  template <int dim>
+  void
+  check_pooled_volume()
+  {
+    std::mt19937 generator(9);
+    auto points       = random_material_points<dim>(generator, 6, false, true);
+    points.lame       = {{1.7, 0.}};
+    const auto field  = random_field<dim>(generator, 0.1);
+    double     volume = 0., grown = 0.;
+    for (unsigned int p = 0; p < points.xi.size(); ++p)
       {
-        SCOPED_TRACE(name);
-        std::mt19937 generator(5);
-        auto         points = random_material_points<dim>(
-          generator, 4, false, false, material_of_test(name));
-        for (auto &state : points.current)
-          state.A *= std::pow(0.9 / determinant(state.A), 1. / dim);
-        const auto field = affine_field(random_tensor<1, dim>(generator),
-                                        0.2 * random_tensor<2, dim>(generator),
-                                        points.h);
-        const InternalForce<dim> plain(points);
-        const InternalForce<dim> projected(points, VolumetricStrain::projected);
-        const TermOnOneCell<dim> expected(plain, GrowthAt::current);
-        const TermOnOneCell<dim> found(projected, GrowthAt::current);
-        expect_near(found.residual(field), expected.residual(field), 1e-12);
-        EXPECT_NEAR(found.energy(field),
-                    expected.energy(field),
-                    1e-12 * expected.energy(field));
-        const double J = 0.9 * determinant(field.step_deformation(
-                                 SplineValues<dim>(points.xi[0], points.h)));
-        EXPECT_NEAR(projected.mean_log_volume_ratio(0, field),
-                    std::log(J),
-                    1e-12);
+        const auto &[A, W] = points.current[p];
+        volume += W * determinant(A) *
+                  determinant(field.step_deformation(
+                    SplineValues<dim>(points.xi[p], points.h)));
+        grown += W;
       }
+    const double             theta = std::log(volume / grown);
+    const InternalForce<dim> term(points, VolumetricStrain::pooled);
+    const TermOnOneCell<dim> at(term, GrowthAt::current);
+    EXPECT_NEAR(term.log_volume_ratio(0, field), theta, 1e-13);
+    EXPECT_NEAR(at.energy(field), 0.5 * grown * 1.7 * theta * theta, 1e-11);
+    // The grown volume moves from a point to the others with its volume: the
+    // one shrinks to nothing without stretch, the sum and so the forces stay.
+    auto         others = points;
+    const double gone   = 0.999 * others.current[0].W;
+    others.current[0].W -= gone;
+    others.current[0].A *=
+      std::pow((points.current[0].W * determinant(points.current[0].A)) /
+                 (others.current[0].W * determinant(points.current[0].A)),
+               1. / dim);
+    others.current[1].W += gone;
+    others.current[1].A *=
+      std::pow(points.current[1].W / others.current[1].W, 1. / dim);
+    const InternalForce<dim> moved(others, VolumetricStrain::pooled);
+    expect_near(TermOnOneCell<dim>(moved, GrowthAt::current).residual(field),
+                at.residual(field),
+                1e-12);
   }
 
   /** A rotation of the deformed state leaves the energy and turns the forces.
@@ -112,7 +168,7 @@ namespace
       for (unsigned int j = 0; j < dim; ++j)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           rotated.coefficient[i][a] += Q[i][j] * field.coefficient[j][a];
-    for (const VolumetricStrain form : both_forms)
+    for (const VolumetricStrain form : all_forms)
       {
         const InternalForce<dim> term(points, form);
         const TermOnOneCell<dim> at(term, GrowthAt::current);
@@ -130,7 +186,7 @@ namespace
       }
   }
 
-  /** Without shear stiffness and stress, the projected tangent is that of one
+  /** Without shear stiffness and stress, the tangent is that of one
    *  constraint a grid cell: of rank one, however many points it holds. */
   template <int dim>
   void
@@ -141,20 +197,23 @@ namespace
     points.lame = {{1., 0.}};
     for (auto &state : points.current)
       state.A = unit_tensor<dim>();
-    const InternalForce<dim> term(points, VolumetricStrain::projected);
-    const auto               K =
-      TermOnOneCell<dim>(term, GrowthAt::current).tangent(LocalField<dim>{});
-    constexpr unsigned int N     = LocalSystem<dim>::n_dofs;
-    unsigned int           pivot = 0;
-    for (unsigned int i = 0; i < N; ++i)
-      if (K[i * N + i] > K[pivot * N + pivot])
-        pivot = i;
-    std::vector<double> product(N * N);
-    for (unsigned int i = 0; i < N; ++i)
-      for (unsigned int j = 0; j < N; ++j)
-        product[i * N + j] =
-          K[i * N + pivot] * K[pivot * N + j] / K[pivot * N + pivot];
-    expect_near(K, product, 1e-12);
+    for (const VolumetricStrain form : forms_of_grid_cells)
+      {
+        const InternalForce<dim> term(points, form);
+        const auto               K = TermOnOneCell<dim>(term, GrowthAt::current)
+                         .tangent(LocalField<dim>{});
+        constexpr unsigned int N     = LocalSystem<dim>::n_dofs;
+        unsigned int           pivot = 0;
+        for (unsigned int i = 0; i < N; ++i)
+          if (K[i * N + i] > K[pivot * N + pivot])
+            pivot = i;
+        std::vector<double> product(N * N);
+        for (unsigned int i = 0; i < N; ++i)
+          for (unsigned int j = 0; j < N; ++j)
+            product[i * N + j] =
+              K[i * N + pivot] * K[pivot * N + j] / K[pivot * N + pivot];
+        expect_near(K, product, 1e-12);
+      }
   }
 
   /** A tangent takes the volume change from the linearisation that it is
@@ -162,13 +221,13 @@ namespace
    *  term itself remembers nothing. */
   template <int dim>
   void
-  check_linearisation()
+  check_linearisation_of(const VolumetricStrain form)
   {
     std::mt19937 generator(8);
     const auto   points = random_material_points<dim>(generator, 4, true, true);
     const auto   first  = random_field<dim>(generator, 0.1);
     const auto   second = random_field<dim>(generator, 0.1);
-    const InternalForce<dim> term(points, VolumetricStrain::projected);
+    const InternalForce<dim> term(points, form);
     const auto               tangent =
       [&](const LocalField<dim>                         &field,
           const GrowthAt                                 growth,
@@ -183,8 +242,7 @@ namespace
     ASSERT_TRUE(exact.linearisation && before.linearisation);
     // Of both, the linearisation is that at the new growth.
     EXPECT_EQ(exact.linearisation->value, before.linearisation->value);
-    EXPECT_EQ(exact.linearisation->at(first),
-              term.mean_log_volume_ratio(0, first));
+    EXPECT_EQ(exact.linearisation->at(first), term.log_volume_ratio(0, first));
     // ... and its derivative that of the mean.
     const double eps = 1e-4;
     for (unsigned int dof = 0; dof < LocalSystem<dim>::n_dofs; ++dof)
@@ -194,8 +252,8 @@ namespace
         (&earlier.coefficient[0][0])[dof] -= eps;
         EXPECT_NEAR(exact.linearisation->at(after) -
                       exact.linearisation->at(earlier),
-                    term.mean_log_volume_ratio(0, after) -
-                      term.mean_log_volume_ratio(0, earlier),
+                    term.log_volume_ratio(0, after) -
+                      term.log_volume_ratio(0, earlier),
                     1e-12);
       }
     expect_near(tangent(first, GrowthAt::current, exact.linearisation).matrix,
@@ -208,6 +266,14 @@ namespace
       largest = std::max(largest, std::abs(own.matrix[i] - given.matrix[i]));
     EXPECT_GT(largest, 0.); // here they differ
     expect_near(tangent(second, GrowthAt::current, {}).matrix, own.matrix, 0.);
+  }
+
+  template <int dim>
+  void
+  check_linearisation()
+  {
+    for (const VolumetricStrain form : forms_of_grid_cells)
+      check_linearisation_of<dim>(form);
   }
 
   /** Energy and stress of a homogeneous deformation. */
@@ -243,7 +309,7 @@ namespace
     std::mt19937 generator(3);
     const auto points = random_material_points<dim>(generator, 5, false, true);
     const auto field  = random_field<dim>(generator, 0.1);
-    for (const VolumetricStrain form : both_forms)
+    for (const VolumetricStrain form : all_forms)
       {
         const InternalForce<dim> term(points, form);
         const auto system = TermOnOneCell<dim>(term, GrowthAt::current)
@@ -290,15 +356,19 @@ TEST(InternalForce, ResidualAndTangentAreDerivatives){
   MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
-TEST(InternalForce, UniformVolumeRatioIsItsOwnMean){
+TEST(InternalForce, UniformVolumeRatioIsThatOfTheGridCell){
   MORULA_BOTH_DIMENSIONS(check_uniform_volume_ratio)}
+
+
+TEST(InternalForce,
+     PooledVolumeIsOneSum){MORULA_BOTH_DIMENSIONS(check_pooled_volume)}
 
 
 TEST(InternalForce,
      IsFrameIndifferent){MORULA_BOTH_DIMENSIONS(check_frame_indifference)}
 
 
-TEST(InternalForce, ProjectedIsOneConstraintAGridCell){
+TEST(InternalForce, ProjectedOrPooledIsOneConstraintAGridCell){
   MORULA_BOTH_DIMENSIONS(check_one_constraint)}
 
 

@@ -71,7 +71,8 @@ namespace
   expect_same(const LocalSystem<dim> &found, const LocalSystem<dim> &expected)
   {
     expect_same(found.residual, expected.residual);
-    expect_same(found.magnitude, expected.magnitude);
+    if (expected.wanted == LocalSystem<dim>::rounding) // else incomplete
+      expect_same(found.magnitude, expected.magnitude);
     expect_same(found.matrix, expected.matrix);
     ASSERT_EQ(found.linearisation.has_value(),
               expected.linearisation.has_value());
@@ -109,8 +110,9 @@ namespace
     return neo_hookean().vector_kernels<dim>();
   }
 
-  const std::vector<VolumetricStrain> both_forms = {
-    VolumetricStrain::pointwise, VolumetricStrain::projected};
+  const std::vector<VolumetricStrain> all_forms = {VolumetricStrain::pointwise,
+                                                   VolumetricStrain::projected,
+                                                   VolumetricStrain::pooled};
 
   template <int dim>
   void
@@ -129,8 +131,8 @@ namespace
         SCOPED_TRACE(kernels.name + std::string(", points: ") +
                      std::to_string(n));
         const VectorizedInternalForce<dim> vectorized(points, kernels, form);
-        EXPECT_NEAR(vectorized.mean_log_volume_ratio(0, field),
-                    plain.mean_log_volume_ratio(0, field),
+        EXPECT_NEAR(vectorized.log_volume_ratio(0, field),
+                    plain.log_volume_ratio(0, field),
                     1e-14);
         for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
           for (const auto wanted : {LocalSystem<dim>::energy_and_residual,
@@ -146,7 +148,7 @@ namespace
   check_any_number()
   {
     for (const std::string &name : all_materials().names())
-      for (const VolumetricStrain form : both_forms)
+      for (const VolumetricStrain form : all_forms)
         for (const unsigned int n : {1, 2, 3, 7, 8, 9, 16, 41, 125})
           for (const bool uniform : {true, false})
             {
@@ -313,7 +315,7 @@ TEST(VectorizedInternalForce, IsChosenByName)
     return dynamic_cast<VectorizedInternalForce<3> *>(
              internal_force(points, form, kernel).get()) != nullptr;
   };
-  for (const VolumetricStrain form : both_forms)
+  for (const VolumetricStrain form : all_forms)
     {
       EXPECT_TRUE(is_vectorized(form, "automatic"));
       EXPECT_TRUE(is_vectorized(form, "baseline"));

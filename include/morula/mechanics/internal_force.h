@@ -23,7 +23,9 @@ namespace Morula
    * with the coefficients of the material's law (Response). Projected, ln J_e
    * in the volumetric part is its mean ϑ over the points of the grid cell: one
    * volumetric constraint a grid cell, so that nearly incompressible tissue
-   * does not lock; doc/theory.md (2.7). Its tangents take ϑ from the
+   * does not lock; doc/theory.md (2.7). Pooled, it is that of the sum of the
+   * points' volumes, (2.9), where W must be the grown volume. Such tangents
+   * take ϑ from the
    * linearisation at the last tangent, if the local system has one, as if the
    * pressure were an unknown of its own: ϑ of the displacement itself is wrong
    * by the square of the correction, which times λ would swamp μ. Both agree at
@@ -44,14 +46,15 @@ namespace Morula
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
 
-    /** The mean ϑ of ln J_e over the points of active grid cell @p cell with
-     *  the growth at t + dt; 0 without points. */
+    /** ϑ of active grid cell @p grid_cell with the growth at t + dt; 0 without
+     *  points. Not pointwise. */
     double
-    mean_log_volume_ratio(const unsigned int     grid_cell,
-                          const LocalField<dim> &field) const;
+    log_volume_ratio(const unsigned int     grid_cell,
+                     const LocalField<dim> &field) const;
 
   protected:
     const MaterialPoints<dim> &points;
+    const VolumetricStrain     form;
 
   private:
     /** Adds energy and residual or, if there is a @p mean, those of the
@@ -63,14 +66,14 @@ namespace Morula
                VolumeMean<dim>       *mean,
                LocalSystem<dim>      &system) const;
 
-    /** Adds to the tangent; if there is a @p theta, all but the product of the
+    /** Adds to the tangent; if there is a @p strain, all but the product of the
      *  means in (2.7). False if a point is inverted. */
     virtual bool
-    add_tangent(const unsigned int     grid_cell,
-                const LocalField<dim> &field,
-                const GrowthAt         growth,
-                const double          *theta,
-                LocalSystem<dim>      &system) const;
+    add_tangent(const unsigned int      grid_cell,
+                const LocalField<dim>  &field,
+                const GrowthAt          growth,
+                const StrainOfGridCell *strain,
+                LocalSystem<dim>       &system) const;
 
     /** Calls visit(gradients, state, W) for the points of a grid cell; false at
      *  the first that @p system does not admit. */
@@ -90,12 +93,10 @@ namespace Morula
          const GrowthAt         growth) const;
 
     void
-    add_projected_tangent(const unsigned int     grid_cell,
-                          const LocalField<dim> &field,
-                          const GrowthAt         growth,
-                          LocalSystem<dim>      &system) const;
-
-    const VolumetricStrain form;
+    add_tangent_of_grid_cell(const unsigned int     grid_cell,
+                             const LocalField<dim> &field,
+                             const GrowthAt         growth,
+                             LocalSystem<dim>      &system) const;
   };
 } // namespace Morula
 

@@ -7,6 +7,7 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/review.h>
 #include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/volumetric_strain.h>
 
 #include <deal.II/base/point.h>
 
@@ -14,16 +15,6 @@
 
 namespace Morula
 {
-  /** What stands for ln J_e in the volumetric part of the energy
-   *  (doc/theory.md, section 2). */
-  enum class VolumetricStrain
-  {
-    /** ln J_e of the point itself. */
-    pointwise,
-    /** Its mean over the points of the grid cell. */
-    projected
-  };
-
   /** Section "Material". */
   struct MaterialParameters : public Keys
   {

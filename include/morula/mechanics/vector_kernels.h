@@ -4,6 +4,8 @@
 #ifndef morula_mechanics_vector_kernels_h
 #define morula_mechanics_vector_kernels_h
 
+#include <morula/mechanics/volumetric_strain.h>
+
 #include <string>
 #include <vector>
 
@@ -29,13 +31,15 @@ namespace Morula
     const void   *law; // of the material that the kernels were made for
   };
 
-  /** What the projected volumetric strain sums over the points of a grid cell:
-   *  doc/theory.md (2.6). */
+  /** What the volumetric strain of a grid cell needs summed over its points:
+   *  see VolumeMean. */
   struct KernelVolume
   {
-    double  modulus   = 0.;      // Σ W k
-    double  log_J     = 0.;      // Σ W k ln J_e
-    double *gradients = nullptr; // Σ W k g, dim 3^dim values by component
+    VolumetricStrain form; // not pointwise
+    double           modulus   = 0.;
+    double           weight    = 0.;
+    double           sum       = 0.;
+    double          *gradients = nullptr; // dim 3^dim values by component
   };
 
   /** What a kernel finds. */
@@ -59,19 +63,19 @@ namespace Morula
 
     /** Adds to the residual, dim 3^dim values by component, and, if not null,
      *  to the sums of the magnitudes of its contributions. If @p volume is not
-     *  null, adds to that what the projected volumetric strain needs, and
-     * leaves the volumetric part of the law out of all else. */
+     *  null, adds to that what the volumetric strain of the grid cell needs,
+     *  and leaves the volumetric part of the law out of all else. */
     KernelResult (*residual)(const KernelInput &input,
                              double            *residual,
                              double            *magnitudes,
                              KernelVolume      *volume);
 
-    /** Adds to the tangent row by row. If @p theta is not null, the volumetric
-     *  strain is projected, ϑ is this number, and the product of the means in
-     *  doc/theory.md (2.7) is left out. */
-    KernelResult (*tangent)(const KernelInput &input,
-                            const double      *theta,
-                            double            *matrix);
+    /** Adds to the tangent row by row. If @p strain is not null, that is the
+     *  volumetric strain, and the product of the means in doc/theory.md (2.7),
+     *  (2.9) is left out. */
+    KernelResult (*tangent)(const KernelInput      &input,
+                            const StrainOfGridCell *strain,
+                            double                 *matrix);
   };
 
   /** Those for law number @p law of the library's list that this processor can

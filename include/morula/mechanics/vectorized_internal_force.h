@@ -35,11 +35,11 @@ namespace Morula
                LocalSystem<dim>      &system) const override;
 
     bool
-    add_tangent(const unsigned int     grid_cell,
-                const LocalField<dim> &field,
-                const GrowthAt         growth,
-                const double          *theta,
-                LocalSystem<dim>      &system) const override;
+    add_tangent(const unsigned int      grid_cell,
+                const LocalField<dim>  &field,
+                const GrowthAt          growth,
+                const StrainOfGridCell *strain,
+                LocalSystem<dim>       &system) const override;
 
     /** The points of a grid cell, of which there must be some. */
     KernelInput

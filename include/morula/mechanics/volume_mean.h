@@ -6,25 +6,40 @@
 
 #include <morula/mechanics/materials/response.h>
 #include <morula/mechanics/term.h>
+#include <morula/mechanics/volumetric_strain.h>
+
+#include <cmath>
 
 namespace Morula
 {
-  /** The mean of ln J_e over the points of one grid cell, and what follows from
-   *  it: doc/theory.md (2.6), (2.7). */
+  /** The volumetric strain of one grid cell, of the sums over its points, and
+   *  what follows from it: projected, doc/theory.md (2.6), (2.7); pooled,
+   *  doc/theory.md (2.8), (2.9). */
   template <int dim>
   struct VolumeMean
   {
     static constexpr unsigned int n = BSpline<dim>::n;
 
-    double modulus           = 0.; // Λ = Σ W k
-    double sum               = 0.; // Σ W k ln J_e
-    double gradients[dim][n] = {}; // Σ W k g_a
+    /** Not pointwise. */
+    const VolumetricStrain form = VolumetricStrain::projected;
+
+    /** Λ = Σ W k. */
+    double modulus = 0.;
+    /** Σ w: projected w = W k, pooled w = W J_e, the volumes. */
+    double weight = 0.;
+    /** Projected: Σ w ln J_e; pooled: Σ W, the grown volumes. */
+    double sum = 0.;
+    /** Σ w g_a. */
+    double gradients[dim][n] = {};
 
     /** ϑ; 0 without points. */
     double
     theta() const
     {
-      return modulus == 0. ? 0. : sum / modulus;
+      if (weight == 0.)
+        return 0.;
+      return form == VolumetricStrain::pooled ? std::log(weight / sum) :
+                                                sum / weight;
     }
 
     /** Energy Λ U(ϑ) and its forces. */
@@ -32,25 +47,36 @@ namespace Morula
     add_forces(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       system.add_energy(modulus * U.energy, modulus * U.magnitude);
+      const double factor = U.slope * share();
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
-          system.add_force(i, a, U.slope * gradients[i][a]);
+          system.add_force(i, a, factor * gradients[i][a]);
     }
 
-    /** Λ U'' (Σ W k g_a / Λ)^i (Σ W k g_b / Λ)^j. */
+    /** Λ U'' ḡ_a^i ḡ_b^j; pooled, U'' - U' in the place of U''. */
     void
     add_tangent(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      if (modulus == 0.)
+      if (weight == 0.)
         return;
-      const double *const all = &gradients[0][0];
+      const double curvature =
+        form == VolumetricStrain::pooled ? U.curvature - U.slope : U.curvature;
+      const double        scale = curvature * share();
+      const double *const all   = &gradients[0][0];
       for (unsigned int row = 0; row < n_dofs; ++row)
         {
-          const double factor = U.curvature * (all[row] / modulus);
+          const double factor = scale * (all[row] / weight);
           for (unsigned int column = 0; column < n_dofs; ++column)
             system.matrix[row * n_dofs + column] += factor * all[column];
         }
+    }
+
+    /** For the tangent at the points. @param U at @p theta */
+    StrainOfGridCell
+    at_points(const Volumetric<double> &U, const double theta) const
+    {
+      return {form, theta, U.slope * share()};
     }
 
     /** The derivative of ϑ, 1/µm. */
@@ -61,8 +87,18 @@ namespace Morula
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           result.coefficient[i][a] =
-            modulus == 0. ? 0. : gradients[i][a] / modulus;
+            weight == 0. ? 0. : gradients[i][a] / weight;
       return result;
+    }
+
+  private:
+    /** Λ / Σ w: exactly 1 if projected. */
+    double
+    share() const
+    {
+      return form == VolumetricStrain::pooled && weight != 0. ?
+               modulus / weight :
+               1.;
     }
   };
 } // namespace Morula

@@ -123,11 +123,6 @@ namespace Morula
     /** What keeps the step free of unsupported motions. */
     std::vector<Equilibrium::Vector>
     inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
-    /** Of every cell at the end of the step, where ln J_e is projected;
-     *  otherwise empty. */
-    std::vector<double>
-    elastic_volumes(const SplineSpace<dim>       &space,
-                    const DisplacementField<dim> &displacement) const;
     void
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     void

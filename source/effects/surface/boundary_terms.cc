@@ -187,11 +187,12 @@ namespace Morula
           space.box().spacing());
         list.push_back(condition);
       }
-    // Projected, ln J_e of the point itself says nothing about the pressure.
+    // Where the pressure is the grid cell's, ln J_e of the point itself says
+    // nothing about it.
     const PartOfLaw part =
-      material.volumetric_form() == VolumetricStrain::projected ?
-        PartOfLaw::distortion :
-        PartOfLaw::all;
+      material.volumetric_form() == VolumetricStrain::pointwise ?
+        PartOfLaw::all :
+        PartOfLaw::distortion;
     return std::make_unique<Nitsche<dim>>(conditions.nitsche().form(),
                                           material.material(),
                                           part,

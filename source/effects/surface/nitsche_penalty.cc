@@ -92,7 +92,7 @@ namespace Morula
                           const VolumetricStrain volumetric_form,
                           const double           h) const
   {
-    if (volumetric_form == VolumetricStrain::projected)
+    if (volumetric_form != VolumetricStrain::pointwise)
       return relative * (lame.lambda + 2. * lame.mu) / h;
     const double at_rest = lame.lambda + 2. * lame.mu;
     const double least =

@@ -7,7 +7,8 @@ namespace Morula
 {
   namespace MORULA_KERNELS
   {
-    /** What a law sees of the points. @param theta ϑ, if projected */
+    /** What a law sees of the points. @param theta ϑ, if the grid cell has one
+     */
     template <int dim>
     MORULA_INLINE Strain<Lanes>
     strain(const Points<dim> &points, const double *theta = nullptr)
@@ -113,23 +114,31 @@ namespace Morula
             target[3 * (n_yz<dim> * i + yz) + x] += sum(sums[i][yz][x]);
     }
 
-    /** What (2.6) sums over points: W k, W k ln J_e and W k g. */
-    template <int dim>
+    /** What (2.6) sums over points, W k, W k ln J_e and W k g, or (2.8): W k,
+     *  W, V = W J_e and V g. */
+    template <int dim, VolumetricStrain form>
     struct VolumeSums
     {
-      Lanes     modulus = {}, log_J = {};
+      Lanes     modulus = {}, weights = {}, total = {};
       Sums<dim> gradients = {};
 
       /** Adds points with the moduli @p k. */
       MORULA_INLINE void
       add(const Points<dim> &points, const Lanes &k)
       {
-        const Lanes weight = points.W * k;
-        Lanes       M[dim][dim];
+        constexpr bool pooled = form == VolumetricStrain::pooled;
+        const Lanes    weight = points.W * (pooled ? points.J : k);
+        Lanes          M[dim][dim];
         for (unsigned int i = 0; i < dim; ++i)
           column(points.f_inverse, i, weight, M[i]);
-        modulus += weight;
-        log_J += weight * points.log_J;
+        weights += weight;
+        if constexpr (pooled)
+          {
+            modulus += points.W * k;
+            total += points.W;
+          }
+        else
+          total += weight * points.log_J;
         add_gradients(points, M, gradients);
       }
 
@@ -137,15 +146,18 @@ namespace Morula
       MORULA_INLINE void
       add_to(KernelVolume &volume) const
       {
-        volume.modulus += sum(modulus);
-        volume.log_J += sum(log_J);
+        const double weight = sum(weights);
+        volume.weight += weight;
+        volume.modulus +=
+          form == VolumetricStrain::pooled ? sum(modulus) : weight;
+        volume.sum += sum(total);
         add_sums<dim>(gradients, volume.gradients);
       }
     };
 
     /** Energy and residual of a grid cell, doc/theory.md (2.4), or of the
      *  distortional part alone, and its VolumeSums. */
-    template <int dim, typename Law, bool projected>
+    template <int dim, typename Law, VolumetricStrain form>
     MORULA_INLINE KernelResult
     residual(const KernelInput &input,
              double            *target,
@@ -153,11 +165,12 @@ namespace Morula
              KernelVolume      *volume)
     {
       KernelResult result;
-      result.smallest_J    = __builtin_inf();
-      Sums<dim>       sums = {}, sizes = {};
-      Lanes           energies[2] = {};
-      VolumeSums<dim> volumes;
-      const Law      &law = *static_cast<const Law *>(input.law);
+      result.smallest_J          = __builtin_inf();
+      Sums<dim>             sums = {}, sizes = {};
+      Lanes                 energies[2] = {};
+      VolumeSums<dim, form> volumes;
+      constexpr bool        of_grid_cell = form != VolumetricStrain::pointwise;
+      const Law            &law          = *static_cast<const Law *>(input.law);
       for (unsigned int p = 0; p < input.n; p += lanes)
         {
           Points<dim> points;
@@ -169,7 +182,7 @@ namespace Morula
           const auto &k = r.volumetric.modulus;
           Lanes       tau[dim][dim], P[dim][dim];
           Lanes       energy = r.energy, size = r.magnitude;
-          if constexpr (projected)
+          if constexpr (of_grid_cell)
             volumes.add(points, k);
           else
             {
@@ -177,7 +190,7 @@ namespace Morula
               size += k * r.volumetric.magnitude;
             }
           stress(
-            points, r.alpha, projected ? r.gamma : r.total_gamma(), tau, P);
+            points, r.alpha, of_grid_cell ? r.gamma : r.total_gamma(), tau, P);
           energies[0] += points.W * energy;
           energies[1] += points.W * size;
           if (magnitudes != nullptr)
@@ -187,7 +200,7 @@ namespace Morula
       add_sums<dim>(sums, target);
       if (magnitudes != nullptr)
         add_sums<dim>(sizes, magnitudes);
-      if constexpr (projected)
+      if constexpr (of_grid_cell)
         volumes.add_to(*volume);
       result.energy           = sum(energies[0]);
       result.energy_magnitude = sum(energies[1]);
@@ -202,9 +215,14 @@ namespace Morula
                 double            *magnitudes,
                 KernelVolume      *volume)
     {
-      return volume == nullptr ?
-               residual<dim, Law, false>(input, target, magnitudes, volume) :
-               residual<dim, Law, true>(input, target, magnitudes, volume);
+      constexpr auto pointwise = VolumetricStrain::pointwise,
+                     projected = VolumetricStrain::projected,
+                     pooled    = VolumetricStrain::pooled;
+      if (volume == nullptr)
+        return residual<dim, Law, pointwise>(input, target, magnitudes, volume);
+      return volume->form == pooled ?
+               residual<dim, Law, pooled>(input, target, magnitudes, volume) :
+               residual<dim, Law, projected>(input, target, magnitudes, volume);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

@@ -132,12 +132,16 @@ namespace Morula
       using Type = CoupledPointRows<dim>;
     };
 
-    /** Tangent of a grid cell: doc/theory.md (2.5); projected, without the
-     *  first term of (2.7). See VectorKernels. */
-    template <int dim, typename Law>
-    inline KernelResult
-    tangent_of(const KernelInput &input, const double *theta, double *matrix)
+    /** Tangent of a grid cell: doc/theory.md (2.5); without the first term of
+     *  (2.7) if projected, of (2.9) if pooled. */
+    template <int dim, typename Law, bool pooled>
+    MORULA_INLINE KernelResult
+    tangent(const KernelInput      &input,
+            const StrainOfGridCell *of_grid_cell,
+            double                 *matrix)
     {
+      const double *const theta =
+        of_grid_cell != nullptr ? &of_grid_cell->theta : nullptr;
       KernelResult result;
       result.smallest_J = __builtin_inf();
       Blocks<dim> blocks;
@@ -153,16 +157,34 @@ namespace Morula
             return result;
           const auto         r = law.response(strain(points, theta));
           const unsigned int n = input.n - p < lanes ? input.n - p : lanes;
-          make_rows(points,
-                    r,
-                    theta != nullptr ? r.A : r.total_A(),
-                    r.total_gamma(),
-                    n,
-                    rows);
+          if constexpr (pooled)
+            {
+              const Lanes pull = of_grid_cell->mean_stress * points.J;
+              make_rows(points, r, r.A + pull, r.gamma + pull, n, rows);
+            }
+          else
+            make_rows(points,
+                      r,
+                      theta != nullptr ? r.A : r.total_A(),
+                      r.total_gamma(),
+                      n,
+                      rows);
           blocks.update(rows, n);
         }
       blocks.add_to(matrix);
       return result;
+    }
+
+    /** See VectorKernels. */
+    template <int dim, typename Law>
+    inline KernelResult
+    tangent_of(const KernelInput      &input,
+               const StrainOfGridCell *strain,
+               double                 *matrix)
+    {
+      return strain != nullptr && strain->form == VolumetricStrain::pooled ?
+               tangent<dim, Law, true>(input, strain, matrix) :
+               tangent<dim, Law, false>(input, strain, matrix);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

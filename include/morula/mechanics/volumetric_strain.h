@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_volumetric_strain_h
+#define morula_mechanics_volumetric_strain_h
+
+// Included by files that are compiled for one instruction set: no functions
+// that the linker could merge with those of other files.
+
+namespace Morula
+{
+  /** What stands for ln J_e in the volumetric part of the energy
+   *  (doc/theory.md, section 2). */
+  enum class VolumetricStrain
+  {
+    /** ln J_e of the point itself. */
+    pointwise,
+    /** Its mean over the points of the grid cell. */
+    projected,
+    /** That of the grid cell: the logarithm of the sum of its points' volumes
+     *  over that of their grown volumes. */
+    pooled
+  };
+
+  /** What the tangent at points needs of the volume of their grid cell:
+   *  doc/theory.md (2.7), (2.9). */
+  struct StrainOfGridCell
+  {
+    /** Not pointwise. */
+    VolumetricStrain form;
+    /** ϑ. */
+    double theta;
+    /** Pooled: Λ U'(ϑ) / v, kPa. */
+    double mean_stress;
+  };
+} // namespace Morula
+
+#endif

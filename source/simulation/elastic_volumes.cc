@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/simulation/elastic_volumes.h>
+#include <morula/simulation/step_points.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** ϑ of all grid cells of all ranks, by number; 0 where there is no point.
+     *  On all ranks: a cell may have part in grid cells of others. */
+    template <int dim>
+    std::vector<double>
+    log_volume_ratios(const InternalForce<dim>     &force,
+                      const SplineSpace<dim>       &space,
+                      const DisplacementField<dim> &displacement,
+                      const MPI_Comm                comm)
+    {
+      std::vector<double> theta(space.box().size(), 0.);
+      for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+        theta[space.grid_cells()[c].number] =
+          force.log_volume_ratio(c, displacement.on_grid_cell(c));
+      Utilities::MPI::sum(theta, comm, theta);
+      return theta;
+    }
+
+    /** Mean over the grid cells that share a point. @param of by number */
+    template <int dim, typename Value>
+    double
+    mean_of_shares(const Point<dim>       &x,
+                   const SplineSpace<dim> &space,
+                   const Value            &of)
+    {
+      const GridBox<dim> &box  = space.box();
+      double              mean = 0.;
+      space.occupancy().for_each_share(
+        x, [&](const Point<dim> &share, const unsigned int n) {
+          mean += of(box.number(box.locate(share))) / n;
+        });
+      return mean;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<double>
+  elastic_volumes(const Tissue<dim>            &tissue,
+                  const SplineSpace<dim>       &space,
+                  const GrowthOfStep<dim>      &growth,
+                  const TissueMaterial         &material,
+                  const std::string            &kernel,
+                  const DisplacementField<dim> &displacement)
+  {
+    std::vector<double>    ratios;
+    const VolumetricStrain form = material.volumetric_form();
+    if (form == VolumetricStrain::pointwise)
+      return ratios;
+    const MaterialPoints<dim> points =
+      material_points(tissue, space, growth, material);
+    const std::vector<double> theta =
+      log_volume_ratios(*internal_force(points, form, kernel),
+                        space,
+                        displacement,
+                        tissue.communicator());
+    ratios.reserve(tissue.cells().size());
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      if (form == VolumetricStrain::projected)
+        ratios.push_back(std::exp(mean_of_shares(
+          tissue.cells().position(p), space, [&](const unsigned int number) {
+            return theta[number];
+          })));
+      else
+        {
+          const ParticleDomain<dim> domain = tissue.domain(p);
+          const auto   n        = space.occupancy().n_points_per_edge(domain);
+          double       sum      = 0.;
+          unsigned int n_points = 0;
+          domain.for_quadrature_points(n, [&](const Point<dim> &x) {
+            sum += mean_of_shares(x, space, [&](const unsigned int number) {
+              return std::exp(theta[number]);
+            });
+            ++n_points;
+          });
+          ratios.push_back(sum / n_points);
+        }
+    return ratios;
+  }
+
+#define INSTANTIATE(dim)                        \
+  template std::vector<double> elastic_volumes( \
+    const Tissue<dim> &,                        \
+    const SplineSpace<dim> &,                   \
+    const GrowthOfStep<dim> &,                  \
+    const TissueMaterial &,                     \
+    const std::string &,                        \
+    const DisplacementField<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

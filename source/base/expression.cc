@@ -24,7 +24,7 @@ namespace Morula
     {
       const bool only_place =
         vocabulary.variables == place_and_time().variables &&
-        vocabulary.constants.empty();
+        vocabulary.constants.empty() && vocabulary.fields.empty();
       return " The variables are " +
              (only_place ? "X, Y, Z (um) and t (day)" : vocabulary.names()) +
              ", components are separated by ';'.";
@@ -85,6 +85,7 @@ namespace Morula
     std::string
     described(const double                 value,
               const std::vector<Variable> &used,
+              const Vocabulary            &vocabulary,
               const VariableValues        &values)
     {
       std::ostringstream text;
@@ -94,7 +95,7 @@ namespace Morula
            << " day";
       for (const Variable variable : used)
         if (variable > Variable::t)
-          text << ", " << name_of(variable) << " = "
+          text << ", " << vocabulary.name_of(variable) << " = "
                << values[static_cast<unsigned int>(variable)];
       text << '.';
       return text.str();
@@ -158,7 +159,8 @@ namespace Morula
                          const unsigned int n_components,
                          const unsigned int min_components,
                          const Vocabulary  &vocabulary)
-    : key_(key)
+    : vocabulary_(std::make_shared<const Vocabulary>(vocabulary))
+    , key_(key)
     , text_(text)
   {
     const std::vector<std::string> components =
@@ -256,7 +258,8 @@ namespace Morula
       throw InputError(key_,
                        text_,
                        rule->allowed,
-                       "It is " + described(value, used_, values) + ' ' +
+                       "It is " +
+                         described(value, used_, *vocabulary_, values) + ' ' +
                          rule->remedy);
     return value;
   }
@@ -273,7 +276,8 @@ namespace Morula
       throw InputError(key_,
                        text_,
                        "a finite value",
-                       "It is " + described(value, used_, values) +
+                       "It is " +
+                         described(value, used_, *vocabulary_, values) +
                          " Change the expression so that it is finite there.");
     return value;
   }
@@ -301,6 +305,13 @@ namespace Morula
   Expression::uses(const Variable variable) const
   {
     return std::binary_search(used_.begin(), used_.end(), variable);
+  }
+
+
+  const Vocabulary &
+  Expression::vocabulary() const
+  {
+    return *vocabulary_;
   }
 
 

@@ -192,6 +192,22 @@ namespace Morula
   }
 
 
+  void
+  ExpressionKey::set_fields(const std::vector<std::string> &names)
+  {
+    if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
+      fields = names;
+    parsed.reset();
+  }
+
+
+  const std::vector<std::string> &
+  ExpressionKey::field_names() const
+  {
+    return fields;
+  }
+
+
   ExpressionKey
   ExpressionKey::in_section_of_type(const std::string &section) const
   {
@@ -232,7 +248,8 @@ namespace Morula
           evaluated_ == Evaluated::founder ?
             place_and_time() :
             Vocabulary{variables_of(evaluated_),
-                       is_of_cells() ? types : std::map<std::string, double>()};
+                       is_of_cells() ? types : std::map<std::string, double>(),
+                       fields};
         const auto parse = [&](const std::string &path,
                                const std::string &text) {
           Expression expression(path,

@@ -115,10 +115,11 @@ namespace Morula
                                      const Vocabulary  &vocabulary)
   {
     add_functions(parser);
-    for (const Variable variable : vocabulary.variables)
+    const std::vector<Variable> variables = vocabulary.all_variables();
+    for (const Variable variable : variables)
       {
         double *const place = &places[static_cast<unsigned int>(variable)];
-        parser.DefineVar(name_of(variable), place);
+        parser.DefineVar(vocabulary.name_of(variable), place);
         // normal(mean, deviation) takes the cell's own number.
         if (variable == Variable::noise)
           parser.DefineFun("normal", normal);
@@ -134,12 +135,12 @@ namespace Morula
         for (const auto &[name, place] : parser.GetUsedVar())
           {
             const auto variable =
-              std::find_if(vocabulary.variables.begin(),
-                           vocabulary.variables.end(),
-                           [&name = name](const Variable v) {
-                             return name == name_of(v);
+              std::find_if(variables.begin(),
+                           variables.end(),
+                           [&, &name = name](const Variable v) {
+                             return name == vocabulary.name_of(v);
                            });
-            if (variable != vocabulary.variables.end())
+            if (variable != variables.end())
               used_.push_back(*variable);
           }
       }

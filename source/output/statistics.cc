@@ -44,17 +44,21 @@ namespace Morula
       {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
     for (const auto &[name, n] : cells_of_types)
       list.emplace_back("cells_" + name, number(n));
+    for (const FieldStatistics &field : fields)
+      {
+        list.emplace_back(field.name + "_min", field.min);
+        list.emplace_back(field.name + "_mean", field.mean);
+        list.emplace_back(field.name + "_max", field.max);
+        list.emplace_back(field.name + "_clipped", number(field.clipped));
+      }
     return list;
   }
 
   std::vector<std::string>
-  statistics_columns(const std::vector<std::string> &type_names)
+  statistics_columns(const StatisticsRow &like)
   {
-    StatisticsRow row;
-    for (const std::string &name : type_names)
-      row.cells_of_types.emplace_back(name, 0);
     std::vector<std::string> names;
-    for (const auto &column : row.columns())
+    for (const auto &column : like.columns())
       names.push_back(column.first);
     return names;
   }

@@ -74,6 +74,26 @@ namespace Morula
               << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
     }
 
+    void
+    print_fields(std::ostream &out, const Scene &scene)
+    {
+      print_effect(out, "fields", scene.fields.present(), scene.fields.names);
+      for (const FieldKeys &field : scene.fields.fields)
+        {
+          out << "    " << std::left << std::setw(22) << field.name
+              << field.time.value() << ", D = " << field.diffusion.text()
+              << " um^2/day, s = " << field.production.text()
+              << ", k = " << field.consumption.text() << " /day";
+          if (!field.fixed_where.empty())
+            out << ", " << field.value.text() << " at boundary points where "
+                << field.fixed_where.text();
+          if (!field.transfer.empty())
+            out << ", transfer " << field.transfer.text() << " um/day to "
+                << field.value.text();
+          out << '\n';
+        }
+    }
+
     bool
     has_checkpoint(const Scene &scene)
     {
@@ -125,6 +145,7 @@ namespace Morula
                    "gamma = " + scene.contraction.stretch.text() + ", along " +
                      scene.contraction.direction.text() +
                      (scene.contraction.keep_volume ? ", keeps volume" : ""));
+      print_fields(out, scene);
       for (const auto &choice : catalogue.fates)
         print_effect(out,
                      topic_of(choice),

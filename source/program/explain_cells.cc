@@ -17,7 +17,8 @@ namespace Morula
       std::string names;
       for (const Variable variable : expression.used())
         if (variable > Variable::t)
-          names += (names.empty() ? "" : ", ") + std::string(name_of(variable));
+          names += (names.empty() ? "" : ", ") +
+                   expression.vocabulary().name_of(variable);
       return names;
     }
 

@@ -189,6 +189,10 @@ namespace Morula
     everywhere(comm,
                [&] { acting = check_points(conditions, scene.material, at); });
 
+    effects_of<dim>(scene).fields.check_surface(scene.fields,
+                                                surface.positions,
+                                                comm);
+
     ConditionCounts counts;
     counts.points =
       Utilities::MPI::sum<types::particle_index>(surface.positions.size(),

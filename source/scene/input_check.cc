@@ -3,10 +3,12 @@
 
 #include <morula/base/input_error.h>
 #include <morula/mechanics/materials/material.h>
+#include <morula/output/cell_fields.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/limits.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace Morula
 {
@@ -213,6 +215,36 @@ namespace Morula
     }
 
 
+    /** Refuses fields that contradict themselves, and those whose columns have
+     *  the names of others. */
+    template <int dim>
+    void
+    check_fields(const Scene &scene)
+    {
+      for (const FieldKeys &field : scene.fields.fields)
+        field.check(dim);
+      if (!scene.fields.present())
+        return;
+      if (scene.fields.have_surface() && scene.tissue.shape == "points" &&
+          scene.tissue.points_surface == "none")
+        scene.fields.names.refuse(
+          "fields that nothing is done to at the surface, as " +
+            scene.tissue.points_surface.path() + " = none",
+          "Remove their Fixed where and Transfer, or set Points surface = "
+          "automatic.");
+      try
+        {
+          CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
+        }
+      catch (const std::invalid_argument &error)
+        {
+          scene.fields.names.refuse(
+            "names that no other column of cells-NNNN.csv and snapshot.h5 has",
+            error.what() + std::string(" Choose another name."));
+        }
+    }
+
+
     template <int dim>
     void
     check_boundary_conditions(const Scene &scene)
@@ -252,6 +284,7 @@ namespace Morula
                        scene.law_of_growth());
       check_proliferation<dim>(scene);
       check_contraction<dim>(scene);
+      check_fields<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.fates);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);

@@ -3,6 +3,7 @@
 
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
+#include <morula/effects/division/axis_rules.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/shape.h>
 
@@ -134,19 +135,31 @@ namespace Morula
 
 
   void
-  Scene::declare_types(const std::string &names)
+  Scene::declare_sections(const std::map<std::string, std::string> &names)
   {
+    const auto names_in = [&names](const AnyKey &key) {
+      const auto found = names.find(key.path());
+      return found == names.end() ? "" : found->second;
+    };
+    fields.declare_fields(names_in(fields.names));
+    for (const std::string &field : fields.name_list())
+      cell_cycle.division_axis.add_word("gradient of " + field);
     std::string laws;
     for (const auto &law : catalogue.growth_laws)
       laws += (laws.empty() ? "" : "|") + law.name();
     const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
-    cell_types.declare_types(names, {of_cells.begin(), of_cells.end()}, laws);
+    cell_types.declare_types(names_in(cell_types.names),
+                             {of_cells.begin(), of_cells.end()},
+                             laws,
+                             fields.name_list());
   }
 
 
   void
   Scene::apply_types()
   {
+    for (ExpressionKey *key : keys_of_cells(list()))
+      key->set_fields(fields.name_list());
     if (!cell_types.present())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));
@@ -193,6 +206,7 @@ namespace Morula
     for (auto &rule : catalogue.division_rules)
       append(list, rule.keys().list());
     append(list, contraction.list());
+    append(list, fields.list());
     for (auto &fate : catalogue.fates)
       append(list, fate.keys().list());
     // Nitsche's term belongs to the library's own conditions.
@@ -221,12 +235,11 @@ namespace Morula
     for (const std::string &text : overrides)
       statements.push_back(read_override(text));
     // Names first: they say which sections there are.
-    std::string types;
+    std::map<std::string, std::string> names;
     for (const Statement &statement : statements)
-      if (statement.kind == Statement::set &&
-          statement.path == scene.cell_types.names.path())
-        types = statement.value;
-    scene.declare_types(types);
+      if (statement.kind == Statement::set)
+        names[statement.path] = statement.value;
+    scene.declare_sections(names);
     const ParameterKeys keys(scene.list());
 
     for (const Statement &statement : statements)
@@ -311,7 +324,8 @@ namespace Morula
   effects_of(const Scene &scene)
   {
     SceneEffects<dim> effects;
-    effects.state = StateColumns<dim>(scene.cell_types.name_list());
+    effects.state =
+      StateColumns<dim>(scene.cell_types.name_list(), scene.fields.name_list());
     effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);
@@ -352,9 +366,15 @@ namespace Morula
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
     if (scene.has_proliferation())
-      if (const auto *rule = find_choice(catalogue.division_rules,
-                                         scene.cell_cycle.division_axis))
-        development.rule = make(*rule);
+      {
+        const std::string &axis  = scene.cell_cycle.division_axis;
+        const std::string  field = field_of_gradient(axis);
+        if (!field.empty())
+          development.rule =
+            std::make_unique<GradientAxis<dim>>(field, setting);
+        else if (const auto *rule = find_choice(catalogue.division_rules, axis))
+          development.rule = make(*rule);
+      }
     if (scene.has_contraction())
       {
         development.contraction =
@@ -393,6 +413,8 @@ namespace Morula
     for (const auto &choice : catalogue.boundary_conditions)
       if (choice.keys().is_on())
         effects.conditions.push_back({choice.name(), make(choice)});
+    if (scene.fields.present())
+      effects.fields = Fields<dim>(scene.fields, setting);
     effects.state.declare(effects.columns);
     return effects;
   }

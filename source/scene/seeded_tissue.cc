@@ -17,7 +17,8 @@ namespace Morula
     {
       if (scene.tissue.points_surface != "automatic")
         return scene.tissue.points_surface == "always";
-      if (effects_of<dim>(scene).state.needs_surface())
+      if (effects_of<dim>(scene).state.needs_surface() ||
+          scene.fields.have_surface())
         return true;
       for (const auto &condition : scene.catalogue.boundary_conditions)
         if (condition.keys().is_on())

@@ -36,6 +36,18 @@ namespace Morula
                              0;
     }
 
+    /** A row with the columns of such a run. */
+    StatisticsRow
+    row_like(const Scene &scene)
+    {
+      StatisticsRow row;
+      for (const std::string &name : scene.cell_types.name_list())
+        row.cells_of_types.emplace_back(name, 0);
+      for (const std::string &name : scene.fields.name_list())
+        row.fields.push_back({name});
+      return row;
+    }
+
     struct Table
     {
       std::string              name; // of the file, without ending
@@ -47,10 +59,10 @@ namespace Morula
     std::vector<Table>
     tables_of(const Scene &scene)
     {
-      const std::vector<std::string> types = scene.cell_types.name_list();
-      std::vector<Table> tables = {{"statistics", statistics_columns(types)},
-                                   {"lineage",
-                                    lineage_columns(!types.empty())}};
+      const std::vector<std::string> types  = scene.cell_types.name_list();
+      std::vector<Table>             tables = {
+        {"statistics", statistics_columns(row_like(scene))},
+        {"lineage", lineage_columns(!types.empty())}};
       if (!types.empty())
         tables.push_back({"events", event_columns()});
       if (scene.output.condition_estimate)

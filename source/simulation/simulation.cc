@@ -140,8 +140,10 @@ namespace Morula
     condition.reset();
     ++n_steps;
 
+    clipped.clear();
     const SplineSpace<dim> space = splines();
     tell_of_joined_pieces(space);
+    solve_steady_fields(space);
     const RigidModes<dim> modes = rigid_modes(space);
     Equilibrium::Vector   u;
     solve_step(space, modes, u);

@@ -99,13 +99,16 @@ namespace Morula
     if (!reason.empty())
       give_up(reason + ".");
 
+    const FieldsOfStep<dim> of_step = transient_fields(space);
     development.commit(tissue,
                        growth_of_step,
                        time_steps.time(),
                        time_steps.next());
+    fields.set(tissue, of_step);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
-        const CellView<dim, double> cell = tissue.cell(p);
+        const CellView<dim, double> cell   = tissue.cell(p);
+        const double                volume = cell.volume();
         // doc/theory.md (1.1)
         Tensor<2, dim> F = cells.deformations[p] * cell.F();
         if (!volumes.empty())
@@ -113,6 +116,8 @@ namespace Morula
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
                      1. / dim);
         cell.set(cell.columns().deformation, F);
+        if (fields.present())
+          fields.dilute(cell, cell.volume() / volume);
       }
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.deformations[p].norm() <= limit.f)

@@ -70,6 +70,7 @@ namespace Morula
                   effects.state,
                   material,
                   scene.random_seed)
+    , fields(std::move(effects.fields))
     , fates(std::move(effects.fates))
     , forces(std::move(effects.forces))
     , tissue(scene.grid,
@@ -114,6 +115,7 @@ namespace Morula
                              patches.positions,
                              patches.normals,
                              comm);
+    const CellReader<dim> reader = development.reader(0.);
     everywhere(comm, [&]() {
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {
@@ -129,12 +131,15 @@ namespace Morula
             founders.generations.empty() ? 0 : founders.generations[i];
           if (columns.generation.exists())
             cell.set(columns.generation, generation);
+          fields.begin(cell);
           GivenState given;
           if (!founders.phases.empty())
             given.phase = founders.phases[i];
           if (!founders.types.empty())
             given.type = founders.types[i];
           development.initialize(id, cell, scene.time.step, given);
+          if (fields.present())
+            fields.check_cell({cell, id, X, reader});
           cells.add(id, X, make_array_view(row));
           births.push_back({id, -1, generation, 0., X, type_of(cell)});
         }
@@ -321,6 +326,7 @@ namespace Morula
     for (std::size_t type = 0; type < of_types.size(); ++type)
       state.cells_of_types.emplace_back(development.state().type_names()[type],
                                         of_types[type]);
+    state.fields = field_statistics();
     return state;
   }
 
@@ -329,6 +335,7 @@ namespace Morula
   Simulation<dim>::begin_rows()
   {
     first_splines.emplace(splines());
+    solve_steady_fields(*first_splines);
     row = statistics();
     count_splines(*first_splines, row);
   }

@@ -163,21 +163,11 @@ namespace Morula
   GroupedPoints<dim>
   cell_positions(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
-    GroupedPoints<dim> points;
-    points.offsets = group_points(tissue.cells(), space, [](const auto &) {
-                       return true;
-                     }).offsets;
-    points.h       = space.box().spacing();
-    points.xi.reserve(tissue.cells().size());
-    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-      {
-        const GridIndex<dim> index =
-          space.box().index(space.grid_cells()[c].number);
-        for (unsigned int p = points.offsets[c]; p < points.offsets[c + 1]; ++p)
-          points.xi.push_back(
-            space.box().unit_position(tissue.cells().position(p), index));
-      }
-    return points;
+    return grouped_places(tissue.cells(),
+                          space,
+                          group_points(tissue.cells(), space, [](const auto &) {
+                            return true;
+                          }));
   }
 
   template <int dim>

@@ -261,6 +261,11 @@ EFFECTS = [
     ("— stress relaxes", {**EVEN, "Material/Relaxation time": 0.5}),
     ("— cells contract", {**EVEN, "Contraction/Stretch": "1 - 0.01*t",
                           "Contraction/Direction": "0; 0; 1"}),
+    ("— a steady field", {**EVEN, "Fields/Names": "oxygen",
+                          "Fields/oxygen/Diffusion": "1e8",
+                          "Fields/oxygen/Consumption": "4e4",
+                          "Fields/oxygen/Fixed where": "1",
+                          "Fields/oxygen/Value": "160"}),
     ("growth by rates", RATE),
     ("— across the surface normal", {
         **RATE, "Growth/Rate/Direction": "surface normal",

@@ -9,10 +9,10 @@ from .refusal import Refused
 EVENTS = ("time", "id", "event", "from", "to")
 
 
-def names_in(keys):
-    """Names of the types by their numbers, from the keys of a scene; none if
-    its cells have no types."""
-    names = keys.get("Cell types/Names", "").split(",")
+def names_in(keys, section="Cell types"):
+    """Names of the types (or of another section's things) by their numbers,
+    from the keys of a scene; none if there are none."""
+    names = keys.get(f"{section}/Names", "").split(",")
     return tuple(name.strip() for name in names if name.strip())
 
 

@@ -9,6 +9,7 @@
     cells["energy_density"].mean()      # kPa
     run.clone(17)                       # ids of all descendants of cell 17
     run.type_names                      # of the cells' types, by their numbers
+    run.field_names                     # of what diffuses, e.g. oxygen
     run.events                          # changes of type: time, id, from, to
 
 The columns are those of the files (README.md, "What comes out").
@@ -198,6 +199,12 @@ class Run:
         """Names of the cells' types; column `type` has their numbers, from 0.
         None in a scene without types."""
         return names_in(self.keys)
+
+    @cached_property
+    def field_names(self):
+        """Names of the fields: each is a column of the cells. None in a scene
+        without fields."""
+        return names_in(self.keys, "Fields")
 
     @cached_property
     def events(self):

@@ -46,6 +46,24 @@ they exist only where a scene names types.
 | any key of cells, by its path, e.g. `Material/Young's modulus` or `Proliferation/Cell cycle/Duration` | (empty) | of that key | Its value for cells of this type; empty: as for all. Keys of cells are those that are evaluated for a cell again and again ([list](glossary.md#variables-of-expressions)). |
 """
 
+# Sections that exist only where the scene names fields.
+OF_FIELDS = """
+Each name is a section `Fields/NAME` with these keys. `--parameters` does not show them, as they
+exist only where a scene names fields.
+
+| key in `Fields/NAME` | default | unit | meaning |
+| --- | --- | --- | --- |
+| `Time` | `steady` | — | `steady`: in each configuration the field has its steady state. `transient`: it changes with time. |
+| `Diffusion` | (none) | um^2/day | Diffusion coefficient D, an expression of the cells' state; > 0. |
+| `Production` | `0` | of the field, 1/day | What a cell makes of it per time and volume, an expression of the cell's state; not negative. |
+| `Consumption` | `0` | 1/day | Rate k at which a cell uses it up, k times the field, an expression of the cell's state, which may read the field itself: `4e6/(0.5 + NAME)` saturates; not negative. |
+| `Initial` | `0` | of the field | The field at t = 0, at which a steady field is sought first; not negative. An expression of X, Y, Z. |
+| `Fixed where` | (empty) | — | At boundary points at which this expression of X, Y, Z is > 0 the field has Value; empty: nowhere. |
+| `Value` | `0` | of the field | The field at the fixed boundary points, and outside of the others if there is a Transfer; not negative. An expression of X, Y, Z, t. |
+| `Transfer` | (empty) | um/day | At boundary points that are not fixed -D dc/dn = Transfer (c - Value); not negative; empty: nothing passes there. An expression of X, Y, Z, t. |
+| `Dilution` | `true` | — | Whether a transient field becomes less where cells grow, so that its amount stays. |
+"""
+
 
 def cell(text):
     """Text that may stand in a table."""
@@ -79,6 +97,8 @@ def page(keys):
                      f"{allowed(key)} | {cell(key.meaning)}{former} |\n")
         if key.path == "Cell types/Names":
             lines.append(OF_TYPES)
+        if key.path == "Fields/Names":
+            lines.append(OF_FIELDS)
     return "".join(lines)
 
 

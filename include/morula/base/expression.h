@@ -107,6 +107,10 @@ namespace Morula
     bool
     uses(const Variable variable) const;
 
+    /** What variables are called in the text. */
+    const Vocabulary &
+    vocabulary() const;
+
     /** Whether it speaks of more than X, Y, Z and t. */
     bool
     depends_on_state() const;
@@ -149,6 +153,7 @@ namespace Morula
     double
     evaluate(const VariableValues &values, const unsigned int component) const;
 
+    std::shared_ptr<const Vocabulary>     vocabulary_;
     std::string                           key_;
     std::string                           text_;
     std::vector<double>                   constants; // empty: ask the parsers

@@ -105,6 +105,15 @@ namespace Morula
     void
     set_types(const std::map<std::string, double> &types);
 
+    /** Names of the fields of the scene, by number. A text that is evaluated
+     *  at an event or in a step may have them. */
+    void
+    set_fields(const std::vector<std::string> &names);
+
+    /** The names of fields that the text may have. */
+    const std::vector<std::string> &
+    field_names() const;
+
     /** The key in the section of a type of cells, where it is empty if the type
      *  has no value of its own. */
     ExpressionKey
@@ -160,6 +169,7 @@ namespace Morula
     unsigned int                  n_components;
     std::string                   text_;
     std::map<std::string, double> types;
+    std::vector<std::string>      fields;
     /** Path and text, by the type's number. */
     std::map<unsigned int, std::pair<std::string, std::string>> of_types;
     std::optional<ExpressionRule>                               rule;

@@ -59,10 +59,35 @@ namespace Morula
   constexpr unsigned int n_variables =
     static_cast<unsigned int>(Variable::noise) + 1;
 
-  /** A value for each variable; what an expression does not use is not read. */
-  using VariableValues = std::array<double, n_variables>;
+  /** As many fields can a scene have. */
+  constexpr unsigned int most_fields = 32;
 
-  /** Name of a variable in scenes. */
+  /** The variable that is the value of field number @p k of the scene at the
+   *  cell. Its name is that of the field: Vocabulary::name_of(). */
+  constexpr Variable
+  field_variable(const unsigned int k)
+  {
+    return static_cast<Variable>(n_variables + k);
+  }
+
+  /** Whether the variable is the value of a field. */
+  constexpr bool
+  is_field(const Variable variable)
+  {
+    return static_cast<unsigned int>(variable) >= n_variables;
+  }
+
+  /** Number of the field whose value the variable is. */
+  constexpr unsigned int
+  field_number(const Variable variable)
+  {
+    return static_cast<unsigned int>(variable) - n_variables;
+  }
+
+  /** A value for each variable; what an expression does not use is not read. */
+  using VariableValues = std::array<double, n_variables + most_fields>;
+
+  /** Name in scenes of a variable that is no field. */
   const char *
   name_of(const Variable variable);
 
@@ -72,6 +97,16 @@ namespace Morula
     std::vector<Variable> variables;
     /** Named numbers, e.g. the types of cells. */
     std::map<std::string, double> constants = {};
+    /** Names of the fields, whose values are variables, too; by number. */
+    std::vector<std::string> fields = {};
+
+    /** Name of a variable. */
+    std::string
+    name_of(const Variable variable) const;
+
+    /** All variables, the fields last. */
+    std::vector<Variable>
+    all_variables() const;
 
     /** The names, separated by blanks. */
     std::string

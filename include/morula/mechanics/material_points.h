@@ -6,6 +6,7 @@
 
 #include <morula/mechanics/material.h>
 #include <morula/mechanics/term.h>
+#include <morula/particles/tissue.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -52,6 +53,28 @@ namespace Morula
       return offsets[grid_cell] < offsets[grid_cell + 1];
     }
   };
+
+  /** The positions in their grid cells of a selection of a store's points. */
+  template <int dim>
+  GroupedPoints<dim>
+  grouped_places(const PointStore<dim>  &store,
+                 const SplineSpace<dim> &space,
+                 const PointGroups      &groups)
+  {
+    GroupedPoints<dim> places;
+    places.offsets = groups.offsets;
+    places.h       = space.box().spacing();
+    places.xi.reserve(groups.points.size());
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      {
+        const GridIndex<dim> index =
+          space.box().index(space.grid_cells()[c].number);
+        for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
+          places.xi.push_back(
+            space.box().unit_position(store.position(groups.points[k]), index));
+      }
+    return places;
+  }
 
   /**
    * The particles as quadrature points of one step (doc/theory.md, section 2).

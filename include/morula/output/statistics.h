@@ -14,6 +14,14 @@
 
 namespace Morula
 {
+  /** What statistics.csv says of a field. */
+  struct FieldStatistics
+  {
+    std::string   name;
+    double        min = 0., mean = 0., max = 0.; // mean over the volume
+    std::uint64_t clipped = 0; // values < 0 that were set to 0 in this step
+  };
+
   /** One row of statistics.csv: the state after a step, and the step's cost. */
   struct StatisticsRow
   {
@@ -36,16 +44,18 @@ namespace Morula
     CellLengths   lengths;
     /** By the types' names; empty without types. */
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
+    /** By the fields' numbers; empty without fields. */
+    std::vector<FieldStatistics> fields = {};
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>
     columns() const;
   };
 
-  /** The names of the columns of statistics.csv. @param type_names of the
-   *  cells, if they have types */
+  /** The names of the columns of statistics.csv. @param like a row with the
+   *  columns of all rows */
   std::vector<std::string>
-  statistics_columns(const std::vector<std::string> &type_names);
+  statistics_columns(const StatisticsRow &like);
 
   /** The row as it stands in the file. */
   std::string

@@ -9,6 +9,7 @@
 #include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
@@ -53,6 +54,7 @@ namespace Morula
     CellCycleParameters   cell_cycle;
     CellTypesParameters   cell_types;
     ContractionParameters contraction;
+    FieldsParameters      fields;
     NitscheParameters     nitsche;
     SolverParameters      solver;
     OutputParameters      output;
@@ -155,12 +157,16 @@ namespace Morula
     std::string
     parameters() const;
 
-    /** Makes the sections of the types of cells. @throws InputError */
+    /**
+     * Makes the sections of the fields and of the types of cells.
+     * @param names of them, by the paths of the keys that have them
+     * @throws InputError
+     */
     void
-    declare_types(const std::string &names);
+    declare_sections(const std::map<std::string, std::string> &names);
 
-    /** Tells the keys of cells what types have otherwise; after all keys have
-     *  their values. */
+    /** Tells the keys of cells what fields there are and what types have
+     *  otherwise; after all keys have their values. */
     void
     apply_types();
 
@@ -192,6 +198,7 @@ namespace Morula
     StateColumns<dim> state;
 
     DevelopmentEffects<dim>                              development;
+    Fields<dim>                                          fields;
     std::vector<std::unique_ptr<const Fate<dim>>>        fates;
     std::vector<NamedForce>                              forces;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;

@@ -125,6 +125,19 @@ namespace Morula
     inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
     void
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
+    /** Gives cells the steady fields of the present configuration. */
+    void
+    solve_steady_fields(const SplineSpace<dim> &space);
+    /** The other fields at the end of the step. */
+    FieldsOfStep<dim>
+    transient_fields(const SplineSpace<dim> &space);
+    /** Finds fields by @p find; notes what is worth telling of them. */
+    FieldsOfStep<dim>
+    solve_fields(
+      const std::function<FieldsOfStep<dim>(const SolveLinear &)> &find);
+    /** What statistics.csv says of the fields. */
+    std::vector<FieldStatistics>
+    field_statistics() const;
     void
     refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
     void
@@ -183,6 +196,7 @@ namespace Morula
     const TissueMaterial                                material;
     const BoundaryConditions<dim>                       boundary_conditions;
     const CellDevelopment<dim>                          development;
+    const Fields<dim>                                   fields;
     const std::vector<std::unique_ptr<const Fate<dim>>> fates;
     const std::vector<typename SceneEffects<dim>::NamedForce> forces;
     double typical_stiffness = 0.; // kPa
@@ -201,11 +215,13 @@ namespace Morula
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
+    std::vector<std::uint64_t>       clipped;   // by field
 
     PieceWatch<dim> piece_watch;
     bool            pieces_have_joined = false; // and the user knows
 
     bool warned_of_long_cells = false; // once a run, or before it started
+    bool warned_of_fields     = false; // that did not converge
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

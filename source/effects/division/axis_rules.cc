@@ -189,13 +189,32 @@ namespace Morula
   }
 
 
+  template <int dim>
+  GradientAxis<dim>::GradientAxis(const std::string        &field,
+                                  const EffectSetting<dim> &setting)
+    : number(setting.state.need_gradient(field))
+  {}
+
+
+  template <int dim>
+  Tensor<1, dim>
+  GradientAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  {
+    if (cell.present == nullptr)
+      return cell.random;
+    const Tensor<1, dim> gradient = cell.present->gradient(number);
+    return gradient.norm() > 0. ? gradient : cell.random;
+  }
+
+
 #define INSTANTIATE(dim)                 \
   template class FixedAxis<dim>;         \
   template class StretchAxis<dim>;       \
   template class StressAxis<dim>;        \
   template class RadialAxis<dim>;        \
   template class SurfaceNormalAxis<dim>; \
-  template class TangentialAxis<dim>;
+  template class TangentialAxis<dim>;    \
+  template class GradientAxis<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -59,7 +59,8 @@ namespace Morula
         "configuration, 'stretch': along the largest elastic stretch, "
         "'stress': along the most tensile stress, 'radial': away from Radial "
         "center, 'surface normal', 'tangential': across or along the surface "
-        "that was nearest to the founder at t = 0.",
+        "that was nearest to the founder at t = 0; 'gradient of NAME': along "
+        "which a field rises fastest.",
         {"random"})
     , axis_spread(path("Axis spread"),
                   "0",

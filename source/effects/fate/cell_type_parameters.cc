@@ -1,51 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression_parser.h>
-#include <morula/base/input_error.h>
+#include <morula/base/name_list.h>
 #include <morula/effects/fate/cell_type_parameters.h>
 
-#include <boost/algorithm/string.hpp>
-
 #include <algorithm>
-#include <cctype>
-#include <set>
 
 namespace Morula
 {
   namespace
   {
     const std::string section = "Cell types/";
-
-    /** The names in a list, which commas separate. */
-    std::vector<std::string>
-    split(const std::string &text)
-    {
-      std::vector<std::string> names;
-      if (boost::trim_copy(text).empty())
-        return names;
-      boost::split(names, text, boost::is_any_of(","));
-      for (std::string &name : names)
-        boost::trim(name);
-      return names;
-    }
-
-    /** Why a name cannot stand in an expression; empty if it can. */
-    std::string
-    reason_against(const std::string &name)
-    {
-      const bool plain =
-        !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
-        std::all_of(name.begin(), name.end(), [](const char c) {
-          return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-        });
-      if (!plain)
-        return "Names have letters, digits and '_', and begin with a letter.";
-      if (!is_free_name(name))
-        return "Expressions have a variable or function of this name: choose "
-               "another one.";
-      return "";
-    }
 
     std::string
     path(const std::string &type, const std::string &key)
@@ -146,20 +111,15 @@ namespace Morula
   CellTypesParameters::declare_types(
     const std::string                        &text,
     const std::vector<const ExpressionKey *> &of_cells,
-    const std::string                        &growth_laws)
+    const std::string                        &growth_laws,
+    const std::vector<std::string>           &fields)
   {
-    const std::vector<std::string> list = split(text);
-    std::set<std::string>          seen;
-    for (const std::string &name : list)
-      {
-        const std::string reason = reason_against(name);
-        if (!reason.empty() || !seen.insert(name).second)
-          throw InputError(names.path(),
-                           text,
-                           "names that differ, separated by commas",
-                           "'" + name + "': " +
-                             (reason.empty() ? "it is there twice." : reason));
-      }
+    const std::vector<std::string> list =
+      declared_names(names, text, [&](const std::string &name) {
+        return std::find(fields.begin(), fields.end(), name) != fields.end() ?
+                 "A field has this name: choose another one." :
+                 reason_against_variable(name);
+      });
     for (const std::string &name : list)
       {
         std::vector<std::string> others;
@@ -199,7 +159,7 @@ namespace Morula
   CellTypesParameters::daughters(const unsigned int type) const
   {
     const Key<std::string>        &key  = types[type].daughters;
-    const std::vector<std::string> both = split(key);
+    const std::vector<std::string> both = split_names(key);
     if (both.empty())
       return {type, type};
     const std::vector<std::string> all = name_list();

@@ -27,7 +27,7 @@ namespace Morula
                 "Along what cells contract, in the body as it was at t = 0: a "
                 "vector, an expression with the components separated by ';', "
                 "or radial (from Tissue/Center), or surface normal (of the "
-                "surface near the founder).")
+                "surface near the founder), or gradient of NAME (a field).")
     , keep_volume("Contraction/Keep volume",
                   true,
                   "Whether cells widen across Direction as they contract, so "

@@ -24,7 +24,7 @@ namespace Morula
         "Growth/Rate/Direction",
         "",
         "a: direction of Share along in the tissue as it was at t = 0: "
-        "'radial', 'surface normal', or an expression of X, Y, Z with "
+        "'radial', 'surface normal', 'gradient of' a field, or an expression of X, Y, Z with "
         "three components, e.g. 0; 0; 1, of any length but zero. Empty: "
         "growth is isotropic.")
     , predictor("Growth/Rate/Predictor",

@@ -5,6 +5,9 @@
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/present_cell.h>
 
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
 #include <sstream>
 
 namespace Morula
@@ -16,9 +19,14 @@ namespace Morula
       {"surface normal", DirectionKind::surface_normal}};
 
 
+    const std::string gradient = "gradient of ";
+
+
     DirectionKind
     kind_of(const std::string &text)
     {
+      if (!field_of_gradient(text).empty())
+        return DirectionKind::gradient;
       const auto word = words.find(text);
       return word == words.end() ? DirectionKind::expression : word->second;
     }
@@ -37,11 +45,20 @@ namespace Morula
     {
       throw InputError(expression.key(),
                        expression.text(),
-                       "a vector that is not zero, 'radial' or 'surface "
-                       "normal'",
+                       "a vector that is not zero, 'radial', 'surface "
+                       "normal' or 'gradient of' a field",
                        where + "Choose a direction that all cells have.");
     }
   } // namespace
+
+
+  std::string
+  field_of_gradient(const std::string &text)
+  {
+    return boost::starts_with(text, gradient) ?
+             boost::trim_copy(text.substr(gradient.size())) :
+             "";
+  }
 
 
   CellDirectionKey::CellDirectionKey(const std::string &path,
@@ -64,18 +81,35 @@ namespace Morula
   DirectionKind
   CellDirectionKey::kind(const unsigned int type) const
   {
+    return kind_of(text_of(type));
+  }
+
+
+  const std::string &
+  CellDirectionKey::text_of(const unsigned int type) const
+  {
     const auto own = of_types.find(type);
-    return own == of_types.end() ? kind_ : own->second;
+    return own == of_types.end() ? written : own->second.text;
+  }
+
+
+  std::vector<std::string>
+  CellDirectionKey::texts() const
+  {
+    std::vector<std::string> list{written};
+    for (const auto &[type, own] : of_types)
+      list.push_back(own.text);
+    return list;
   }
 
 
   bool
   CellDirectionKey::has(const DirectionKind kind) const
   {
-    bool found = kind_ == kind;
-    for (const auto &[type, own] : of_types)
-      found = found || own == kind;
-    return found;
+    const std::vector<std::string> list = texts();
+    return std::any_of(list.begin(), list.end(), [&](const std::string &text) {
+      return kind_of(text) == kind;
+    });
   }
 
 
@@ -90,7 +124,6 @@ namespace Morula
   CellDirectionKey::assign(const std::string &text)
   {
     written = text;
-    kind_   = kind_of(text);
     ExpressionKey::assign(as_expression(text));
   }
 
@@ -100,14 +133,32 @@ namespace Morula
                                  const std::string &path,
                                  const std::string &text)
   {
-    of_types[type] = kind_of(text);
+    of_types[type] = {path, text};
     ExpressionKey::set_for_type(type, path, as_expression(text));
+  }
+
+
+  void
+  CellDirectionKey::check_field(const std::string &path,
+                                const std::string &text) const
+  {
+    const std::string name = field_of_gradient(text);
+    const auto       &all  = field_names();
+    if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end())
+      throw InputError(path,
+                       text,
+                       "the gradient of a field of the scene",
+                       "There is no field '" + name +
+                         "': name it in Fields/Names.");
   }
 
 
   void
   CellDirectionKey::check(const unsigned int dim) const
   {
+    check_field(path(), written);
+    for (const auto &[type, own] : of_types)
+      check_field(own.path, own.text);
     ExpressionKey::check(dim);
     if (empty())
       return;
@@ -136,6 +187,9 @@ namespace Morula
   {
     if (key.has(DirectionKind::surface_normal))
       setting.state.need_surface_normal();
+    for (const std::string &text : key.texts())
+      if (const std::string field = field_of_gradient(text); !field.empty())
+        fields[text] = setting.state.need_gradient(field);
   }
 
 
@@ -153,6 +207,13 @@ namespace Morula
           break;
         case DirectionKind::surface_normal:
           direction = cell.surface_normal();
+          break;
+        case DirectionKind::gradient:
+          // Along which the field rises in the body as it was at t = 0.
+          direction = cell.gradient(fields.at(key.text_of(cell.type()))) *
+                      cell.cell().F();
+          if (direction.norm() == 0.)
+            direction[0] = 1.;
           break;
         default:
           direction = cell.vector(expression, t);

@@ -106,6 +106,14 @@ namespace Morula
 
 
   template <int dim>
+  Tensor<1, dim>
+  PresentCell<dim>::gradient(const unsigned int field) const
+  {
+    return cell_.get(reader_.columns.gradients[field]);
+  }
+
+
+  template <int dim>
   Tensor<2, dim>
   PresentCell<dim>::elastic() const
   {
@@ -190,7 +198,8 @@ namespace Morula
     values[static_cast<unsigned int>(Variable::t)] = t;
     for (const Variable variable : variables)
       {
-        const auto bit = std::uint32_t(1)
+        static_assert(n_variables + most_fields <= 64, "Bits of `known`.");
+        const auto bit = std::uint64_t(1)
                          << static_cast<unsigned int>(variable);
         if (variable <= Variable::t)
           continue;
@@ -209,6 +218,8 @@ namespace Morula
   PresentCell<dim>::compute(const Variable variable, const double t) const
   {
     const StateColumns<dim> &columns = reader_.columns;
+    if (is_field(variable))
+      return cell_.get(columns.fields[field_number(variable)]);
     switch (variable)
       {
         case Variable::x:

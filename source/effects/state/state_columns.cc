@@ -8,8 +8,11 @@
 namespace Morula
 {
   template <int dim>
-  StateColumns<dim>::StateColumns(const std::vector<std::string> &types)
+  StateColumns<dim>::StateColumns(const std::vector<std::string> &types,
+                                  const std::vector<std::string> &fields)
     : types(types)
+    , names_of_fields(fields)
+    , needs_gradient(fields.size(), false)
   {}
 
 
@@ -31,6 +34,45 @@ namespace Morula
   StateColumns<dim>::need_surface_normal()
   {
     needs_normal = true;
+  }
+
+
+  template <int dim>
+  unsigned int
+  StateColumns<dim>::need_gradient(const std::string &field)
+  {
+    const unsigned int k =
+      std::find(names_of_fields.begin(), names_of_fields.end(), field) -
+      names_of_fields.begin();
+    // Where an effect is only tried there are no fields.
+    if (k < needs_gradient.size())
+      needs_gradient[k] = true;
+    return k;
+  }
+
+
+  template <int dim>
+  void
+  StateColumns<dim>::declare_fields(CellColumns<dim> &columns)
+  {
+    gradients.resize(names_of_fields.size());
+    for (unsigned int k = 0; k < names_of_fields.size(); ++k)
+      {
+        const std::string &name = names_of_fields[k];
+        fields.push_back(columns.template add<double>(
+          {name, "", "the field " + name, 0., AtDivision::copied, true}));
+        if (needs_gradient[k])
+          gradients[k] = columns.template add<Tensor<1, dim>>(
+            {name + "_gradient", "1/um", "gradient of the field " + name});
+      }
+  }
+
+
+  template <int dim>
+  const std::vector<std::string> &
+  StateColumns<dim>::field_names() const
+  {
+    return names_of_fields;
   }
 
 

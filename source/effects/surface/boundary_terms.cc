@@ -43,23 +43,6 @@ namespace Morula
                                      t);
     }
 
-    template <int dim>
-    GroupedPoints<dim>
-    positions(const Tissue<dim>      &tissue,
-              const SplineSpace<dim> &space,
-              const PointGroups      &groups)
-    {
-      GroupedPoints<dim> points;
-      points.offsets = groups.offsets;
-      points.h       = space.box().spacing();
-      for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-        for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
-          points.xi.push_back(space.box().unit_position(
-            tissue.boundary_points().position(groups.points[k]),
-            space.box().index(space.grid_cells()[c].number)));
-      return points;
-    }
-
     /** F_g at t and t + dt, and λ and μ. */
     template <int dim>
     using CellState =
@@ -196,7 +179,7 @@ namespace Morula
     return std::make_unique<Nitsche<dim>>(conditions.nitsche().form(),
                                           material.material(),
                                           part,
-                                          positions(tissue, space, groups),
+                                          grouped_places(store, space, groups),
                                           std::move(list),
                                           std::move(current),
                                           std::move(previous));
@@ -213,7 +196,7 @@ namespace Morula
       });
     LoadedPoints<dim> loaded;
     static_cast<GroupedPoints<dim> &>(loaded) =
-      positions(tissue, space, groups);
+      grouped_places(store, space, groups);
     for (const unsigned int p : groups.points)
       {
         const BoundaryView<dim> point = store[p];

@@ -5,10 +5,11 @@ full path (or the option, or the file), the value, the limit, and what to do."""
 from tests.common.refusals.contradictions import CONTRADICTIONS
 from tests.common.refusals.expressions import (EXPRESSIONS, GROWTH_BY_RATES,
                                                IN_2D)
+from tests.common.refusals.fields import FIELDS
 from tests.common.refusals.files import FILES
 from tests.common.refusals.outliers import OUTLIERS
 from tests.common.refusals.scenes import SCENES
 from tests.common.refusals.values import CHOICES, NUMBERS
 
 KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + GROWTH_BY_RATES + \
-    CONTRADICTIONS + FILES + OUTLIERS
+    CONTRADICTIONS + FIELDS + FILES + OUTLIERS

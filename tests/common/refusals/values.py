@@ -62,7 +62,8 @@ NUMBERS = [
           "> 0 (a ratio of lengths)", "1 is no contraction",
           keys={"Contraction/Direction": "0; 0; 1"}),
     wrong("contraction without direction", "Contraction/Direction", "0; 0; 0",
-          "a vector that is not zero, 'radial' or 'surface normal'",
+          "a vector that is not zero, 'radial', 'surface normal' or "
+          "'gradient of' a field",
           "Choose a direction that all cells have",
           keys={"Contraction/Stretch": "0.9"}),
     wrong("contraction without direction somewhere", "Contraction/Direction",

@@ -67,6 +67,10 @@ def results(run):
     columns = {f"cells_{name}": name for name in run.type_names}
     if columns and {*columns} <= {*run.statistics}:
         curves.insert(1, Curve("Cells of each type", "", columns, zero=True))
+    for name in run.field_names:
+        curves.append(Curve(f"The field {name}", "", {
+            f"{name}_max": "largest", f"{name}_mean": "mean, by volume",
+            f"{name}_min": "least"}, zero=True))
     curves.append(Curve("Extent of the surface", "µm", {
         f"{axis}{end}": f"{axis}, {word}"
         for axis in "xyz"[:run.dimension]

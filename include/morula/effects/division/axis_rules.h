@@ -146,6 +146,22 @@ namespace Morula
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override;
   };
+
+  /** `Division axis = gradient of NAME`: where a field rises fastest now. */
+  template <int dim>
+  class GradientAxis : public PresentAxis<dim>
+  {
+  public:
+    /** @param field its name */
+    GradientAxis(const std::string &field, const EffectSetting<dim> &setting);
+
+    /** Random where the field is uniform. */
+    Tensor<1, dim>
+    axis(const CellAtOnset<dim> &cell) const override;
+
+  private:
+    const unsigned int number; // of the field
+  };
 } // namespace Morula
 
 #endif

@@ -62,13 +62,16 @@ namespace Morula
      * Makes the sections of the types.
      * @param names as `Names` has them
      * @param of_cells keys of cells, which types may have otherwise
+     * @param growth_laws names of the laws that there are
+     * @param fields names that are taken
      * @throws InputError for names that expressions cannot have, or that are
      *         given twice
      */
     void
     declare_types(const std::string                        &names,
                   const std::vector<const ExpressionKey *> &of_cells,
-                  const std::string                        &growth_laws);
+                  const std::string                        &growth_laws,
+                  const std::vector<std::string>           &fields);
 
     /** Tells the keys of cells which types there are, and what these have
      *  otherwise. */

@@ -12,6 +12,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -25,12 +26,18 @@ namespace Morula
     /** From Tissue/Center to the founder. */
     radial,
     /** The outward normal of the surface near the founder, at t = 0. */
-    surface_normal
+    surface_normal,
+    /** Where a field rises fastest. */
+    gradient
   };
 
+  /** The field of "gradient of NAME"; empty for any other text. */
+  std::string
+  field_of_gradient(const std::string &text);
+
   /** A key of cells that gives a direction in the body as it was at t = 0: an
-   *  expression with the components of a vector of any length, `radial` or
-   *  `surface normal`. */
+   *  expression with the components of a vector of any length, `radial`,
+   *  `surface normal` or `gradient of` a field. */
   class CellDirectionKey : public ExpressionKey
   {
   public:
@@ -49,6 +56,14 @@ namespace Morula
     bool
     has(const DirectionKind kind) const;
 
+    /** What gives the direction of cells of a type. */
+    const std::string &
+    text_of(const unsigned int type) const;
+
+    /** What gives the directions of cells of any type. */
+    std::vector<std::string>
+    texts() const;
+
     std::string
     text() const override;
     void
@@ -63,9 +78,18 @@ namespace Morula
     check(const unsigned int dim) const override;
 
   private:
-    std::string                           written;
-    DirectionKind                         kind_;
-    std::map<unsigned int, DirectionKind> of_types;
+    /** @throws InputError for the gradient of a field that there is not */
+    void
+    check_field(const std::string &path, const std::string &text) const;
+
+    /** A type's own direction. */
+    struct Own
+    {
+      std::string path, text;
+    };
+
+    std::string                 written;
+    std::map<unsigned int, Own> of_types;
   };
 
   /** The direction that such a key gives to each cell. */
@@ -80,7 +104,8 @@ namespace Morula
 
     /**
      * Unit vector in the body as it was at t = 0, at time @p t (day). A founder
-     * in the very centre has no radial direction; it gets the first axis.
+     * in the very centre has no radial direction, and a cell where a field is
+     * uniform no gradient; they get the first axis.
      * @throws InputError where the expression's vector is zero
      */
     Tensor<1, dim>
@@ -90,6 +115,8 @@ namespace Morula
     Expression       expression;
     CellDirectionKey key;
     Point<dim>       center;
+    /** Numbers of the fields of gradients, by the key's texts. */
+    std::map<std::string, unsigned int> fields;
   };
 } // namespace Morula
 

@@ -87,6 +87,12 @@ namespace Morula
     Tensor<1, dim>
     surface_normal() const;
 
+    /** Gradient of a field by its number, per µm, where
+     *  StateColumns::need_gradient() asked for it: in the configuration in
+     * which the field was solved; zero before. */
+    Tensor<1, dim>
+    gradient(const unsigned int field) const;
+
     /** F_e, equation (1.3). */
     Tensor<2, dim>
     elastic() const;
@@ -130,7 +136,7 @@ namespace Morula
     Point<dim>                  position_;
     const CellReader<dim>      &reader_;
     mutable VariableValues      values;
-    mutable std::uint32_t       known = 0; // a bit for each variable
+    mutable std::uint64_t       known = 0; // a bit for each variable
     mutable CellQuantities      quantities_;
     mutable bool                has_quantities = false;
   };

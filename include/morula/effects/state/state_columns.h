@@ -23,8 +23,12 @@ namespace Morula
   class StateColumns
   {
   public:
-    /** @param types names of the cells' types; empty: there are none */
-    explicit StateColumns(const std::vector<std::string> &types = {});
+    /**
+     * @param types  names of the cells' types; empty: there are none
+     * @param fields names of the fields by their numbers
+     */
+    explicit StateColumns(const std::vector<std::string> &types  = {},
+                          const std::vector<std::string> &fields = {});
 
     /** The key's expression, whose variables cells will have. An effect takes
      *  all its expressions of cells from here. @throws InputError */
@@ -35,6 +39,14 @@ namespace Morula
      *  = 0: the column `surface_normal`. */
     void
     need_surface_normal();
+
+    /** Asks for the gradient of a field at the cells. @return its number */
+    unsigned int
+    need_gradient(const std::string &field);
+
+    /** Declares the columns of the fields. */
+    void
+    declare_fields(CellColumns<dim> &columns);
 
     /** Declares the column `type`, if there are types. */
     void
@@ -62,6 +74,15 @@ namespace Morula
     const std::vector<std::string> &
     type_names() const;
 
+    /** Names of the fields in the order of their numbers. */
+    const std::vector<std::string> &
+    field_names() const;
+
+    /** Values of the scene's fields at the cell, by the fields' numbers. */
+    std::vector<Column<double>> fields;
+    /** Their gradients, in the configuration in which they were solved, per µm;
+     *  only those that need_gradient() asked for exist. */
+    std::vector<Column<Tensor<1, dim>>> gradients;
     /** Number of the cell's type. */
     Column<unsigned int> type;
     /** When the cell got its type, day. */
@@ -76,7 +97,9 @@ namespace Morula
 
   private:
     std::vector<std::string> types;
-    std::vector<Variable>    used; // sorted
+    std::vector<std::string> names_of_fields;
+    std::vector<bool>        needs_gradient; // by field
+    std::vector<Variable>    used;           // sorted
     bool                     needs_normal = false;
   };
 } // namespace Morula

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_base_name_list_h
+#define morula_base_name_list_h
+
+#include <morula/base/key.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** The names in a list, which commas separate, without blanks around them. */
+  std::vector<std::string>
+  split_names(const std::string &text);
+
+  /** Why a name cannot stand in an expression; empty if it can. */
+  std::string
+  reason_against_variable(const std::string &name);
+
+  /**
+   * The names in the text of a key that declares sections.
+   * @param reason_against why a name cannot be taken; empty if it can
+   * @throws InputError for such a name, and for one that is there twice
+   */
+  std::vector<std::string>
+  declared_names(
+    const AnyKey                                          &key,
+    const std::string                                     &text,
+    const std::function<std::string(const std::string &)> &reason_against);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fields_field_equation_h
+#define morula_effects_fields_field_equation_h
+
+#include <morula/mechanics/local_system.h>
+#include <morula/mechanics/material_points.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** What a field's equation says of one cell. */
+  struct FieldAtCell
+  {
+    /** V, µm^dim. */
+    double volume;
+    /** D, µm²/day. */
+    double diffusion;
+    /** k: how fast what is sought decays here, with 1/dt where it changes with
+     *  time; 1/day. */
+    double rate;
+    /** s: what comes, in the field's unit per day. */
+    double load;
+  };
+
+  /** What a field's equation says of one boundary point. */
+  template <int dim>
+  struct FieldAtSurface
+  {
+    /** a D n, where the field has a value there; else zero. */
+    Tensor<1, dim> flux;
+    /** a times the penalty or the transfer coefficient, µm^dim/day. */
+    double weight;
+    /** The field that is prescribed or outside. */
+    double value;
+  };
+
+  /**
+   * The equation of a field in a configuration, doc/theory.md (11.2), for
+   * Assembly<dim, 1>: what is sought is added to a field that is known. The
+   * matrix is that of what is sought; the residual is the load, less what the
+   * known field's diffusion and its exchange at the surface take.
+   */
+  template <int dim>
+  struct FieldEquation
+  {
+    using Local = LocalEquations<dim, 1>;
+    using Known = LocalField<dim, 1>;
+
+    /** Adds the equations of an active grid cell. */
+    bool
+    operator()(const unsigned int grid_cell,
+               const Known       &known,
+               Local             &local) const;
+
+    /** Places of the cells and boundary points in their grid cells. */
+    GroupedPoints<dim> cell_places, surface_places;
+    /** In the order of the places. */
+    std::vector<FieldAtCell>         cells;
+    std::vector<FieldAtSurface<dim>> surface;
+    /** By grid cell: whether N_a N_b is lumped, as the field varies within less
+     *  than a grid cell. */
+    std::vector<bool> lumped;
+  };
+
+  /** Marks the grid cells in which k h² > D or, over a step of @p dt (day),
+   *  h² > 6 D dt, with the means of their cells; leaves marks that are there.
+   *  Before rates have 1/dt. @p dt is 0 for a steady field. */
+  template <int dim>
+  void
+  mark_lumped(FieldEquation<dim> &equation, const double dt);
+} // namespace Morula
+
+#endif

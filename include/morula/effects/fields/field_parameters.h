@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fields_field_parameters_h
+#define morula_effects_fields_field_parameters_h
+
+#include <morula/base/expression_key.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Section "Fields/NAME". */
+  struct FieldKeys : public Keys
+  {
+    /** @param name of the field */
+    explicit FieldKeys(const std::string &name);
+
+    std::string      name;
+    Key<std::string> time;
+    ExpressionKey    diffusion;
+    ExpressionKey    production;
+    ExpressionKey    consumption;
+    ExpressionKey    initial;
+    ExpressionKey    fixed_where;
+    ExpressionKey    value;
+    ExpressionKey    transfer;
+    Key<bool>        dilution;
+
+    /** Whether the field has its steady state in every configuration. */
+    bool
+    is_steady() const;
+
+    /** Whether something is done to it at the surface. */
+    bool
+    has_surface() const;
+
+    /**
+     * Refuses what contradicts itself.
+     * @throws InputError
+     */
+    void
+    check(const unsigned int dim) const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Section "Fields": names first, then a section for each of them. */
+  struct FieldsParameters : public Keys
+  {
+    FieldsParameters();
+
+    Key<std::string>      names;
+    std::deque<FieldKeys> fields;
+
+    /** Whether the scene has fields. */
+    bool
+    present() const;
+
+    /** Whether something is done to a field at the surface. */
+    bool
+    have_surface() const;
+
+    /** The names in the order of the fields' numbers. */
+    std::vector<std::string>
+    name_list() const;
+
+    /**
+     * Makes the sections of the fields.
+     * @param names as `Names` has them
+     * @throws InputError for names that expressions or tables cannot have, or
+     *         that are given twice
+     */
+    void
+    declare_fields(const std::string &names);
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+} // namespace Morula
+
+#endif

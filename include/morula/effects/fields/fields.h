@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fields_fields_h
+#define morula_effects_fields_fields_h
+
+#include <morula/effects/fields/field.h>
+#include <morula/effects/fields/field_solve.h>
+#include <morula/particles/tissue.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** A field over all cells of the tissue, on all ranks. */
+  struct FieldTotals
+  {
+    std::string name;
+    double      min, mean, max; // mean over the volume
+  };
+
+  /**
+   * The fields of a scene: what diffuses through the tissue, is made and used
+   * up by cells, and moves with them: doc/theory.md (11.1). Cells keep the
+   * values in columns.
+   */
+  template <int dim>
+  class Fields
+  {
+  public:
+    /** No fields. */
+    Fields() = default;
+
+    /** Adds the columns of the fields. @throws InputError */
+    Fields(const FieldsParameters   &parameters,
+           const EffectSetting<dim> &setting);
+
+    /** Whether there are fields. */
+    bool
+    present() const;
+
+    /** Whether some have their steady state in every configuration. */
+    bool
+    any_steady() const;
+
+    /** Whether some change with time. */
+    bool
+    any_transient() const;
+
+    /** Gives a founder the initial values. @throws InputError */
+    void
+    begin(const CellView<dim, double> &cell) const;
+
+    /** Refuses expressions that a founder has no values for. @throws
+     *  InputError */
+    void
+    check_cell(const PresentCell<dim> &founder) const;
+
+    /**
+     * Refuses values for the surface that it cannot have at t = 0, and
+     * conditions that hold nowhere. Collective.
+     * @param X of the boundary points of this rank, µm
+     * @throws InputError
+     */
+    void
+    check_surface(const FieldsParameters        &parameters,
+                  const std::vector<Point<dim>> &X,
+                  const MPI_Comm                 comm) const;
+
+    /**
+     * The steady fields where the tissue is now, at time @p t (day), one after
+     * the other. Collective.
+     * @throws InputError  for expressions without a value
+     * @throws StepFailed where there is no solution
+     */
+    FieldsOfStep<dim>
+    steady(const Tissue<dim>      &tissue,
+           const SplineSpace<dim> &space,
+           const CellReader<dim>  &reader,
+           const double            t,
+           const SolveLinear      &solve) const;
+
+    /** The other fields at the end @p t1 of a step that begins with the tissue
+     *  as it is, at @p t0. As steady(). */
+    FieldsOfStep<dim>
+    transient(const Tissue<dim>      &tissue,
+              const SplineSpace<dim> &space,
+              const CellReader<dim>  &reader,
+              const double            t0,
+              const double            t1,
+              const SolveLinear      &solve) const;
+
+    /** Gives cells the values that were found. */
+    void
+    set(Tissue<dim> &tissue, const FieldsOfStep<dim> &of_step) const;
+
+    /** Takes into account that a cell's volume has grown by the factor
+     *  @p ratio. */
+    void
+    dilute(const CellView<dim, double> &cell, const double ratio) const;
+
+    /** Collective. */
+    std::vector<FieldTotals>
+    totals(const Tissue<dim> &tissue) const;
+
+  private:
+    std::vector<Field<dim>>             fields;
+    std::vector<Column<double>>         columns;
+    std::vector<Column<Tensor<1, dim>>> gradients;
+  };
+} // namespace Morula
+
+#endif

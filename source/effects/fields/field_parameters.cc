@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/name_list.h>
+#include <morula/effects/fields/field_parameters.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::string section = "Fields/";
+
+    std::string
+    path(const std::string &field, const std::string &key)
+    {
+      return section + field + "/" + key;
+    }
+
+    /** Columns of tables have such names. */
+    std::string
+    reason_against(const std::string &name)
+    {
+      const bool small =
+        std::none_of(name.begin(), name.end(), [](const char c) {
+          return std::isupper(static_cast<unsigned char>(c));
+        });
+      return small ? reason_against_variable(name) :
+                     "Names of fields have small letters, digits and '_', and "
+                     "begin with a letter.";
+    }
+  } // namespace
+
+
+  FieldKeys::FieldKeys(const std::string &name)
+    : name(name)
+    , time(path(name, "Time"),
+           "steady",
+           "steady: in each configuration the field has its steady state. "
+           "transient: it changes with time.",
+           {"steady|transient"})
+    , diffusion(path(name, "Diffusion"),
+                "",
+                "Diffusion coefficient D, an expression of the cells' state; > "
+                "0. Units: um^2/day.",
+                Evaluated::step)
+    , production(
+        path(name, "Production"),
+        "0",
+        "What a cell makes of it per time and volume, an expression of "
+        "the cell's state; not negative. In the field's unit per day.",
+        Evaluated::step)
+    , consumption(path(name, "Consumption"),
+                  "0",
+                  "Rate k at which a cell uses it up, k times the field, an "
+                  "expression of the cell's state, which may read the field "
+                  "itself: 4e6/(0.5 + NAME) saturates; not negative. Units: "
+                  "1/day.",
+                  Evaluated::step)
+    , initial(
+        path(name, "Initial"),
+        "0",
+        "The field at t = 0, at which a steady field is sought first; not "
+        "negative. An expression of X, Y, Z (um).",
+        Evaluated::founder)
+    , fixed_where(
+        path(name, "Fixed where"),
+        "",
+        "At boundary points at which this is > 0 the field has Value; "
+        "empty: nowhere. An expression of X, Y, Z (um).",
+        Evaluated::founder)
+    , value(path(name, "Value"),
+            "0",
+            "The field at the fixed boundary points, and outside of the others "
+            "if there is a Transfer; not negative. An expression of X, Y, Z "
+            "(um), t (day).",
+            Evaluated::place)
+    , transfer(path(name, "Transfer"),
+               "",
+               "At boundary points that are not fixed -D dc/dn = Transfer (c - "
+               "Value); not negative; empty: nothing passes there. An "
+               "expression of X, Y, Z (um), t (day). Units: um/day.",
+               Evaluated::place)
+    , dilution(path(name, "Dilution"),
+               true,
+               "Whether a transient field becomes less where cells grow, so "
+               "that its amount stays. The steady state knows no dilution.")
+  {
+    diffusion.positive("um^2/day", "Oxygen has about 1.7e8.");
+    production.not_negative("a day", "What a cell uses up is Consumption.");
+    consumption.not_negative("1/day", "What a cell makes is Production.");
+    for (ExpressionKey *key : {&initial, &value})
+      key->not_negative("(a concentration)", "0 is none at all.");
+    transfer.not_negative("um/day", "0 lets nothing pass.");
+  }
+
+
+  bool
+  FieldKeys::is_steady() const
+  {
+    return time == "steady";
+  }
+
+
+  bool
+  FieldKeys::has_surface() const
+  {
+    return !fixed_where.empty() || !transfer.empty();
+  }
+
+
+  void
+  FieldKeys::check(const unsigned int dim) const
+  {
+    if (diffusion.empty())
+      diffusion.refuse("an expression > 0 um^2/day",
+                       "Each field needs one; oxygen has about 1.7e8.");
+    check_each(dim);
+    if (!value.is_default() && !has_surface())
+      value.refuse("its default, as neither " + fixed_where.path() + " nor " +
+                     transfer.path() + " is set",
+                   "Set one of them, or remove this key.");
+    if (is_steady() && !has_surface() &&
+        consumption.largest_number(dim).value_or(1.) == 0.)
+      consumption.refuse(
+        "a rate > 0 1/day for a steady field that nothing holds at the surface",
+        "Without a sink any constant could be added to the field: set this "
+        "key, or " +
+          fixed_where.path() + ", or " + transfer.path() + ", or " +
+          time.path() + " = transient.");
+  }
+
+
+  KeyList
+  FieldKeys::list()
+  {
+    return {&time,
+            &diffusion,
+            &production,
+            &consumption,
+            &initial,
+            &fixed_where,
+            &value,
+            &transfer,
+            &dilution};
+  }
+
+
+  FieldsParameters::FieldsParameters()
+    : names(section + "Names",
+            "",
+            "Fields that diffuse through the tissue, separated by commas. Each "
+            "has a section of this name, and expressions of cells may have its "
+            "value at the cell as a variable. Empty: there are none.")
+  {}
+
+
+  bool
+  FieldsParameters::present() const
+  {
+    return !fields.empty();
+  }
+
+
+  bool
+  FieldsParameters::have_surface() const
+  {
+    return std::any_of(fields.begin(),
+                       fields.end(),
+                       [](const FieldKeys &field) {
+                         return field.has_surface();
+                       });
+  }
+
+
+  std::vector<std::string>
+  FieldsParameters::name_list() const
+  {
+    std::vector<std::string> list;
+    for (const FieldKeys &field : fields)
+      list.push_back(field.name);
+    return list;
+  }
+
+
+  void
+  FieldsParameters::declare_fields(const std::string &text)
+  {
+    for (const std::string &name : declared_names(names, text, reason_against))
+      fields.emplace_back(name);
+    if (fields.size() > most_fields)
+      throw InputError(names.path(),
+                       text,
+                       "at most " + std::to_string(most_fields) + " names",
+                       "There are " + std::to_string(fields.size()) + ".");
+  }
+
+
+  KeyList
+  FieldsParameters::list()
+  {
+    KeyList list{&names};
+    for (FieldKeys &field : fields)
+      for (AnyKey *key : field.list())
+        list.push_back(key);
+    return list;
+  }
+} // namespace Morula

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/effects/fields/fields.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Morula
+{
+  template <int dim>
+  Fields<dim>::Fields(const FieldsParameters   &parameters,
+                      const EffectSetting<dim> &setting)
+  {
+    for (const FieldKeys &keys : parameters.fields)
+      fields.emplace_back(keys, fields.size(), setting);
+    setting.state.declare_fields(setting.columns);
+    columns   = setting.state.fields;
+    gradients = setting.state.gradients;
+  }
+
+
+  template <int dim>
+  bool
+  Fields<dim>::present() const
+  {
+    return !fields.empty();
+  }
+
+
+  template <int dim>
+  bool
+  Fields<dim>::any_steady() const
+  {
+    return std::any_of(fields.begin(),
+                       fields.end(),
+                       [](const Field<dim> &field) {
+                         return field.is_steady();
+                       });
+  }
+
+
+  template <int dim>
+  bool
+  Fields<dim>::any_transient() const
+  {
+    return std::any_of(fields.begin(),
+                       fields.end(),
+                       [](const Field<dim> &field) {
+                         return !field.is_steady();
+                       });
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::begin(const CellView<dim, double> &cell) const
+  {
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      cell.set(columns[k], fields[k].initial(cell.founder_position()));
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::check_cell(const PresentCell<dim> &founder) const
+  {
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      fields[k].at_cell(founder, 0., founder.cell().get(columns[k]), 0., 1.);
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::check_surface(const FieldsParameters        &parameters,
+                             const std::vector<Point<dim>> &X,
+                             const MPI_Comm                 comm) const
+  {
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      {
+        types::particle_index n_fixed = 0;
+        everywhere(comm, [&]() {
+          for (const Point<dim> &place : X)
+            if (fields[k].acts_on(place))
+              {
+                n_fixed += fields[k].is_fixed(place);
+                fields[k].value(place, 0.);
+                fields[k].transfer(place, 0.);
+              }
+        });
+        const ExpressionKey &where = parameters.fields[k].fixed_where;
+        if (!where.empty() && Utilities::MPI::sum(n_fixed, comm) == 0)
+          where.refuse("a condition that holds at some boundary point",
+                       "It is positive at none: correct it, or leave it empty. "
+                       "Boundary points sit at centers of surface patches, not "
+                       "on edges or corners.");
+      }
+  }
+
+
+  template <int dim>
+  FieldsOfStep<dim>
+  Fields<dim>::steady(const Tissue<dim>      &tissue,
+                      const SplineSpace<dim> &space,
+                      const CellReader<dim>  &reader,
+                      const double            t,
+                      const SolveLinear      &solve) const
+  {
+    FieldsOfStep<dim> found;
+    FieldSolver<dim>  solver(tissue, space, reader, solve);
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      if (fields[k].is_steady())
+        found.push_back(solver.field(fields[k], k, t, t, 0.));
+    return found;
+  }
+
+
+  template <int dim>
+  FieldsOfStep<dim>
+  Fields<dim>::transient(const Tissue<dim>      &tissue,
+                         const SplineSpace<dim> &space,
+                         const CellReader<dim>  &reader,
+                         const double            t0,
+                         const double            t1,
+                         const SolveLinear      &solve) const
+  {
+    FieldsOfStep<dim> found;
+    FieldSolver<dim>  solver(tissue, space, reader, solve);
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      if (!fields[k].is_steady())
+        found.push_back(solver.field(fields[k], k, t0, t1, t1 - t0));
+    return found;
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::set(Tissue<dim> &tissue, const FieldsOfStep<dim> &of_step) const
+  {
+    for (const FieldSolution<dim> &field : of_step)
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        {
+          const CellView<dim, double> cell = tissue.cell(p);
+          cell.set(columns[field.number], field.values[p]);
+          if (gradients[field.number].exists())
+            cell.set(gradients[field.number], field.gradients[p]);
+        }
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::dilute(const CellView<dim, double> &cell,
+                      const double                 ratio) const
+  {
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      if (fields[k].is_diluted())
+        cell.set(columns[k], cell.get(columns[k]) / ratio);
+  }
+
+
+  template <int dim>
+  std::vector<FieldTotals>
+  Fields<dim>::totals(const Tissue<dim> &tissue) const
+  {
+    const Cells<dim>        &cells = tissue.cells();
+    std::vector<FieldTotals> list;
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        double amount = 0., volume = 0.;
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          {
+            const double c = cells[p].get(columns[k]);
+            least          = std::min(least, c);
+            most           = std::max(most, c);
+            amount += c * cells.volume(p);
+            volume += cells.volume(p);
+          }
+        const MPI_Comm comm = tissue.communicator();
+        list.push_back({fields[k].name(),
+                        Utilities::MPI::min(least, comm),
+                        Utilities::MPI::sum(amount, comm) /
+                          Utilities::MPI::sum(volume, comm),
+                        Utilities::MPI::max(most, comm)});
+      }
+    return list;
+  }
+
+
+  template class Fields<2>;
+  template class Fields<3>;
+} // namespace Morula

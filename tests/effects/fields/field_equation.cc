@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fields/field_equation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  using Local = typename FieldEquation<dim>::Local;
+
+  /** A grid cell with some cells and boundary points, which may have fluxes. */
+  template <int dim>
+  FieldEquation<dim>
+  some_equation(const double rate)
+  {
+    FieldEquation<dim> equation;
+    equation.cell_places.h = equation.surface_places.h = 20.;
+    for (unsigned int p = 0; p < 5; ++p)
+      {
+        Point<dim>     xi;
+        Tensor<1, dim> flux;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            xi[d]   = 0.5 + 0.4 * std::sin(3. * p + d);
+            flux[d] = std::cos(2. * p - d);
+          }
+        equation.cell_places.xi.push_back(xi);
+        equation.cells.push_back({10. + p, 300. * (1. + p), rate, 0.3 * p});
+        if (p > 2)
+          continue;
+        equation.surface_places.xi.push_back(xi);
+        equation.surface.push_back({flux, 7. + p, 2.});
+      }
+    equation.cell_places.offsets    = {0, 5};
+    equation.surface_places.offsets = {0, 3};
+    equation.lumped                 = {false};
+    return equation;
+  }
+
+  template <int dim>
+  LocalField<dim, 1>
+  some_field()
+  {
+    LocalField<dim, 1> field;
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      field.coefficient[0][a] = std::sin(1. + a);
+    return field;
+  }
+
+  template <int dim>
+  std::vector<double>
+  matrix(const FieldEquation<dim> &equation)
+  {
+    Local<dim> local(Local<dim>::tangent);
+    equation(0, some_field<dim>(), local);
+    return local.matrix;
+  }
+
+  /** Row a of the matrix times the field. */
+  template <int dim>
+  double
+  row_times(const std::vector<double> &matrix,
+            const unsigned int         a,
+            const LocalField<dim, 1>  &field)
+  {
+    double sum = 0.;
+    for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
+      sum += matrix[a * BSpline<dim>::n + b] * field.coefficient[0][b];
+    return sum;
+  }
+
+  template <int dim>
+  void
+  check_symmetry()
+  {
+    constexpr unsigned int n = BSpline<dim>::n;
+    const auto             A = matrix(some_equation<dim>(0.7));
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = 0; b < a; ++b)
+        EXPECT_NEAR(A[a * n + b], A[b * n + a], 1e-12);
+  }
+
+  /** Without a rate the load is that of the known field 0, less the matrix
+   *  times the known field. */
+  template <int dim>
+  void
+  check_load()
+  {
+    const FieldEquation<dim> equation = some_equation<dim>(0.);
+    const auto               A        = matrix(equation);
+    const auto               field    = some_field<dim>();
+    Local<dim>               load(Local<dim>::energy_and_residual);
+    Local<dim>               of_zero(Local<dim>::energy_and_residual);
+    equation(0, field, load);
+    LocalField<dim, 1> zero = {};
+    equation(0, zero, of_zero);
+    double largest = 0.;
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      {
+        largest = std::max(largest, std::abs(load.residual[a]));
+        EXPECT_NEAR(load.residual[a],
+                    of_zero.residual[a] - row_times(A, a, field),
+                    1e-9);
+      }
+    EXPECT_GT(largest, 1.);
+  }
+
+  /** Lumped terms stand on the diagonal and have the same row sums. */
+  template <int dim>
+  void
+  check_lumping()
+  {
+    constexpr unsigned int n          = BSpline<dim>::n;
+    FieldEquation<dim>     equation   = some_equation<dim>(0.7);
+    const auto             consistent = matrix(equation);
+    const auto             without    = matrix(some_equation<dim>(0.));
+    mark_lumped(equation, 0.);
+    EXPECT_FALSE(equation.lumped[0]); // 0.7 (20 um)^2 < D
+    equation.lumped[0] = true;
+    const auto lumped  = matrix(equation);
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        double sum = 0.;
+        for (unsigned int b = 0; b < n; ++b)
+          {
+            sum += lumped[a * n + b] - consistent[a * n + b];
+            if (a != b)
+              {
+                EXPECT_NEAR(lumped[a * n + b], without[a * n + b], 1e-12);
+              }
+          }
+        EXPECT_NEAR(sum, 0., 1e-11);
+      }
+  }
+} // namespace
+
+
+TEST(FieldEquation, IsSymmetric)
+{
+  check_symmetry<2>();
+  check_symmetry<3>();
+}
+
+
+TEST(FieldEquation, TakesWhatTheKnownFieldGives)
+{
+  check_load<2>();
+  check_load<3>();
+}
+
+
+TEST(FieldEquation, LumpsWithTheSameSums)
+{
+  check_lumping<2>();
+  check_lumping<3>();
+}
+
+
+TEST(FieldEquation, MarksWhereTheFieldIsNotResolved)
+{
+  const auto marked = [](const double rate, const double dt) {
+    FieldEquation<2> equation = some_equation<2>(rate);
+    mark_lumped(equation, dt);
+    return bool(equation.lumped[0]);
+  };
+  // The mean of D is 950 um^2/day, h = 20 um.
+  EXPECT_FALSE(marked(2.3, 0.));
+  EXPECT_TRUE(marked(2.4, 0.));
+  EXPECT_FALSE(marked(0., 0.072));
+  EXPECT_TRUE(marked(0., 0.069));
+}

@@ -6,6 +6,7 @@
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
@@ -46,6 +47,7 @@ namespace Morula
     add<Traction>(boundary_conditions, "traction");
     add<Pressure>(boundary_conditions, "pressure");
     add<SurfaceTension>(boundary_conditions, "surface tension");
+    add<Obstacles>(boundary_conditions, "obstacles");
   }
 
 

@@ -19,6 +19,18 @@ namespace Morula
   }
 
 
+  const AnyKey *
+  EffectKeys::names_key() const
+  {
+    return nullptr;
+  }
+
+
+  void
+  EffectKeys::declare_sections(const std::string &)
+  {}
+
+
   std::string
   EffectKeys::topic() const
   {

@@ -132,6 +132,7 @@ namespace Morula
             boundary_conditions_of<dim>(scene).has(SurfaceCondition::fixed),
             scene.time.end_time,
             scene.time.step,
+            scene.grid.spacing,
             comm};
   }
 

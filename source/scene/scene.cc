@@ -152,6 +152,9 @@ namespace Morula
                              {of_cells.begin(), of_cells.end()},
                              laws,
                              fields.name_list());
+    for (auto &condition : catalogue.boundary_conditions)
+      if (const AnyKey *key = condition.keys().names_key())
+        condition.keys().declare_sections(names_in(*key));
   }
 
 

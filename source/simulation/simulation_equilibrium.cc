@@ -2,11 +2,14 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/effects/obstacles/contact.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_points.h>
+
+#include <deal.II/base/mpi.h>
 
 namespace Morula
 {
@@ -127,12 +130,51 @@ namespace Morula
         return nitsche_term(
           boundary_conditions, material, tissue, space, growth_of_step, t);
       });
+    add_loads(space, list);
+    return list;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::add_loads(const SplineSpace<dim>                  &space,
+                             typename MomentumBalance<dim>::TermList &list)
+  {
+    if (!boundary_conditions.has(SurfaceCondition::loaded))
+      return;
+    std::string too_long;
     for (const auto &named : boundary_conditions.list())
       if (named.condition->kind() == SurfaceCondition::loaded)
-        add(named.name, [&]() {
-          return named.condition->term(loaded_points(tissue, space), t);
-        });
-    return list;
+        {
+          const TimerOutput::Scope section(timer, named.name);
+          everywhere(comm, [&]() {
+            LoadedPoints<dim> points = loaded_points(tissue, space);
+            points.time              = time_steps.time();
+            points.youngs_modulus    = typical_stiffness;
+            try
+              {
+                list.push_back(
+                  named.condition->term(points, time_steps.next()));
+              }
+            catch (const StepFailed &failure)
+              {
+                too_long = failure.what();
+              }
+          });
+        }
+    for (const std::string &reason : Utilities::MPI::all_gather(comm, too_long))
+      if (!reason.empty())
+        throw StepFailed(reason);
+    if (boundary_conditions.push())
+      {
+        std::vector<double> volumes;
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          volumes.push_back(tissue.cells().initial_volume(p));
+        list.push_back(std::make_unique<Drag<dim>>(
+          cell_positions(tissue, space),
+          std::move(volumes),
+          Drag<dim>::relative * typical_stiffness /
+            (scene.grid.spacing * scene.grid.spacing)));
+      }
   }
 
   template <int dim>
@@ -164,7 +206,7 @@ namespace Morula
   Simulation<dim>::inertia(const SplineSpace<dim> &space,
                            const RigidModes<dim>  &modes)
   {
-    if (!modes.any())
+    if (!modes.any() || boundary_conditions.push())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return modes.inertia(masses(space));

@@ -27,6 +27,14 @@ subsection Boundary conditions
   set Pressure       = 0.001
   set Surface tension = 0.001
 end
+subsection Obstacles
+  set Names = floor
+  subsection floor
+    set Shape  = plane
+    set Center = 0, 0, -70
+    set Normal = 0, 0, 1
+  end
+end
 subsection Body force
   set Force density = 0; 0; -1e-6
 end

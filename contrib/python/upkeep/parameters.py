@@ -64,6 +64,24 @@ exist only where a scene names fields.
 | `Dilution` | `true` | — | Whether a transient field becomes less where cells grow, so that its amount stays. |
 """
 
+# Sections that exist only where the scene names obstacles.
+OF_OBSTACLES = """
+Each name is a section `Obstacles/NAME` with these keys. `--parameters` does not show them, as
+they exist only where a scene names obstacles.
+
+| key in `Obstacles/NAME` | default | unit | meaning |
+| --- | --- | --- | --- |
+| `Shape` | (none) | — | `plane`, `sphere` (2-D: a disc), `cylinder` (3-D, without ends) or `box` (edges along the axes). |
+| `Side` | `outside` | — | `outside`: the tissue is outside of the body, in front of the plane; `inside`: inside, as in a mould. |
+| `Center` | `0, 0, 0` | um | Center of the body, or a point of the plane, at t = 0. |
+| `Radius` | `0` | um | Of a sphere or cylinder; > 0. |
+| `Normal` | (empty) | — | Of a plane; it points to the tissue if Side = outside. |
+| `Size` | (empty) | um | Full edge lengths of a box. |
+| `Axis` | (empty) | — | Of a cylinder. |
+| `Stiffness` | `100` | E/h | Pressure on the tissue over its depth in the obstacle; > 0. E is that of the stiffest cell. |
+| `Velocity` | `0; 0; 0` | um/day | Velocity of the obstacle: functions of t separated by ';'. |
+"""
+
 
 def cell(text):
     """Text that may stand in a table."""
@@ -99,6 +117,8 @@ def page(keys):
             lines.append(OF_TYPES)
         if key.path == "Fields/Names":
             lines.append(OF_FIELDS)
+        if key.path == "Obstacles/Names":
+            lines.append(OF_OBSTACLES)
     return "".join(lines)
 
 

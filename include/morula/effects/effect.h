@@ -37,6 +37,15 @@ namespace Morula
     virtual const AnyKey *
     switch_key() const;
 
+    /** The key whose value names sections of the effect, or null. */
+    virtual const AnyKey *
+    names_key() const;
+
+    /** Makes the sections with the names in @p text, before any key has its
+     *  value. @throws InputError */
+    virtual void
+    declare_sections(const std::string &text);
+
     /** What it is called in --explain; empty: the effect's name. */
     virtual std::string
     topic() const;
@@ -88,7 +97,9 @@ namespace Morula
     /** Of the run, day. */
     double end_time;
     /** Length of a step, day. */
-    double   step;
+    double step;
+    /** h, µm. */
+    double   grid_spacing;
     MPI_Comm comm;
   };
 

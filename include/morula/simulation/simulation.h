@@ -149,6 +149,12 @@ namespace Morula
     void
     write_condition();
 
+    /** Adds the terms of the conditions that load the surface. @throws
+     *  StepFailed on all ranks where a condition finds the step too long */
+    void
+    add_loads(const SplineSpace<dim>                  &space,
+              typename MomentumBalance<dim>::TermList &list);
+
     typename MomentumBalance<dim>::TermList
     terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
     std::vector<typename RigidModes<dim>::Mass>

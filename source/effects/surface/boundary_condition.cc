@@ -23,6 +23,14 @@ namespace Morula
 
   template <int dim>
   bool
+  BoundaryCondition<dim>::only_pushes() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  bool
   BoundaryCondition<dim>::moves() const
   {
     return kind() == SurfaceCondition::loaded;

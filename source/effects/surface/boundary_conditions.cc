@@ -84,6 +84,16 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  BoundaryConditions<dim>::push() const
+  {
+    return std::any_of(list_.begin(), list_.end(), [](const Named &named) {
+      return named.condition->only_pushes();
+    });
+  }
+
+
+  template <int dim>
   const std::vector<typename BoundaryConditions<dim>::Named> &
   BoundaryConditions<dim>::list() const
   {

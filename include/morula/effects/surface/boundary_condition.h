@@ -39,6 +39,10 @@ namespace Morula
 
     /** In the order of xi. */
     std::vector<Point> points;
+    /** Of the configuration, day. */
+    double time = 0.;
+    /** Of the stiffest cell, kPa. */
+    double youngs_modulus = 0.;
   };
 
   /**
@@ -68,9 +72,14 @@ namespace Morula
     displacement(const Point<dim> &X, const double t) const;
 
     /** The term of a condition that loads, at the end @p t (day) of a step, on
-     *  those of the points that it acts on. Not collective. */
+     *  those of the points that it acts on. Not collective.
+     *  @throws StepFailed where the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const;
+
+    /** Whether it pushes tissue where it meets it, and holds it nowhere. */
+    virtual bool
+    only_pushes() const;
 
     /** Whether tissue at rest would move: for the estimate of the time. */
     virtual bool

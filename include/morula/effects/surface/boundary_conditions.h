@@ -60,6 +60,10 @@ namespace Morula
     bool
     has(const SurfaceCondition kind) const;
 
+    /** Whether a condition only pushes. */
+    bool
+    push() const;
+
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &
     list() const;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_obstacles_obstacles_h
+#define morula_effects_obstacles_obstacles_h
+
+#include <morula/effects/obstacles/contact.h>
+#include <morula/effects/surface/boundary_condition.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Rigid bodies that the surface of the tissue slides along and cannot
+   *  enter: doc/theory.md (4.8d). */
+  template <int dim>
+  class Obstacles : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = ObstaclesParameters;
+
+    /** @throws InputError for bodies that do not exist, and for velocities that
+     *  cannot be parsed */
+    explicit Obstacles(const Parameters &parameters);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    /** @throws StepFailed where an obstacle comes too far in the step */
+    std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const override;
+    bool
+    only_pushes() const override;
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    struct Obstacle
+    {
+      std::string                      name;
+      bool                             is_mould;
+      std::unique_ptr<const Body<dim>> body;
+      double                           stiffness; // κ h / E
+      Expression                       velocity;  // µm/day
+
+      /** From t = 0 to @p t, µm. */
+      Tensor<1, dim>
+      way(const double t) const;
+    };
+
+    std::vector<Obstacle> list;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/obstacles/body.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    template <int dim>
+    Tensor<2, dim>
+    identity()
+    {
+      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
+
+    template <int dim>
+    class Plane : public Body<dim>
+    {
+    public:
+      Plane(const Point<dim> &point, const Tensor<1, dim> &normal)
+        : point(point)
+        , normal(normal)
+      {}
+
+      Distance<dim>
+      distance(const Point<dim> &x) const override
+      {
+        return {normal * (x - point), normal, Tensor<2, dim>()};
+      }
+
+    private:
+      const Point<dim>     point;
+      const Tensor<1, dim> normal;
+    };
+
+    /** A sphere, or a cylinder if a direction does not count. */
+    template <int dim>
+    class Round : public Body<dim>
+    {
+    public:
+      Round(const Point<dim>     &center,
+            const double          radius,
+            const Tensor<2, dim> &across)
+        : center(center)
+        , radius(radius)
+        , across(across)
+      {}
+
+      Distance<dim>
+      distance(const Point<dim> &x) const override
+      {
+        const Tensor<1, dim> arm    = across * (x - center);
+        const double         length = arm.norm();
+        Distance<dim>        result;
+        result.value = length - radius;
+        if (length > 0.)
+          {
+            result.gradient = arm / length;
+            result.curvature =
+              (across - outer_product(result.gradient, result.gradient)) /
+              length;
+          }
+        return result;
+      }
+
+    private:
+      const Point<dim>     center;
+      const double         radius;
+      const Tensor<2, dim> across; // projection onto the directions that count
+    };
+
+    template <int dim>
+    class Box : public Body<dim>
+    {
+    public:
+      Box(const Point<dim> &center, const Point<dim> &size)
+        : center(center)
+        , size(size)
+      {}
+
+      Distance<dim>
+      distance(const Point<dim> &x) const override
+      {
+        Distance<dim>  inside; // to the nearest face
+        Tensor<1, dim> beyond; // from the nearest point of the box
+        inside.value = -std::numeric_limits<double>::infinity();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double arm  = x[d] - center[d];
+            const double sign = arm < 0. ? -1. : 1.;
+            const double q    = std::abs(arm) - 0.5 * size[d];
+            if (q > inside.value)
+              {
+                inside.value       = q;
+                inside.gradient    = Tensor<1, dim>();
+                inside.gradient[d] = sign;
+              }
+            beyond[d] = q > 0. ? sign * q : 0.;
+          }
+        if (!(inside.value > 0.))
+          return inside;
+        Distance<dim> result;
+        result.value     = beyond.norm();
+        result.gradient  = beyond / result.value;
+        result.curvature = outer_product(result.gradient, result.gradient);
+        result.curvature *= -1. / result.value;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (beyond[d] != 0.)
+            result.curvature[d][d] += 1. / result.value;
+        return result;
+      }
+
+    private:
+      const Point<dim> center, size;
+    };
+
+    template <int dim>
+    Point<dim>
+    place(const Key<std::vector<double>> &key)
+    {
+      if (key.size() < dim)
+        key.refuse(std::to_string(dim) + " numbers in um",
+                   "Write one for each direction.");
+      Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = key[d];
+      return result;
+    }
+
+    template <int dim>
+    Tensor<1, dim>
+    direction(const DirectionKey &key, const std::string &shape)
+    {
+      if (key.empty())
+        key.refuse("a direction, as Shape = " + shape,
+                   "Write for example 0, 1, 0.");
+      return unit_vector<dim>(key.path(), key.value());
+    }
+
+    double
+    positive_radius(const ObstacleKeys &keys)
+    {
+      if (!(keys.radius > 0.))
+        keys.radius.refuse("a length in um > 0, as Shape = " + keys.shape,
+                           "Give the radius of the body.");
+      return keys.radius;
+    }
+
+    template <int dim>
+    Point<dim>
+    positive_size(const ObstacleKeys &keys)
+    {
+      const Point<dim> size = place<dim>(keys.size);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!(size[d] > 0.))
+          keys.size.refuse("lengths in um > 0", "Give the edges of the box.");
+      return size;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::unique_ptr<const Body<dim>>
+  make_body(const ObstacleKeys &keys)
+  {
+    const Point<dim>  center = place<dim>(keys.center);
+    const std::string shape  = keys.shape;
+    if (shape == "plane")
+      return std::make_unique<Plane<dim>>(center,
+                                          direction<dim>(keys.normal, shape));
+    if (shape == "sphere")
+      return std::make_unique<Round<dim>>(center,
+                                          positive_radius(keys),
+                                          identity<dim>());
+    if (shape == "box")
+      return std::make_unique<Box<dim>>(center, positive_size<dim>(keys));
+    if (shape.empty())
+      keys.shape.refuse("plane, sphere, cylinder or box",
+                        "Say what the obstacle is.");
+    if (dim == 2)
+      keys.shape.refuse("plane, sphere or box in 2-D",
+                        "There a sphere is a disc.");
+    const Tensor<1, dim> axis = direction<dim>(keys.axis, shape);
+    return std::make_unique<Round<dim>>(center,
+                                        positive_radius(keys),
+                                        identity<dim>() -
+                                          outer_product(axis, axis));
+  }
+
+
+  template std::unique_ptr<const Body<2>>
+  make_body(const ObstacleKeys &);
+  template std::unique_ptr<const Body<3>>
+  make_body(const ObstacleKeys &);
+} // namespace Morula

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/obstacles/obstacles.h>
+#include <morula/mechanics/equilibrium.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <sstream>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The velocity, which may depend on the time alone. @throws InputError */
+    Expression
+    velocity_of(const ObstacleKeys &keys, const unsigned int dim)
+    {
+      const Expression velocity = keys.velocity.expression(dim);
+      for (const Variable place : {Variable::X, Variable::Y, Variable::Z})
+        if (velocity.uses(place))
+          keys.velocity.refuse("functions of t",
+                               "An obstacle moves as a whole: remove X, Y and "
+                               "Z.");
+      return velocity;
+    }
+
+    /** Deepest point in an obstacle. */
+    template <int dim, typename Points, typename Position>
+    std::pair<double, Point<dim>>
+    deepest(const typename Contact<dim>::Obstacle &obstacle,
+            const Points                          &points,
+            const Position                        &position)
+    {
+      std::pair<double, Point<dim>> best(0., Point<dim>());
+      for (const auto &point : points)
+        {
+          const double depth = obstacle.depth(position(point));
+          if (depth > best.first)
+            best = {depth, position(point)};
+        }
+      return best;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Obstacles<dim>::Obstacles(const Parameters &parameters)
+  {
+    for (const ObstacleKeys &keys : parameters.obstacles)
+      list.push_back({keys.name,
+                      keys.side == "inside",
+                      make_body<dim>(keys),
+                      keys.stiffness,
+                      velocity_of(keys, dim)});
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Obstacles<dim>::Obstacle::way(const double t) const
+  {
+    const Point<dim> nowhere;
+    if (velocity.is_constant())
+      return t * velocity.vector(nowhere, t);
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim && t > 0.; ++d)
+      result[d] = boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+        [&](const double s) { return velocity.value(nowhere, s, d); },
+        0.,
+        t,
+        12,
+        1e-10);
+    return result;
+  }
+
+
+  template <int dim>
+  SurfaceCondition
+  Obstacles<dim>::kind() const
+  {
+    return SurfaceCondition::loaded;
+  }
+
+
+  template <int dim>
+  bool
+  Obstacles<dim>::acts_on(const Point<dim> &, const Tensor<1, dim> &) const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  Obstacles<dim>::only_pushes() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
+  {
+    const double                                      h = points.h;
+    std::vector<typename Contact<dim>::Obstacle>      obstacles;
+    std::vector<typename Contact<dim>::BoundaryPoint> boundary_points;
+    for (const auto &point : points.points)
+      boundary_points.push_back({point.x, point.area.norm()});
+    for (const Obstacle &obstacle : list)
+      {
+        obstacles.push_back({obstacle.body.get(),
+                             obstacle.is_mould,
+                             obstacle.way(t),
+                             obstacle.stiffness * points.youngs_modulus / h});
+        std::ostringstream text;
+        const double       step =
+          (obstacles.back().way - obstacle.way(points.time)).norm();
+        if (step > h)
+          {
+            text << "the obstacle '" << obstacle.name << "' moves by " << step
+                 << " um in a step, more than a grid spacing";
+            throw StepFailed(text.str());
+          }
+        const auto [depth, place] =
+          deepest<dim>(obstacles.back(), points.points, [](const auto &point) {
+            return point.x;
+          });
+        if (depth > h)
+          {
+            text << "the surface at (" << place << ") um is " << depth
+                 << " um deep in the obstacle '" << obstacle.name
+                 << "', more than a grid spacing";
+            throw StepFailed(text.str());
+          }
+      }
+    return std::make_unique<Contact<dim>>(points,
+                                          std::move(boundary_points),
+                                          std::move(obstacles));
+  }
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::check(const Preview<dim> &scene) const
+  {
+    for (const Obstacle &obstacle : list)
+      {
+        obstacle.way(scene.end_time);
+        const auto [depth, place] = deepest<dim>(
+          {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
+          scene.boundary_points,
+          [](const Point<dim> &X) { return X; });
+        if (depth <= 0.5 * scene.grid_spacing)
+          continue;
+        std::ostringstream text;
+        text << "It is " << depth << " um deep in the obstacle at (" << place
+             << ") um: move the obstacle or the tissue, or correct Side.";
+        throw InputError("Obstacles/Names",
+                         obstacle.name,
+                         "an obstacle that the surface of the tissue is at "
+                         "most half a grid spacing deep in at t = 0",
+                         text.str());
+      }
+  }
+
+
+  template class Obstacles<2>;
+  template class Obstacles<3>;
+} // namespace Morula

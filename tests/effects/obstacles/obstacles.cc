@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/obstacles/obstacles.h>
+#include <morula/mechanics/equilibrium.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <string>
+
+#include "common/complaint.h"
+#include "common/finite_differences.h"
+
+using namespace Morula;
+
+namespace
+{
+  using Values = std::map<std::string, std::string>;
+
+  /** One obstacle with these values of its keys. */
+  ObstaclesParameters
+  one_obstacle(const Values &values)
+  {
+    ObstaclesParameters parameters;
+    parameters.declare_sections("wall");
+    for (AnyKey *key : parameters.obstacles.front().list())
+      if (values.count(key->short_name()) > 0)
+        key->assign(values.at(key->short_name()));
+    return parameters;
+  }
+
+  template <int dim>
+  std::unique_ptr<const Body<dim>>
+  body(const Values &values)
+  {
+    return make_body<dim>(one_obstacle(values).obstacles.front());
+  }
+
+  /** All shapes, about the grid cell [0, 50]^dim. */
+  template <int dim>
+  std::vector<Values>
+  shapes()
+  {
+    std::vector<Values> list = {
+      {{"Shape", "plane"}, {"Center", "20, 25, 25"}, {"Normal", "1, 2, 0.5"}},
+      {{"Shape", "sphere"}, {"Center", "20, 30, 25"}, {"Radius", "17"}},
+      {{"Shape", "box"}, {"Center", "20, 30, 25"}, {"Size", "30, 20, 24"}}};
+    if (dim == 3)
+      list.push_back({{"Shape", "cylinder"},
+                      {"Center", "20, 30, 25"},
+                      {"Radius", "15"},
+                      {"Axis", "0.2, 1, -0.5"}});
+    return list;
+  }
+
+  /** Gradient and curvature are the derivatives of the distance. */
+  template <int dim>
+  void
+  check_distances()
+  {
+    std::mt19937 generator(1);
+    const double eps = 1e-5;
+    for (const Values &values : shapes<dim>())
+      for (unsigned int i = 0; i < 50; ++i)
+        {
+          SCOPED_TRACE(values.at("Shape"));
+          const auto at = body<dim>(values);
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = std::uniform_real_distribution<double>(0., 50.)(generator);
+          const Distance<dim> here = at->distance(x);
+          EXPECT_NEAR(here.gradient.norm(), 1., 1e-12);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              Point<dim> left = x, right = x;
+              left[d] -= eps;
+              right[d] += eps;
+              const auto l = at->distance(left), r = at->distance(right);
+              EXPECT_NEAR((r.value - l.value) / (2. * eps),
+                          here.gradient[d],
+                          1e-6);
+              const Tensor<1, dim> change =
+                (r.gradient - l.gradient) / (2. * eps);
+              for (unsigned int e = 0; e < dim; ++e)
+                EXPECT_NEAR(change[e], here.curvature[e][d], 1e-5);
+            }
+        }
+  }
+
+  /** A term at random places of the grid cell that lie in the obstacle. */
+  template <int dim>
+  void
+  check_contact()
+  {
+    std::mt19937 generator(2);
+    for (const Values &values : shapes<dim>())
+      for (const bool is_mould : {false, true})
+        {
+          SCOPED_TRACE(values.at("Shape") + (is_mould ? ", a mould" : ""));
+          const auto     at = body<dim>(values);
+          Tensor<1, dim> way;
+          way[0]      = 3.;
+          auto points = random_points_in_cell<dim>(generator, 40);
+          std::vector<typename Contact<dim>::BoundaryPoint> boundary_points;
+          for (const Point<dim> &xi : points.xi)
+            boundary_points.push_back({50. * xi, 10. * (1. + xi[0])});
+          const Contact<dim> term(points,
+                                  boundary_points,
+                                  {{at.get(), is_mould, way, 0.7}});
+          EXPECT_TRUE(term.is_conservative());
+          const auto               field = random_field<dim>(generator, 0.05);
+          const TermOnOneCell<dim> one(term, GrowthAt::current);
+          ASSERT_GT(one.energy(field), 0.);
+          expect_derivatives(term, field);
+        }
+  }
+
+  template <int dim>
+  void
+  check_drag()
+  {
+    std::mt19937    generator(3);
+    const Drag<dim> term(random_points_in_cell<dim>(generator, 3),
+                         {1., 2., 3.},
+                         0.1);
+    expect_derivatives(term, random_field<dim>(generator, 0.2));
+  }
+
+  /** Depth by the term's energy of one point of area 1 on a plane that goes to
+   *  +x with this velocity, κ = 100 E/h, E = 2, h = 50. */
+  double
+  depth_after(const std::string &velocity, const double t, const double x)
+  {
+    const Obstacles<2> obstacles(one_obstacle(
+      {{"Shape", "plane"}, {"Normal", "1, 0"}, {"Velocity", velocity}}));
+    LoadedPoints<2>    points;
+    points.offsets        = {0, 1};
+    points.xi             = {Point<2>(x / 50., 0.5)};
+    points.h              = 50.;
+    points.time           = t - 0.1;
+    points.youngs_modulus = 2.;
+    points.points.push_back(
+      {{}, {}, {}, Point<2>(x, 25.), 1., Tensor<1, 2>({0., 1.})});
+    const auto term = obstacles.term(points, t);
+    return std::sqrt(
+      TermOnOneCell<2>(*term, GrowthAt::current).energy(LocalField<2>{}) / 2.);
+  }
+} // namespace
+
+
+TEST(Body, GradientAndCurvatureAreDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_distances)}
+
+
+TEST(Contact, ResidualAndTangentAreTheEnergysDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_contact)}
+
+
+TEST(Drag, ResidualAndTangentAreTheEnergysDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_drag)}
+
+
+TEST(Obstacles, MoveByTheIntegralOfTheirVelocity)
+{
+  EXPECT_NEAR(depth_after("0; 0", 2., -1.), 1., 1e-12);
+  EXPECT_EQ(depth_after("0; 0", 2., 1.), 0.);
+  EXPECT_NEAR(depth_after("3; 8", 2., 4.), 2., 1e-12);
+  EXPECT_NEAR(depth_after("3*t^2; 0", 2., 5.), 3., 1e-9);
+  // stands still from t = 1 on
+  EXPECT_NEAR(depth_after("if(t < 1, 5, 0); 0", 2., 2.), 3., 1e-2);
+}
+
+
+TEST(Obstacles, SayWhereAStepIsTooLong)
+{
+  const auto complaint = [](const std::string &velocity, const double x) {
+    try
+      {
+        depth_after(velocity, 2., x);
+      }
+    catch (const StepFailed &failure)
+      {
+        return std::string(failure.what());
+      }
+    return std::string();
+  };
+  expect_parts(complaint("501; 0", 40.),
+               {"'wall' moves by 50.1 um in a step", "grid spacing"});
+  expect_parts(complaint("0; 0", -51.),
+               {"(-51 25) um is 51 um deep in the obstacle 'wall'"});
+  EXPECT_EQ(complaint("0; 0", -49.), "");
+}
+
+
+TEST(Obstacles, RefuseWhatIsNoBody)
+{
+  const auto complaint = [](const Values &values) {
+    return complaint_of([&] { Obstacles<3>{one_obstacle(values)}; });
+  };
+  const std::string section = "Obstacles/wall/";
+  expect_parts(complaint({}), {section + "Shape", "plane, sphere"});
+  expect_parts(complaint({{"Shape", "sphere"}}),
+               {section + "Radius", "> 0", "Shape = sphere"});
+  expect_parts(complaint({{"Shape", "plane"}}),
+               {section + "Normal", "a direction"});
+  expect_parts(complaint({{"Shape", "cylinder"}, {"Radius", "3"}}),
+               {section + "Axis", "a direction"});
+  expect_parts(complaint({{"Shape", "box"}}), {section + "Size", "3 numbers"});
+  expect_parts(complaint({{"Shape", "box"}, {"Size", "3, 0, 3"}}),
+               {section + "Size", "> 0"});
+  expect_parts(complaint({{"Shape", "plane"},
+                          {"Normal", "0, 0, 1"},
+                          {"Velocity", "X; 0; 0"}}),
+               {section + "Velocity", "functions of t"});
+  expect_parts(complaint_of(
+                 [] { body<2>({{"Shape", "cylinder"}, {"Radius", "3"}}); }),
+               {section + "Shape", "in 2-D", "disc"});
+}

@@ -30,20 +30,37 @@ namespace Morula
       return theta;
     }
 
-    /** Mean over the grid cells that share a point. @param of by number */
-    template <int dim, typename Value>
+    /** Mean over the grid cells that share a point. @param values by number */
+    template <int dim>
     double
-    mean_of_shares(const Point<dim>       &x,
-                   const SplineSpace<dim> &space,
-                   const Value            &of)
+    mean_of_shares(const Point<dim>          &x,
+                   const SplineSpace<dim>    &space,
+                   const std::vector<double> &values)
     {
       const GridBox<dim> &box  = space.box();
       double              mean = 0.;
       space.occupancy().for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
-          mean += of(box.number(box.locate(share))) / n;
+          mean += values[box.number(box.locate(share))] / n;
         });
       return mean;
+    }
+
+    /** Mean over the parts of a cell. @param values by grid cell's number */
+    template <int dim>
+    double
+    mean_of_parts(const ParticleDomain<dim> &domain,
+                  const SplineSpace<dim>    &space,
+                  const std::vector<double> &values)
+    {
+      double       sum = 0.;
+      unsigned int n   = 0;
+      domain.for_quadrature_points(space.occupancy().n_points_per_edge(domain),
+                                   [&](const Point<dim> &x) {
+                                     sum += mean_of_shares(x, space, values);
+                                     ++n;
+                                   });
+      return sum / n;
     }
   } // namespace
 
@@ -62,32 +79,20 @@ namespace Morula
       return ratios;
     const MaterialPoints<dim> points =
       material_points(tissue, space, growth, material);
-    const std::vector<double> theta =
+    std::vector<double> values =
       log_volume_ratios(*internal_force(points, form, kernel),
                         space,
                         displacement,
                         tissue.communicator());
+    if (form == VolumetricStrain::pooled) // else the mean is that of ϑ
+      for (double &value : values)
+        value = std::exp(value);
     ratios.reserve(tissue.cells().size());
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      if (form == VolumetricStrain::projected)
-        ratios.push_back(std::exp(mean_of_shares(
-          tissue.cells().position(p), space, [&](const unsigned int number) {
-            return theta[number];
-          })));
-      else
-        {
-          const ParticleDomain<dim> domain = tissue.domain(p);
-          const auto   n        = space.occupancy().n_points_per_edge(domain);
-          double       sum      = 0.;
-          unsigned int n_points = 0;
-          domain.for_quadrature_points(n, [&](const Point<dim> &x) {
-            sum += mean_of_shares(x, space, [&](const unsigned int number) {
-              return std::exp(theta[number]);
-            });
-            ++n_points;
-          });
-          ratios.push_back(sum / n_points);
-        }
+      ratios.push_back(
+        form == VolumetricStrain::pooled ?
+          mean_of_parts(tissue.domain(p), space, values) :
+          std::exp(mean_of_shares(tissue.cells().position(p), space, values)));
     return ratios;
   }
 

@@ -32,7 +32,8 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  BoundaryColumns<dim>::BoundaryColumns(const bool with_patch)
+  BoundaryColumns<dim>::BoundaryColumns(const bool with_patch,
+                                        const bool coarsens)
   {
     initial_position =
       add<Point<dim>>({"initial_position", "um", "position at t = 0"});
@@ -59,6 +60,10 @@ namespace Morula
     for (unsigned int k = 0; k < dim - 1; ++k)
       edges[k] = add<Tensor<1, dim>>(
         {"edge_" + std::to_string(k + 1), "um", "edge of the patch at t = 0"});
+    if (coarsens)
+      reference_area = add<double>({"reference_area",
+                                    "um^" + std::to_string(dim - 1),
+                                    "area that the patch shall have"});
   }
 
   template <int dim>
@@ -80,8 +85,28 @@ namespace Morula
         point.set(seed_position, X);
         for (unsigned int k = 0; k < dim - 1; ++k)
           point.set(edges[k], side * tangents(N)[k]);
+        if (reference_area.exists())
+          point.set(reference_area, area);
       }
     return row;
+  }
+
+  template <int dim>
+  void
+  BoundaryColumns<dim>::set_square_patch(const ArrayView<double> &row,
+                                         const Tensor<2, dim>    &F,
+                                         const Tensor<1, dim>    &area) const
+  {
+    const BoundaryView<dim, double> point(row, *this);
+    const Tensor<2, dim>            back    = invert(F);
+    const Tensor<1, dim>            initial = // (1.2), the other way round
+      determinant(back) * (area * F);
+    const double side = std::pow(area.norm(), 1. / (dim - 1));
+    point.set(deformation, F);
+    point.set(initial_area, initial.norm());
+    point.set(initial_normal, initial / initial.norm());
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      point.set(edges[k], side * (back * tangents(area / area.norm())[k]));
   }
 
   template class BoundaryColumns<2>;

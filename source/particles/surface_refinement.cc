@@ -29,6 +29,19 @@ namespace Morula
       return best;
     }
 
+    /** Whether a patch is split. */
+    template <int dim>
+    bool
+    too_large(const BoundaryView<dim>    &point,
+              const BoundaryColumns<dim> &columns,
+              const double                longest_edge)
+    {
+      return longest(point).second > longest_edge ||
+             (columns.reference_area.exists() &&
+              point.area_vector().norm() >
+                2. * point.wanted_area(longest_edge));
+    }
+
     /** Longest edge that is split, in units of what an edge may have. */
     constexpr double longest_split = 64.;
 
@@ -112,7 +125,7 @@ namespace Morula
         std::vector<std::size_t>           split;
         std::vector<types::particle_index> ids;
         for (std::size_t i = 0; i < points.size(); ++i)
-          if (!leave[i] && longest<dim>(view(i)).second > longest_edge)
+          if (!leave[i] && too_large<dim>(view(i), columns, longest_edge))
             {
               split.push_back(i);
               ids.push_back(points.ids[i]);

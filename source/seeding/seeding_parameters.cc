@@ -85,6 +85,13 @@ namespace Morula
         "Split boundary points whose patch has become longer than half a grid "
         "cell, for tissue that grows to several times its size. Area and "
         "normal are kept; false is the paper's method.")
+    , coarsen_surface(
+        "Tissue/Coarsen surface",
+        false,
+        "Merge boundary points whose patch has shrunk to less than half of its "
+        "area at t = 0, and split it again where it is twice that, for tissue "
+        "that shrinks. Area and enclosed volume are kept. Needs Refine "
+        "surface.")
   {}
 
 
@@ -102,7 +109,8 @@ namespace Morula
             &lattice_offset,
             &surface_cells,
             &boundary_points,
-            &refine_surface};
+            &refine_surface,
+            &coarsen_surface};
   }
 
 
@@ -233,6 +241,10 @@ namespace Morula
       refine_surface.refuse("false, as Tissue/Points surface = none",
                             "Set Refine surface = false, or Points surface = "
                             "automatic.");
+    if (coarsen_surface && !refine_surface)
+      coarsen_surface.refuse("false, as Tissue/Refine surface = false",
+                             "What is merged must be split again: set Refine "
+                             "surface = true.");
 
     if (shape == "mesh" || shape == "points")
       return; // their files are judged when they are read

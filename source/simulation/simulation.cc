@@ -4,6 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
 #include <morula/particles/detached_points.h>
+#include <morula/particles/surface_coarsening.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 
@@ -245,13 +246,21 @@ namespace Morula
     if (!scene.tissue.refine_surface)
       return;
     const TimerOutput::Scope section(timer, "surface refinement");
-    PointList<dim>           points = tissue.boundary_points().copy();
-    if (Morula::refine_surface(points,
-                               tissue.boundary_points().columns(),
-                               0.5 * scene.grid.spacing,
-                               crowded,
-                               next_boundary_id,
-                               comm))
+    PointList<dim>           points       = tissue.boundary_points().copy();
+    const auto              &columns      = tissue.boundary_points().columns();
+    const double             longest_edge = 0.5 * scene.grid.spacing;
+    const bool               has_merged   = scene.tissue.coarsen_surface &&
+                            coarsen_surface<dim>(
+                              points,
+                              columns,
+                              longest_edge,
+                              [this](const auto &a, const auto &b) {
+                                return boundary_conditions.alike(a, b);
+                              },
+                              comm);
+    const bool has_split = Morula::refine_surface(
+      points, columns, longest_edge, crowded, next_boundary_id, comm);
+    if (has_merged || has_split)
       tissue.replace_surface(points);
   }
 

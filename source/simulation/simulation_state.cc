@@ -76,7 +76,8 @@ namespace Morula
     , tissue(scene.grid,
              development.columns(),
              comm,
-             BoundaryColumns<dim>(scene.tissue.refine_surface))
+             BoundaryColumns<dim>(scene.tissue.refine_surface,
+                                  scene.tissue.coarsen_surface))
     , time_steps(scene.time)
   {}
 

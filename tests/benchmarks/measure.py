@@ -259,6 +259,8 @@ EFFECTS = [
                  "Obstacles/mould/Radius": "250"}),
     ("even growth", EVEN),
     ("— ln J_e projected", {**EVEN, "Material/Volumetric strain": "projected"}),
+    ("— the surface is coarsened", {**EVEN, "Tissue/Refine surface": "true",
+                                    "Tissue/Coarsen surface": "true"}),
     ("— volumes pooled", {**EVEN, "Material/Volumetric strain": "pooled",
                           "Material/Energy per": "grown volume"}),
     ("— stress relaxes", {**EVEN, "Material/Relaxation time": 0.5}),

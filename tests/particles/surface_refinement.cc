@@ -11,6 +11,7 @@
 #include <random>
 
 #include "particles/random_points.h"
+#include "particles/surface_patches.h"
 
 using namespace Morula;
 
@@ -72,28 +73,6 @@ namespace
       }
     return points;
   }
-
-  template <int dim>
-  struct Sums
-  {
-    double         initial_area = 0., volume = 0., conditions = 0.;
-    Tensor<1, dim> initial_vector, vector, moment;
-
-    explicit Sums(const PointList<dim> &points)
-    {
-      for (std::size_t i = 0; i < points.size(); ++i)
-        {
-          const auto point = view(points, i);
-          initial_area += point.initial_area();
-          initial_vector += point.initial_area() * point.initial_normal();
-          vector += point.area_vector();
-          volume += point.area_vector() * points.positions[i] / dim;
-          moment += point.area_vector().norm() * points.positions[i];
-          conditions +=
-            point.initial_area() * static_cast<int>(point.condition());
-        }
-    }
-  };
 
   template <int dim>
   double
@@ -198,13 +177,13 @@ namespace
   check_conservation()
   {
     PointList<dim>        points = random_patches<dim>(60);
-    const Sums<dim>       before(points);
+    const PatchSums<dim>  before(points, columns<dim>);
     types::particle_index next = 60;
     EXPECT_TRUE(refine_surface<dim>(
       points, columns<dim>, 6., nowhere<dim>, next, MPI_COMM_SELF));
     EXPECT_EQ(points.size(), next);
     EXPECT_GT(points.size(), 200u);
-    const Sums<dim> after(points);
+    const PatchSums<dim> after(points, columns<dim>);
     EXPECT_NEAR(after.initial_area, before.initial_area, 1e-10);
     EXPECT_NEAR(after.conditions, before.conditions, 1e-10);
     EXPECT_NEAR(after.volume / before.volume, 1., 1e-11);

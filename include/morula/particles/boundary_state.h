@@ -36,8 +36,10 @@ namespace Morula
   class BoundaryColumns : public Columns
   {
   public:
-    /** @param with_patch whether the scene refines the surface */
-    explicit BoundaryColumns(const bool with_patch = false);
+    /** @param with_patch whether the scene refines the surface
+     *  @param coarsens whether it also merges patches that shrink */
+    explicit BoundaryColumns(const bool with_patch = false,
+                             const bool coarsens   = false);
 
     /**
      * The row of a point at t = 0: at @p X (µm), with outward unit normal
@@ -50,6 +52,16 @@ namespace Morula
                   const Tensor<1, dim>  &N,
                   const double           area,
                   const SurfaceCondition condition) const;
+
+    /**
+     * Gives a point the deformation gradient @p F and the present area vector
+     * @p area (µm^(dim-1)): N, a⁰ and the edges of a patch that is square now.
+     * Only with patch.
+     */
+    void
+    set_square_patch(const ArrayView<double> &row,
+                     const Tensor<2, dim>    &F,
+                     const Tensor<1, dim>    &area) const;
 
     /** X, µm. */
     Column<Point<dim>> initial_position;
@@ -67,6 +79,9 @@ namespace Morula
     /** With patch: its tangential edges in the initial configuration, µm. They
      *  span a⁰. */
     std::array<Column<Tensor<1, dim>>, dim - 1> edges;
+    /** If the surface is coarsened: what area a patch shall have, that of the
+     *  point of t = 0, µm^(dim-1). */
+    Column<double> reference_area;
   };
 
   /**
@@ -186,6 +201,16 @@ namespace Morula
     initial_edge(const unsigned int k) const
     {
       return get(columns.edges[k]);
+    }
+
+    /** The area that the patch shall have where edges longer than
+     *  @p longest_edge (µm) are split: doc/theory.md (4.12b), µm^(dim-1). Only
+     *  where the surface is coarsened. */
+    double
+    wanted_area(const double longest_edge) const
+    {
+      return std::min(get(columns.reference_area),
+                      std::pow(longest_edge, dim - 1));
     }
 
     /** Halves the patch across its edge @p k. Keeps the half at the edge's end

@@ -28,8 +28,9 @@ namespace Morula
    * (4.11), longer than @p longest_edge (µm) in two along its longest edge,
    * again and again until none is left: each takes half of the area and stands
    * in the middle of its half, X ∓ E/4 and x ∓ F E/4, with the same N, F and
-   * condition: doc/theory.md (4.12). So Σ a n, Σ a n·x and Σ a⁰ do not change,
-   * and tangential displacement is the only one.
+   * condition: doc/theory.md (4.12). Where the surface is coarsened, also those
+   * with more than twice the area of (4.12b). So Σ a n, Σ a n·x and Σ a⁰ do not
+   * change, and tangential displacement is the only one.
    *
    * The point on the -E side keeps its id, the other one gets a new id: those
    * of one round of splitting are in the order of the split points' ids, for

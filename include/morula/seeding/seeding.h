@@ -47,6 +47,7 @@ namespace Morula
     Key<std::string>         surface_cells;
     Key<unsigned int>        boundary_points;
     Key<bool>                refine_surface;
+    Key<bool>                coarsen_surface;
 
     using Keys::list;
     KeyList

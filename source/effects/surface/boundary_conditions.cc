@@ -67,6 +67,20 @@ namespace Morula
 
   template <int dim>
   bool
+  BoundaryConditions<dim>::alike(const BoundaryView<dim> &a,
+                                 const BoundaryView<dim> &b) const
+  {
+    return std::all_of(list_.begin(), list_.end(), [&](const Named &named) {
+      const auto acts_on = [&named](const BoundaryView<dim> &point) {
+        return named.condition->acts_on(point.seed_position(),
+                                        point.initial_normal());
+      };
+      return acts_on(a) == acts_on(b);
+    });
+  }
+
+  template <int dim>
+  bool
   BoundaryConditions<dim>::has_dirichlet() const
   {
     return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);

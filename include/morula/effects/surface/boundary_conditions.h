@@ -6,6 +6,7 @@
 
 #include <morula/effects/surface/boundary_condition.h>
 #include <morula/effects/surface/nitsche_penalty.h>
+#include <morula/particles/boundary_state.h>
 
 #include <memory>
 #include <string>
@@ -51,6 +52,11 @@ namespace Morula
                  const Tensor<1, dim> &N,
                  const Point<dim>     &X,
                  const double          t) const;
+
+    /** Whether the same conditions were asked for two points at t = 0: at the
+     *  points of t = 0 that they are parts of. */
+    bool
+    alike(const BoundaryView<dim> &a, const BoundaryView<dim> &b) const;
 
     /** Whether the scene has conditions that fix or let slip. */
     bool

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/surface_coarsening.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    namespace bgi = boost::geometry::index;
+
+    /** Areas in units of the reference area: patches below the first merge, and
+     *  give none above the second. */
+    constexpr double too_small = 0.5, largest_merged = 1.6;
+
+    /** Cosine of the largest angle between the normals of patches that merge:
+     *  not across an edge of the body. */
+    constexpr double least_cosine = 0.5;
+
+    /** The list of what all ranks have, by id. */
+    template <int dim>
+    PointList<dim>
+    of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
+    {
+      PointList<dim> all(own.n_numbers);
+      const auto     ids   = Utilities::MPI::all_gather(comm, own.ids);
+      const auto positions = Utilities::MPI::all_gather(comm, own.positions);
+      const auto numbers   = Utilities::MPI::all_gather(comm, own.numbers);
+      for (unsigned int rank = 0; rank < ids.size(); ++rank)
+        {
+          PointList<dim> part(own.n_numbers);
+          part.ids       = ids[rank];
+          part.positions = positions[rank];
+          part.numbers   = numbers[rank];
+          all.append(part);
+        }
+      std::vector<std::size_t> order(all.size());
+      std::iota(order.begin(), order.end(), std::size_t(0));
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+        return all.ids[a] < all.ids[b];
+      });
+      PointList<dim> sorted(own.n_numbers);
+      sorted.reserve(all.size());
+      for (const std::size_t i : order)
+        sorted.add(all.ids[i],
+                   all.positions[i],
+                   ArrayView<const double>(all.row(i)));
+      return sorted;
+    }
+
+    /** Patches that may merge, of all ranks, by id. */
+    template <int dim>
+    class Candidates
+    {
+    public:
+      Candidates(const PointList<dim>       &points,
+                 const BoundaryColumns<dim> &columns,
+                 const double                longest_edge,
+                 const std::function<bool(const BoundaryView<dim> &,
+                                          const BoundaryView<dim> &)> &alike)
+        : points(points)
+        , columns(columns)
+        , alike(alike)
+      {
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            areas.push_back(view(i).area_vector());
+            wanted.push_back(view(i).wanted_area(longest_edge));
+            // More would be split again.
+            largest.push_back(std::min(largest_merged * wanted.back(),
+                                       std::pow(longest_edge, dim - 1)));
+          }
+      }
+
+      /** Those that are too small, each with the one that it merges with;
+       *  none is in two pairs. */
+      std::vector<std::pair<std::size_t, std::size_t>>
+      pairs() const
+      {
+        std::vector<std::pair<std::size_t, std::size_t>> list;
+        std::vector<bool>                                taken(points.size());
+        const auto tree = pack_rtree_of_indices(points.positions);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            if (taken[i] || !(areas[i].norm() < too_small * wanted[i]))
+              continue;
+            std::vector<std::size_t> nearest;
+            tree.query(bgi::nearest(points.positions[i], 1) &&
+                         bgi::satisfies([&](const std::size_t j) {
+                           return j != i && !taken[j] && fit(i, j);
+                         }),
+                       std::back_inserter(nearest));
+            if (nearest.empty())
+              continue;
+            taken[i] = taken[nearest[0]] = true;
+            list.emplace_back(std::min(i, nearest[0]), std::max(i, nearest[0]));
+          }
+        return list;
+      }
+
+      /** Adds the patch that two become to a list. */
+      void
+      merge(const std::size_t i,
+            const std::size_t j,
+            PointList<dim>   &list) const
+      {
+        const double         total = areas[i].norm() + areas[j].norm();
+        const double         w_i = areas[i].norm() / total, w_j = 1. - w_i;
+        const Tensor<1, dim> area   = areas[i] + areas[j];
+        const Tensor<1, dim> apart  = points.positions[j] - points.positions[i];
+        const Point<dim>     middle = points.positions[i] + w_j * apart;
+        // doc/theory.md (4.12d)
+        const Tensor<1, dim> shift =
+          (w_i * (areas[j] * apart) - w_j * (areas[i] * apart)) /
+          area.norm_square() * area;
+        const std::size_t               main = w_j > w_i ? j : i;
+        std::vector<double>             row(points.row(main).begin(),
+                                points.row(main).end());
+        const BoundaryView<dim, double> merged(make_array_view(row), columns);
+        Tensor<2, dim> F = w_i * view(i).F() + w_j * view(j).F();
+        if (!(determinant(F) > 0.))
+          F = view(main).F();
+        const Point<dim> X    = Point<dim>(w_i * view(i).initial_position() +
+                                        w_j * view(j).initial_position());
+        const bool       held = merged.condition() == SurfaceCondition::fixed ||
+                          merged.condition() == SurfaceCondition::slip;
+        merged.set(columns.initial_position, held ? X + shift : X);
+        merged.set(columns.reference_area,
+                   w_i * view(i).get(columns.reference_area) +
+                     w_j * view(j).get(columns.reference_area));
+        columns.set_square_patch(make_array_view(row), F, area);
+        list.add(points.ids[i], middle + shift, make_array_view(row));
+      }
+
+    private:
+      BoundaryView<dim>
+      view(const std::size_t i) const
+      {
+        return {points.row(i), columns};
+      }
+
+      /** Whether two may become one. */
+      bool
+      fit(const std::size_t i, const std::size_t j) const
+      {
+        const double a_i = areas[i].norm(), a_j = areas[j].norm();
+        const double sides =
+          std::pow(a_i, 1. / (dim - 1)) + std::pow(a_j, 1. / (dim - 1));
+        return a_i + a_j <= std::min(largest[i], largest[j]) &&
+               areas[i] * areas[j] >= least_cosine * a_i * a_j &&
+               points.positions[i].distance(points.positions[j]) <= sides &&
+               view(i).condition() == view(j).condition() &&
+               alike(view(i), view(j));
+      }
+
+      const PointList<dim>                                 &points;
+      const BoundaryColumns<dim>                           &columns;
+      const std::function<bool(const BoundaryView<dim> &,
+                               const BoundaryView<dim> &)> &alike;
+      std::vector<Tensor<1, dim>>                           areas;
+      std::vector<double>                                   wanted, largest;
+    };
+
+    /** Takes the merged patches in place of both; those that are this rank's
+     *  are where the first of the two was. */
+    template <int dim>
+    void
+    replace(const PointList<dim>                                   &candidates,
+            const std::vector<std::pair<std::size_t, std::size_t>> &pairs,
+            const Candidates<dim>                                  &merging,
+            PointList<dim>                                         &points)
+    {
+      std::unordered_map<types::particle_index, std::size_t> first, second;
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        {
+          first[candidates.ids[pairs[k].first]]   = k;
+          second[candidates.ids[pairs[k].second]] = k;
+        }
+      PointList<dim> kept(points.n_numbers);
+      kept.reserve(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const auto pair = first.find(points.ids[i]);
+          if (pair != first.end())
+            merging.merge(pairs[pair->second].first,
+                          pairs[pair->second].second,
+                          kept);
+          else if (second.count(points.ids[i]) == 0)
+            kept.add(points.ids[i],
+                     points.positions[i],
+                     ArrayView<const double>(points.row(i)));
+        }
+      points = std::move(kept);
+    }
+  } // namespace
+
+
+  template <int dim>
+  bool
+  coarsen_surface(PointList<dim>             &points,
+                  const BoundaryColumns<dim> &columns,
+                  const double                longest_edge,
+                  const std::function<bool(const BoundaryView<dim> &,
+                                           const BoundaryView<dim> &)> &alike,
+                  const MPI_Comm                                        comm)
+  {
+    for (bool any = false;; any = true)
+      {
+        bool           small = false;
+        PointList<dim> own(points.n_numbers);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            const ArrayView<const double> row(points.row(i));
+            const BoundaryView<dim>       point(row, columns);
+            const double                  share =
+              point.area_vector().norm() / point.wanted_area(longest_edge);
+            small = small || share < too_small;
+            if (share < largest_merged)
+              own.add(points.ids[i], points.positions[i], row);
+          }
+        if (!Utilities::MPI::logical_or(small, comm))
+          return any;
+        const PointList<dim>  all = of_all_ranks(own, comm);
+        const Candidates<dim> candidates(all, columns, longest_edge, alike);
+        const auto            pairs = candidates.pairs();
+        if (pairs.empty())
+          return any;
+        replace(all, pairs, candidates, points);
+      }
+  }
+
+#define INSTANTIATE(dim)                                    \
+  template bool coarsen_surface(                            \
+    PointList<dim> &,                                       \
+    const BoundaryColumns<dim> &,                           \
+    const double,                                           \
+    const std::function<bool(const BoundaryView<dim> &,     \
+                             const BoundaryView<dim> &)> &, \
+    const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -35,7 +35,9 @@ namespace Morula
         "delete the run in the output directory, also one of another scene or "
         "one that is not finished")(
         "explain", "check the scene, print what it will simulate, and stop")(
-        "parameters", "print every key with default, units and allowed values")(
+        "parameters",
+        "print every key with default, units and allowed values; with a scene "
+        "also those of its types of cells, fields and obstacles")(
         "version", "print the version")("help,h", "print this text");
       return result;
     }
@@ -129,9 +131,15 @@ namespace Morula
 
 
   void
-  print_parameters(std::ostream &out, const Catalogue &catalogue)
+  print_parameters(std::ostream      &out,
+                   const CommandLine &command,
+                   const Catalogue   &catalogue)
   {
     Scene scene(catalogue);
+    if (!command.scene_file.empty())
+      scene.declare_sections(
+        Scene::read(command.scene_file, command.overrides, catalogue)
+          .as_written);
     ParameterKeys(scene.list()).print(out);
   }
 } // namespace Morula

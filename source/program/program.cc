@@ -18,6 +18,7 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 #ifdef __GLIBC__
 #  include <malloc.h>
@@ -57,15 +58,16 @@ namespace Morula
     {
       if (!command.help && !command.version && !command.parameters)
         return false;
+      // On all ranks, as a scene may be refused.
+      std::ostringstream text;
+      if (command.help)
+        print_help(text);
+      if (command.version)
+        print_version(text);
+      if (command.parameters)
+        print_parameters(text, command, catalogue);
       if (is_first_rank())
-        {
-          if (command.help)
-            print_help(std::cout);
-          if (command.version)
-            print_version(std::cout);
-          if (command.parameters)
-            print_parameters(std::cout, catalogue);
-        }
+        std::cout << text.str();
       return true;
     }
 

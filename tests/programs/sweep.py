@@ -134,6 +134,25 @@ class Sweep(ProgramTest):
         self.assertEqual(self.sweep(*command).stdout.count("from before"), 12)
         self.assertEqual(self.rows("runs.csv"), runs)
 
+    def test_types(self):
+        """A key and a column that exist as the scene names types of cells."""
+        scene = self.write("types.prm", DISC + """
+subsection Cell types
+  set Names = stem, leaf
+end
+""")
+        self.sweep(scene, "--vary", "Cell types/stem/Transitions/To leaf=0,5",
+                   "--columns", "cells_stem,cells_leaf")
+        none, most = ({row["column"]: float(row["mean"])
+                       for row in rows} for rows in (
+            [row for row in self.rows("table.csv")
+             if row["Cell types/stem/Transitions/To leaf"] == rate]
+            for rate in ("0", "5")))
+        self.assertEqual(none["cells_leaf"], 0)
+        self.assertEqual(none["cells_stem"], none["cells"])
+        self.assertGreater(most["cells_leaf"], most["cells_stem"])
+        self.assertEqual(most["cells_leaf"] + most["cells_stem"], most["cells"])
+
     def test_runs_that_fail(self):
         """They are told, and the others are done."""
         result = self.sweep(

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The columns that Morula writes, and their units (2-D: per um of thickness,
 so that a volume is an area)."""
+from .cell_types import names_in
 
 LENGTH, VOLUME, STRESS, NUMBER = "um", "um^dim", "kPa", ""
 
@@ -13,6 +14,17 @@ STATISTICS = {
     "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER,
     "held_at_checkpoint": NUMBER, "xmin": LENGTH, "xmax": LENGTH,
     "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH, "zmax": LENGTH}
+
+
+
+def statistics_of(keys):
+    """The same of a scene with these keys, of which cells may have types and
+    fields."""
+    return {**STATISTICS,
+            **{f"cells_{name}": NUMBER for name in names_in(keys)},
+            **{f"{name}_{value}": NUMBER for name in names_in(keys, "Fields")
+               for value in ("min", "mean", "max", "clipped")}}
+
 
 # The other columns of statistics.csv: what a step was and what it took. Their
 # "error" would mean nothing.

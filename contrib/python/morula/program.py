@@ -38,10 +38,16 @@ class Program:
         """Every key by its full path, with its default as text."""
         return {key.path: key.default for key in self.keys}
 
-    def complete(self, written):
+    def keys_with(self, scene, overrides=()):
+        """The same, and those of the types, fields and obstacles that a scene
+        names."""
+        return parse_keys(self._run("--parameters", scene,
+                                    *execute.overrides(overrides)).stdout)
+
+    def complete(self, written, keys=None):
         """All keys of a scene that sets these: path -> value as text."""
         method = written.get("Method", self.defaults.get("Method"))
-        return {**defaults_with(self.keys, method), **written}
+        return {**defaults_with(keys or self.keys, method), **written}
 
     @functools.cached_property
     def version(self):

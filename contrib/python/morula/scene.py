@@ -19,9 +19,10 @@ class Scene:
                           "Correct its name.")
         self.overrides = tuple(read_override(text) for text in overrides)
         program.explain(self.path, self.overrides)
+        self.known = program.keys_with(self.path, self.overrides)
         self.keys = program.complete({
             **parse(self.path.read_text(), self.path.parent),
-            **dict(self.overrides)})
+            **dict(self.overrides)}, self.known)
 
     @property
     def name(self):
@@ -38,13 +39,15 @@ class Scene:
         return float(self.keys[key])
 
     def require_key(self, key, option):
-        """Refuses a key that the program does not know."""
-        if key in self.program.defaults:
+        """Refuses a key that this scene cannot have."""
+        known = [one.path for one in self.known]
+        if key in known:
             return
-        near = difflib.get_close_matches(key, self.program.defaults, 1)
+        near = difflib.get_close_matches(key, known, 1)
         raise Refused(option, key, "a key that exists",
                       (f"Did you mean '{near[0]}'? " if near else "")
-                      + "'morula --parameters' prints them all.")
+                      + f"'morula {self.path.name} --parameters' prints them "
+                      "all.")
 
 
 def read_override(text):

@@ -42,9 +42,12 @@ namespace Morula
   print_version(std::ostream &out);
 
   /** Prints every key with meaning, unit, allowed values and default, as a .prm
-   *  file. */
+   *  file; also the keys of what the scene of @p command names, if it has one.
+   *  @throws InputError for a scene that cannot be read */
   void
-  print_parameters(std::ostream &out, const Catalogue &catalogue = Catalogue());
+  print_parameters(std::ostream      &out,
+                   const CommandLine &command   = {},
+                   const Catalogue   &catalogue = Catalogue());
 } // namespace Morula
 
 #endif

@@ -4,11 +4,9 @@
 import math
 import shlex
 
-from morula.columns import STATISTICS, unit_in
+from morula.columns import unit_in
 from morula.files import write, write_csv
 from morula.tables import markdown as table_of
-
-from .request import COLUMNS
 
 
 def write_tables(request, ensembles, directory):
@@ -20,14 +18,14 @@ def write_tables(request, ensembles, directory):
          "standard_deviation", "standard_error", "smallest", "largest"],
         *_rows_of_ends(request, ensembles)])
     write_csv(directory / "runs.csv", [
-        [*keys, "seed", "directory", "exit", *COLUMNS],
+        [*keys, "seed", "directory", "exit", *request.all_columns],
         *_rows_of_runs(request, ensembles)])
     write(directory / "table.md", markdown(request, ensembles))
 
 
 def _rows_of_ends(request, ensembles):
     for ensemble in ensembles:
-        for column in COLUMNS:
+        for column in request.all_columns:
             end = ensemble.end(column)
             numbers = (end.mean, end.deviation, end.error, end.smallest,
                        end.largest)
@@ -45,7 +43,7 @@ def _rows_of_runs(request, ensembles):
                    record.output.relative_to(request.output),
                    record.repeats[-1]["exit"],
                    *(format(table[column][-1] if record.finished else math.nan,
-                            ".10g") for column in COLUMNS)]
+                            ".10g") for column in request.all_columns)]
 
 
 def seeds(request):
@@ -54,7 +52,7 @@ def seeds(request):
 
 def unit(request, column):
     """Empty for numbers, and for scenes of which some are two-dimensional."""
-    known = {"time": "day", "dt": "day", "wall_seconds": "s", **STATISTICS}
+    known = {"time": "day", "dt": "day", "wall_seconds": "s", **request.results}
     dimensions = request.plan.values("Dimension")
     if len(dimensions) > 1:
         return ""

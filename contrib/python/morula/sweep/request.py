@@ -13,10 +13,6 @@ from morula.program import Program
 from morula.refusal import Refused
 from morula.scene import Scene, as_number
 
-# Columns of statistics.csv whose values at the end are told.
-COLUMNS = ("time", *columns.STATISTICS,
-           *(name for name in columns.EFFORT if name not in ("time", "step")))
-
 # Keys that cannot be varied, and why.
 NOT_VARIED = {"Random seed": "Use --seeds.", "Output directory": "Use --output."}
 
@@ -35,12 +31,28 @@ class Request:
         program = Program(options.morula, options.mpiexec)
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
-        self.columns = read_columns(options.columns)
         self.plan = Plan(self.scene, self._ladders(), full_grid=True)
+        self.results = self._results()
+        self.columns = read_columns(options.columns, self.all_columns[1:])
         check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
         self.output = output_directory(
             options, OUTPUT / "sweep" / self.scene.name)
+
+    @property
+    def all_columns(self):
+        """Columns of statistics.csv whose values at the end are told."""
+        return ("time", *self.results,
+                *(name for name in columns.EFFORT
+                  if name not in ("time", "step")))
+
+    def _results(self):
+        """Those that are results in all runs, with their units."""
+        found = [columns.statistics_of(
+            {**self.scene.keys, **dict(zip(self.plan.keys, point))})
+                 for point in self.plan.points]
+        return {name: unit for name, unit in found[0].items()
+                if all(name in other for other in found)}
 
     def _ladders(self):
         if not self.options.vary and not self.seeds:
@@ -82,14 +94,14 @@ class Request:
                  format(end / N_SNAPSHOTS, ".6g")),)
 
 
-def read_columns(text):
+def read_columns(text, known):
     """--columns."""
     names = [name.strip() for name in text.split(",")]
     for name in names:
-        if name not in COLUMNS[1:]:
-            near = difflib.get_close_matches(name, COLUMNS[1:], 1)
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
             raise Refused("--columns", name, "a column of statistics.csv: "
-                          + ", ".join(COLUMNS[1:]),
+                          + ", ".join(known),
                           f"Did you mean '{near[0]}'?" if near else "")
     if len(set(names)) < len(names):
         raise Refused("--columns", text, "each column once")

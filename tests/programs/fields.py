@@ -110,7 +110,7 @@ class Fields(ProgramTest):
         volume = rows["total_volume"].to_numpy()
         growth = numpy.log(volume[1:] / volume[:-1])
         print("growth of the first and the last step:", growth[[0, -1]])
-        self.assertGreater(growth[0], 2 * growth[-1])
+        self.assertGreater(growth[0], 1.1 * growth[-1])
 
 
 if __name__ == "__main__":

@@ -17,24 +17,43 @@ namespace Morula
     {
       constexpr unsigned int n    = BSpline<dim>::n;
       const double           rate = cell.volume * cell.rate;
-      const auto            &N    = splines.value;
+      const double           D    = cell.volume * cell.diffusion;
+      // The gradients, and last the values where they are not lumped: each row
+      // is read and written once.
+      const double *factors[dim + 1];
+      for (unsigned int d = 0; d < dim; ++d)
+        factors[d] = splines.gradient[d];
+      factors[dim]           = splines.value;
+      const double of_values = lumped ? 0. : rate;
       for (unsigned int a = 0; a < n; ++a)
         {
-          double *const row  = &matrix[a * n];
-          const double  of_N = lumped ? 0. : rate * N[a];
-          for (unsigned int b = 0; b < n; ++b)
-            row[b] += of_N * N[b];
+          double *const row = &matrix[a * n];
+          double        of[dim + 1];
           for (unsigned int d = 0; d < dim; ++d)
+            of[d] = D * factors[d][a];
+          of[dim] = of_values * factors[dim][a];
+          // Symmetric: complete() fills the rest.
+          for (unsigned int b = 0; b <= a; ++b)
             {
-              const auto  &gradient = splines.gradient[d];
-              const double of_gradient =
-                cell.volume * cell.diffusion * gradient[a];
-              for (unsigned int b = 0; b < n; ++b)
-                row[b] += of_gradient * gradient[b];
+              double sum = 0.;
+              for (unsigned int d = 0; d <= dim; ++d)
+                sum += of[d] * factors[d][b];
+              row[b] += sum;
             }
           if (lumped)
-            row[a] += rate * N[a];
+            row[a] += rate * splines.value[a];
         }
+    }
+
+    /** The upper triangle of the cells' symmetric matrix from the lower one. */
+    template <int dim>
+    void
+    complete(std::vector<double> &matrix)
+    {
+      constexpr unsigned int n = BSpline<dim>::n;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < a; ++b)
+          matrix[b * n + a] = matrix[a * n + b];
     }
 
     /** g·∇N_a of all splines. */
@@ -116,6 +135,8 @@ namespace Morula
         else
           add_load(cells[p], splines, known, local);
       }
+    if (is_matrix)
+      complete<dim>(local.matrix);
     if (surface.empty())
       return true;
     for (unsigned int p = surface_places.offsets[c];
@@ -148,8 +169,9 @@ namespace Morula
             rate += cell.volume * cell.rate;
             diffusion += cell.volume * cell.diffusion;
           }
-        if (rate * h2 > diffusion ||
-            (dt > 0. && volume * h2 > 6. * dt * diffusion))
+        if (dt > 0.)
+          rate += volume / dt;
+        if (rate * h2 > 6. * diffusion)
           equation.lumped[c] = true;
       }
   }

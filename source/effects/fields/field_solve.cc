@@ -75,8 +75,13 @@ namespace Morula
   void
   FieldSolver<dim>::with_cell(const unsigned int p, const Action &action) const
   {
-    const Cells<dim>           &cells = tissue.cells();
-    const auto                  view  = cells[p];
+    const Cells<dim> &cells = tissue.cells();
+    const auto        view  = cells[p];
+    if (!has_found)
+      {
+        action(PresentCell<dim>(view, cells.id(p), cells.position(p), reader));
+        return;
+      }
     std::vector<double>         row(view.row().begin(), view.row().end());
     const CellView<dim, double> now(make_array_view(row), view.columns());
     for (unsigned int k = 0; k < values.size(); ++k)
@@ -267,6 +272,7 @@ namespace Morula
                          dt > 0. ? tolerance_of_amounts : tolerance_of_steady);
         ++result.iterations;
         take(known_field, sought, known, result);
+        has_found     = true;
         double change = 0.;
         for (unsigned int p = 0; p < n_cells; ++p)
           change =

@@ -170,8 +170,8 @@ TEST(FieldEquation, MarksWhereTheFieldIsNotResolved)
     return bool(equation.lumped[0]);
   };
   // The mean of D is 950 um^2/day, h = 20 um.
-  EXPECT_FALSE(marked(2.3, 0.));
-  EXPECT_TRUE(marked(2.4, 0.));
+  EXPECT_FALSE(marked(14.2, 0.));
+  EXPECT_TRUE(marked(14.3, 0.));
   EXPECT_FALSE(marked(0., 0.072));
   EXPECT_TRUE(marked(0., 0.069));
 }

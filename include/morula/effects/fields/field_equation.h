@@ -67,9 +67,9 @@ namespace Morula
     std::vector<bool> lumped;
   };
 
-  /** Marks the grid cells in which k h² > D or, over a step of @p dt (day),
-   *  h² > 6 D dt, with the means of their cells; leaves marks that are there.
-   *  Before rates have 1/dt. @p dt is 0 for a steady field. */
+  /** Marks the grid cells in which (k + 1/dt) h² > 6 D, with the means of their
+   *  cells; leaves marks that are there. Before rates have 1/dt.
+   *  @param dt 0 for a steady field, day */
   template <int dim>
   void
   mark_lumped(FieldEquation<dim> &equation, const double dt);

@@ -124,6 +124,7 @@ namespace Morula
     FieldEquation<dim>      equation;
     /** By field and cell: those of now; empty: as the cells have them. */
     std::vector<std::vector<double>> values;
+    bool has_found = false; // then some differ from those that cells have
   };
 } // namespace Morula
 

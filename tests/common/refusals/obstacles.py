@@ -32,7 +32,7 @@ OBSTACLES = [
          "Correct the value"),
     Refusal("tissue in an obstacle",
             {"Obstacles/Names": "wall", WALL + "Shape": "plane",
-             WALL + "Normal": "0, 0, 1"}, "Obstacles/Names", "'wall'",
+             WALL + "Normal": "0, 0, -1"}, "Obstacles/Names", "'wall'",
             "at most half a grid spacing deep in at t = 0",
             "move the obstacle or the tissue, or correct Side"),
     wrong("an obstacle without its name", WALL + "Shape", "plane", "a key",

@@ -63,6 +63,8 @@ namespace Morula
     {
       parser.DefineConst("pi", dealii::numbers::PI);
       parser.DefineConst("Pi", dealii::numbers::PI);
+      parser.DefineConst("true", 1.);
+      parser.DefineConst("false", 0.);
       parser.DefineOprt(
         "|",
         +[](const double a, const double b) {

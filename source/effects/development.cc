@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/base/time_parameters.h>
 #include <morula/effects/development.h>
 #include <morula/effects/fate/random.h>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace Morula
 {
-  namespace
-  {
-    /** More changes of a cell's type in a step are a mistake. */
-    constexpr unsigned int most_changes = 1000;
-  } // namespace
-
   template <int dim>
   CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
                                         const CellColumns<dim>  &columns,
@@ -31,7 +22,8 @@ namespace Morula
     , random_seed(random_seed)
   {
     keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
-                 this->effects.contraction || this->effects.relaxation;
+                 this->effects.contraction || this->effects.relaxation ||
+                 this->effects.death;
   }
 
   template <int dim>
@@ -61,7 +53,7 @@ namespace Morula
   CellDevelopment<dim>::grows() const
   {
     return effects.law || effects.cycle || effects.contraction ||
-           effects.relaxation || effects.forgets_stress;
+           effects.relaxation || effects.forgets_stress || effects.death;
   }
 
   template <int dim>
@@ -90,6 +82,13 @@ namespace Morula
   CellDevelopment<dim>::state() const
   {
     return state_;
+  }
+
+  template <int dim>
+  const Death<dim> *
+  CellDevelopment<dim>::death() const
+  {
+    return effects.death ? &*effects.death : nullptr;
   }
 
   template <int dim>
@@ -155,6 +154,8 @@ namespace Morula
       {
         if (effects.types)
           effects.types->check_cell(founder);
+        if (effects.death)
+          effects.death->check_cell(founder, step);
         if (effects.law)
           effects.law->check_cell(founder, step);
         if (effects.rule && clock(cell).phase != CyclePhase::never)
@@ -181,85 +182,6 @@ namespace Morula
                              cell.cell().elastic_volume_ratio());
     choose_axis(before, cell, t0, after);
     return after;
-  }
-
-  template <int dim>
-  CycleState<dim>
-  CellDevelopment<dim>::live(const PresentCell<dim>      &before,
-                             const CellView<dim, double> &after,
-                             const double                 t0,
-                             const double                 t1,
-                             std::vector<TypeChange>     &changes) const
-  {
-    const bool      has_clock = effects.cycle.has_value();
-    CycleState<dim> state     = has_clock ? clock(after) : CycleState<dim>();
-    if (!effects.types)
-      return has_clock ? next_clock(before, state, t0, t1) : state;
-    double t = t0;
-    for (unsigned int n = 0; n < most_changes; ++n)
-      {
-        // In its state of t0, but for its type.
-        const PresentCell<dim> cell(after,
-                                    before.id(),
-                                    before.position(),
-                                    before.reader());
-        CycleState<dim>        next = state;
-        double                 end  = t1;
-        if (has_clock)
-          {
-            next = next_clock(cell, state, t, t1);
-            if (effects.cycle->divides(next, CellAt<dim>(cell, t), t1))
-              end = std::min(
-                t1, effects.cycle->division_time(next, CellAt<dim>(cell, t)));
-          }
-        const auto change = effects.types->next_change(cell, after, t, end);
-        if (!change)
-          return next;
-        if (has_clock)
-          {
-            state = next_clock(cell, state, t, change->time);
-            set_clock(after, state);
-          }
-        changes.push_back({change->time, cell.id(), cell.type(), change->to});
-        effects.types->change(after, state_, change->to, change->time);
-        t = change->time;
-      }
-    throw InputError("Cell types",
-                     "",
-                     "at most " + std::to_string(most_changes) +
-                       " changes of a cell's type in a step",
-                     "Lower the rates, or shorten " +
-                       TimeParameters::step_path + ".");
-  }
-
-  template <int dim>
-  unsigned int
-  CellDevelopment<dim>::bear(const CellView<dim, double> &daughter,
-                             const types::particle_index  id,
-                             const Point<dim>            &position,
-                             const unsigned int           which,
-                             const double                 birth,
-                             const double                 t1,
-                             std::vector<TypeChange>     &changes) const
-  {
-    if (state_.birth_time.exists())
-      daughter.set(state_.birth_time, birth);
-    if (!effects.types)
-      return 0;
-    const unsigned int type  = daughter.get(state_.type);
-    const auto         types = effects.types->daughters(type);
-    const unsigned int own   = which == 0 ? types.first : types.second;
-    if (own != type)
-      {
-        daughter.set(state_.type, own);
-        if (state_.type_since.exists())
-          daughter.set(state_.type_since, birth);
-      }
-    const CellReader<dim>  reader = this->reader(t1);
-    const PresentCell<dim> cell(daughter, id, position, reader);
-    const CycleState<dim>  state = live(cell, daughter, birth, t1, changes);
-    set_clock(daughter, state);
-    return own;
   }
 
   template <int dim>
@@ -306,29 +228,30 @@ namespace Morula
                                 const CellView<dim, double> &after,
                                 const double                 t0,
                                 const double                 t1,
-                                std::vector<TypeChange>     &changes) const
+                                std::vector<CellEvent>      &events) const
   {
-    const CycleState<dim> next = live(before, after, t0, t1, changes);
-    if (effects.cycle)
-      set_clock(after, next);
+    const bool dead = is_dead_at(t0, before, after, events);
+    if (!dead)
+      {
+        const CycleState<dim> next = live(before, after, t0, t1, events);
+        if (effects.cycle)
+          set_clock(after, next);
+      }
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before.cell(), after, t0, t1);
     if (!grows())
       return;
-    Tensor<2, dim> F_g = behind_law(before.cell(), next, t1);
-    if (effects.law)
-      {
-        const Tensor<2, dim> of_law = law_growth(before, t0, t1);
-        if (effects.law_growth.exists())
-          after.set(effects.law_growth, of_law);
-        effects.law->remember(growing(before, t0), t0, t1, after);
-        F_g = of_law * F_g;
-      }
-    if (effects.contraction)
-      F_g = effects.contraction->strain(before, after, t1) * F_g;
-    // With the growth of t0 nothing would be left of F_e.
-    if (effects.forgets_stress && after.get(state_.type) != before.type())
-      F_g = absorb(before.elastic(), F_g, after);
+    const double end =
+      effects.death ? std::min(t1, effects.death->time(after)) : t1;
+    Tensor<2, dim> F_g =
+      dead ? before.cell().growth() :
+             living_growth(before,
+                           after,
+                           effects.cycle ? clock(after) : CycleState<dim>(),
+                           t0,
+                           end);
+    if (effects.death && effects.death->is_dead(after))
+      F_g *= effects.death->shrink(after, t1);
     if (effects.relaxation)
       F_g = relax(before, after, F_g, t0, t1);
     after.set(columns_.growth, F_g);
@@ -374,7 +297,7 @@ namespace Morula
           }
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
-        develop(before, after, t0, t1, result.changes);
+        develop(before, after, t0, t1, result.events);
         if (grows())
           result.current.push_back(after.growth());
         if (material.depends_on_state())

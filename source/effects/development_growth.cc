@@ -79,6 +79,31 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
+  CellDevelopment<dim>::living_growth(const PresentCell<dim>      &before,
+                                      const CellView<dim, double> &after,
+                                      const CycleState<dim>       &next,
+                                      const double                 t0,
+                                      const double                 t1) const
+  {
+    Tensor<2, dim> F_g = behind_law(before.cell(), next, t1);
+    if (effects.law)
+      {
+        const Tensor<2, dim> of_law = law_growth(before, t0, t1);
+        if (effects.law_growth.exists())
+          after.set(effects.law_growth, of_law);
+        effects.law->remember(growing(before, t0), t0, t1, after);
+        F_g = of_law * F_g;
+      }
+    if (effects.contraction)
+      F_g = effects.contraction->strain(before, after, t1) * F_g;
+    // With the growth of t0 nothing would be left of F_e.
+    if (effects.forgets_stress && after.get(state_.type) != before.type())
+      F_g = absorb(before.elastic(), F_g, after);
+    return F_g;
+  }
+
+  template <int dim>
+  Tensor<2, dim>
   CellDevelopment<dim>::relax(const PresentCell<dim>      &before,
                               const CellView<dim, double> &after,
                               const Tensor<2, dim>        &F_g,

@@ -6,39 +6,63 @@
 #include <morula/output/gather.h>
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace Morula
 {
-  std::vector<std::string>
-  event_columns()
+  namespace
   {
-    return {"time", "id", "event", "from", "to"};
+    /** What has no type to go to leaves `to` empty, what has no cause leaves
+     *  `cause` empty. */
+    std::string
+    event_row(const CellEvent &event, const EventsContents &contents)
+    {
+      static const char *const names[]  = {"transition", "death", "removal"};
+      static const char *const causes[] = {"", "rate", "when"};
+      const auto               type     = [&](const unsigned int number) {
+        return contents.type_names.empty() ? "" : contents.type_names[number];
+      };
+      const bool  changes = event.kind == CellEvent::Kind::transition;
+      std::string text;
+      append_number(text, event.time);
+      text += ',' + std::to_string(event.id) + ',' +
+              names[static_cast<unsigned int>(event.kind)] + ',' +
+              type(event.from) + ',' + (changes ? type(event.to) : "");
+      if (contents.with_death)
+        text +=
+          std::string(",") + causes[static_cast<unsigned int>(event.cause)];
+      return text + '\n';
+    }
+  } // namespace
+
+  std::vector<std::string>
+  event_columns(const EventsContents &contents)
+  {
+    std::vector<std::string> columns = {"time", "id", "event", "from", "to"};
+    if (contents.with_death)
+      columns.push_back("cause");
+    return columns;
   }
 
   std::string
-  event_rows(const std::vector<TypeChange>  &changes,
-             const std::vector<std::string> &type_names,
-             const MPI_Comm                  comm)
+  event_rows(const std::vector<CellEvent> &events,
+             const EventsContents         &contents,
+             const MPI_Comm                comm)
   {
-    std::vector<TypeChange> all;
-    for (const auto &part : gather_to_root(changes, comm))
+    std::vector<CellEvent> all;
+    for (const auto &part : gather_to_root(events, comm))
       all.insert(all.end(), part.begin(), part.end());
     // Several changes of a cell stay in their order: each ends where the next
     // begins.
     std::stable_sort(all.begin(),
                      all.end(),
-                     [](const TypeChange &a, const TypeChange &b) {
-                       return std::make_pair(a.time, a.id) <
-                              std::make_pair(b.time, b.id);
+                     [](const CellEvent &a, const CellEvent &b) {
+                       return std::tie(a.time, a.id, a.kind) <
+                              std::tie(b.time, b.id, b.kind);
                      });
     std::string text;
-    for (const TypeChange &change : all)
-      {
-        append_number(text, change.time);
-        text += ',' + std::to_string(change.id) + ",transition," +
-                type_names[change.from] + ',' + type_names[change.to] + '\n';
-      }
+    for (const CellEvent &event : all)
+      text += event_row(event, contents);
     return text;
   }
 } // namespace Morula

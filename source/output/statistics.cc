@@ -44,6 +44,12 @@ namespace Morula
       {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
     for (const auto &[name, n] : cells_of_types)
       list.emplace_back("cells_" + name, number(n));
+    if (death)
+      {
+        list.emplace_back("dying", number(death->dying));
+        list.emplace_back("deaths", number(death->deaths));
+        list.emplace_back("removed", number(death->removed));
+      }
     for (const FieldStatistics &field : fields)
       {
         list.emplace_back(field.name + "_min", field.min);

@@ -108,6 +108,24 @@ namespace Morula
       return {far, nearest};
     }
 
+    /** How far a point may be from the cell, µm. */
+    template <int dim>
+    double
+    farthest(const NearCell<dim> &cell)
+    {
+      return most_reaches * std::get<2>(cell);
+    }
+
+    /** The way from a point to its nearest cell, if it is detached; else 0. */
+    template <int dim>
+    Tensor<1, dim>
+    way_back(const Point<dim> &point, const NearCell<dim> &cell)
+    {
+      const Tensor<1, dim> way = std::get<0>(cell) - point;
+      return way.norm() <= farthest(cell) * (1. + 1e-9) ? Tensor<1, dim>() :
+                                                          way;
+    }
+
     /** The part of a motion that the point's condition leaves free. */
     template <int dim>
     Tensor<1, dim>
@@ -156,6 +174,20 @@ namespace Morula
   }
 
   template <int dim>
+  std::vector<unsigned int>
+  detached_points(const Tissue<dim> &tissue)
+  {
+    const std::vector<Point<dim>> positions =
+      tissue.boundary_points().positions();
+    const auto [far, nearest] = far_points(positions, tissue, most_reaches);
+    std::vector<unsigned int> found;
+    for (std::size_t k = 0; k < far.size(); ++k)
+      if (way_back(positions[far[k]], nearest[k]).norm() > 0.)
+        found.push_back(far[k]);
+    return found;
+  }
+
+  template <int dim>
   std::uint64_t
   pull_back_detached_points(Tissue<dim> &tissue)
   {
@@ -166,16 +198,15 @@ namespace Morula
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
       {
-        const unsigned int p       = far[k];
-        const auto &[x, F, reach]  = nearest[k];
-        const double         limit = most_reaches * reach;
-        const Tensor<1, dim> way   = x - positions[p]; // to the cell
-        if (way.norm() <= limit * (1. + 1e-9) ||
-            points.condition(p) == SurfaceCondition::fixed)
+        const unsigned int   p   = far[k];
+        const Tensor<1, dim> way = way_back(positions[p], nearest[k]);
+        if (way.norm() == 0. || points.condition(p) == SurfaceCondition::fixed)
           continue;
         ++n;
-        positions[p] += free_part(points[p], (1. - limit / way.norm()) * way);
-        tissue.boundary_point(p).set(points.columns().deformation, F);
+        positions[p] +=
+          free_part(points[p], (1. - farthest(nearest[k]) / way.norm()) * way);
+        tissue.boundary_point(p).set(points.columns().deformation,
+                                     std::get<1>(nearest[k]));
       }
     n = Utilities::MPI::sum(n, tissue.communicator());
     if (n > 0)
@@ -183,12 +214,13 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                   \
-  template double surface_reach(const CellView<dim, const double> &,       \
-                                const double);                             \
-  template std::vector<double> attachment(const std::vector<Point<dim>> &, \
-                                          const Tissue<dim> &);            \
-  template std::uint64_t       pull_back_detached_points(Tissue<dim> &);
+#define INSTANTIATE(dim)                                                         \
+  template double surface_reach(const CellView<dim, const double> &,             \
+                                const double);                                   \
+  template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
+                                                const Tissue<dim> &);            \
+  template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
+  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -139,12 +139,29 @@ namespace Morula
                            const PointList<dim>            &inserted,
                            const BackgroundGrid<dim>       &grid)
   {
+    take_out(removed);
+    insert(inserted, grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::remove(const std::vector<unsigned int> &removed,
+                          const BackgroundGrid<dim>       &grid)
+  {
+    n_disordered += removed.size();
+    take_out(removed);
+    sort(grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::take_out(const std::vector<unsigned int> &removed)
+  {
     std::vector<Iterator> particles;
     particles.reserve(removed.size());
     for (const unsigned int p : removed)
       particles.push_back(order[p]);
     handler.remove_particles(particles);
-    insert(inserted, grid);
   }
 
   template <int dim>

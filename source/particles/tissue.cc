@@ -180,6 +180,15 @@ namespace Morula
 
   template <int dim>
   void
+  Tissue<dim>::remove(const std::vector<unsigned int> &cells,
+                      const std::vector<unsigned int> &boundary_points)
+  {
+    cells_.remove(cells, grid_);
+    boundary_points_.remove(boundary_points, grid_);
+  }
+
+  template <int dim>
+  void
   Tissue<dim>::replace_surface(const PointList<dim> &boundary_points)
   {
     const auto [first, last] = extent<dim>({&boundary_points.positions}, grid_);

@@ -145,6 +145,13 @@ namespace Morula
                    "gamma = " + scene.contraction.stretch.text() + ", along " +
                      scene.contraction.direction.text() +
                      (scene.contraction.keep_volume ? ", keeps volume" : ""));
+      print_effect(out,
+                   "death",
+                   scene.has_death(),
+                   "rate = " + scene.death.rate.text() +
+                     " /day, when = " + scene.death.when.text() +
+                     ", shrinking time = " + scene.death.shrinking_time.text() +
+                     " day");
       print_fields(out, scene);
       for (const auto &choice : catalogue.fates)
         print_effect(out,
@@ -242,7 +249,7 @@ namespace Morula
         return "";
       const CellCycleParameters &cycle = scene.cell_cycle;
       const unsigned int         dim   = scene.dimension;
-      return has_checkpoint(scene) ||
+      return has_checkpoint(scene) || scene.has_death() ||
                  depends_on_more_than_place(cycle.duration.expression(dim)) ||
                  depends_on_more_than_place(cycle.exit_rate.expression(dim)) ?
                "at least " :

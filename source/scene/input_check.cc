@@ -247,6 +247,29 @@ namespace Morula
 
     template <int dim>
     void
+    check_death(const Scene &scene)
+    {
+      const DeathParameters &death = scene.death;
+      death.check_each(dim);
+      if (!scene.has_death())
+        {
+          refuse_forgotten(scene,
+                           death.rate,
+                           death,
+                           "Set " + death.rate.path() + " or " +
+                             death.when.path());
+          return;
+        }
+      if (death.shrinks() && !scene.material.per_grown_volume())
+        scene.material.energy_per.refuse(
+          "grown volume, as cells die and shrink",
+          "A shrunken cell would pull with the stiffness of a whole one. Cells "
+          "may also go at once: " +
+            death.shrinking_time.path() + " = 0.");
+    }
+
+    template <int dim>
+    void
     check_boundary_conditions(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
@@ -284,6 +307,7 @@ namespace Morula
                        scene.law_of_growth());
       check_proliferation<dim>(scene);
       check_contraction<dim>(scene);
+      check_death<dim>(scene);
       check_fields<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.fates);
       check_boundary_conditions<dim>(scene);

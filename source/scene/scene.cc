@@ -123,6 +123,13 @@ namespace Morula
 
 
   bool
+  Scene::has_death() const
+  {
+    return death.is_on();
+  }
+
+
+  bool
   Scene::has_proliferation() const
   {
     return proliferation_law != "none" ||
@@ -209,6 +216,7 @@ namespace Morula
     for (auto &rule : catalogue.division_rules)
       append(list, rule.keys().list());
     append(list, contraction.list());
+    append(list, death.list());
     append(list, fields.list());
     for (auto &fate : catalogue.fates)
       append(list, fate.keys().list());
@@ -407,6 +415,8 @@ namespace Morula
            "F_r, what has relaxed of F_g",
            Tensor<2, dim>(unit_symmetric_tensor<dim>())});
       }
+    if (scene.has_death())
+      development.death.emplace(scene.death, setting);
     for (const auto &choice : catalogue.fates)
       if (choice.keys().is_on())
         effects.fates.push_back(make(choice));

@@ -57,7 +57,8 @@ namespace Morula
     const SceneEffects<dim>         effects = effects_of<dim>(scene);
     const GrowthLaw<dim> *const     law     = effects.development.law.get();
     std::optional<Descendants<dim>> descendants;
-    if (scene.has_proliferation())
+    // How many die, only the run can tell.
+    if (scene.has_proliferation() && !scene.has_death())
       descendants.emplace(scene.cell_cycle, t);
     SceneSize size;
     for (const Point<dim> &X : founders)

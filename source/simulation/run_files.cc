@@ -36,6 +36,12 @@ namespace Morula
                              0;
     }
 
+    EventsContents
+    contents_of(const Scene &scene)
+    {
+      return {scene.cell_types.name_list(), scene.has_death()};
+    }
+
     /** A row with the columns of such a run. */
     StatisticsRow
     row_like(const Scene &scene)
@@ -45,6 +51,8 @@ namespace Morula
         row.cells_of_types.emplace_back(name, 0);
       for (const std::string &name : scene.fields.name_list())
         row.fields.push_back({name});
+      if (scene.has_death())
+        row.death.emplace();
       return row;
     }
 
@@ -59,12 +67,13 @@ namespace Morula
     std::vector<Table>
     tables_of(const Scene &scene)
     {
-      const std::vector<std::string> types  = scene.cell_types.name_list();
-      std::vector<Table>             tables = {
+      const EventsContents            contents = contents_of(scene);
+      const std::vector<std::string> &types    = contents.type_names;
+      std::vector<Table>              tables   = {
         {"statistics", statistics_columns(row_like(scene))},
         {"lineage", lineage_columns(!types.empty())}};
-      if (!types.empty())
-        tables.push_back({"events", event_columns()});
+      if (contents.any())
+        tables.push_back({"events", event_columns(contents)});
       if (scene.output.condition_estimate)
         tables.push_back({"condition", condition_columns(), true});
       return tables;
@@ -104,7 +113,7 @@ namespace Morula
                           const MPI_Comm                          comm)
     : scene(scene)
     , comm(comm)
-    , type_names(scene.cell_types.name_list())
+    , contents(contents_of(scene))
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
     , next_output(
@@ -232,14 +241,14 @@ namespace Morula
   void
   RunFiles<dim>::step(StatisticsRow                 &row,
                       const std::vector<Birth<dim>> &births,
-                      const std::vector<TypeChange> &changes)
+                      const std::vector<CellEvent>  &befallen)
   {
     row.wall_seconds = wall_seconds();
     tables.at("statistics").append(statistics_row(row));
     tables.at("lineage").append(
-      lineage_rows(births, !type_names.empty(), comm));
-    if (!type_names.empty())
-      tables.at("events").append(event_rows(changes, type_names, comm));
+      lineage_rows(births, !contents.type_names.empty(), comm));
+    if (contents.any())
+      tables.at("events").append(event_rows(befallen, contents, comm));
     progress->step({row.step,
                     row.time,
                     row.dt,

@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
+#include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_coarsening.h>
 #include <morula/particles/surface_refinement.h>
@@ -10,6 +11,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -98,7 +100,8 @@ namespace Morula
   Simulation<dim>::finish()
   {
     files->write_timings(timer);
-    files->finish(time_steps.finished() ? "Finished: End time reached" :
+    files->finish(row.cells == 0        ? "Finished: all cells are dead" :
+                  time_steps.finished() ? "Finished: End time reached" :
                                           "Finished: Stop at cells reached",
                   row,
                   n_rejected,
@@ -125,9 +128,12 @@ namespace Morula
   {
     if (time_steps.finished())
       return true;
-    return scene.time.stop_at_cells > 0 &&
-           Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm) >=
-             scene.time.stop_at_cells;
+    if (scene.time.stop_at_cells == 0 && !scene.has_death())
+      return false;
+    const auto n_cells =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
+    return n_cells == 0 || (scene.time.stop_at_cells > 0 &&
+                            n_cells >= scene.time.stop_at_cells);
   }
 
   template <int dim>
@@ -137,7 +143,7 @@ namespace Morula
     row           = StatisticsRow();
     newton_report = NewtonReport();
     births        = {};
-    changes       = {};
+    events        = {};
     condition.reset();
     ++n_steps;
 
@@ -157,6 +163,7 @@ namespace Morula
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
+    remove_the_dead();
     refine_stretched_surface(space);
     complete_row(space);
   }
@@ -227,7 +234,7 @@ namespace Morula
   Simulation<dim>::write_rows()
   {
     const TimerOutput::Scope section(timer, "rows");
-    files->step(row, births, changes);
+    files->step(row, births, events);
   }
 
   template <int dim>
@@ -299,10 +306,30 @@ namespace Morula
         Divisions<dim> divisions =
           Morula::divide(tissue, development, due, time_steps.time(), next_id);
         births = std::move(divisions.births);
-        changes.insert(changes.end(),
-                       divisions.changes.begin(),
-                       divisions.changes.end());
+        events.insert(events.end(),
+                      divisions.events.begin(),
+                      divisions.events.end());
       }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::remove_the_dead()
+  {
+    if (!scene.has_death())
+      return;
+    const TimerOutput::Scope section(timer, "removal");
+    const std::uint64_t      n_deaths =
+      std::count_if(events.begin(), events.end(), [](const CellEvent &event) {
+        return event.kind == CellEvent::Kind::death;
+      });
+    const std::vector<CellEvent> removals =
+      remove_dead_cells(tissue, development, time_steps.time());
+    events.insert(events.end(), removals.begin(), removals.end());
+    row.death.emplace();
+    row.death->deaths = Utilities::MPI::sum(n_deaths, comm);
+    row.death->removed =
+      Utilities::MPI::sum<std::uint64_t>(removals.size(), comm);
   }
 
   template <int dim>

@@ -304,6 +304,7 @@ namespace Morula
     std::vector<std::uint64_t> of_types(development.state().type_names().size(),
                                         0);
     std::uint64_t              held   = 0;
+    std::uint64_t              dying  = 0;
     const Cells<dim>          &cells  = tissue.cells();
     const auto                 reader = development.reader(time_steps.time());
     for (unsigned int p = 0; p < cells.size(); ++p)
@@ -311,6 +312,8 @@ namespace Morula
         const PresentCell<dim> cell = present_cell(p, reader);
         sums.add_cell(cell.quantities(), cell.position());
         held += is_held(cell);
+        if (const Death<dim> *death = development.death())
+          dying += death->is_dead(cells[p]);
         if (!of_types.empty())
           ++of_types[cell.type()];
         longest.add(cell_domain<dim>(cell.position(), cell.cell()));
@@ -323,6 +326,8 @@ namespace Morula
     state.tissue  = sums.totals(comm);
     state.lengths = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+    if (scene.has_death())
+      state.death = DeathCounts{Utilities::MPI::sum(dying, comm)};
     Utilities::MPI::sum(of_types, comm, of_types);
     for (std::size_t type = 0; type < of_types.size(); ++type)
       state.cells_of_types.emplace_back(development.state().type_names()[type],
@@ -349,6 +354,11 @@ namespace Morula
     StatisticsRow            complete = statistics();
     complete.dt                       = row.dt;
     complete.dividing                 = row.dividing;
+    if (row.death)
+      {
+        complete.death->deaths  = row.death->deaths;
+        complete.death->removed = row.death->removed;
+      }
     count_splines(space, complete);
     complete.newton_iterations = newton_report.newton_iterations;
     complete.linear_iterations = newton_report.linear_iterations;

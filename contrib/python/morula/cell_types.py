@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The types of cells: their names, and how cells changed theirs."""
+"""The types of cells: their names; and what befell cells: changes of type,
+death, removal."""
 import numpy as np
 
 from .prm import parse
 from .refusal import Refused
 
 EVENTS = ("time", "id", "event", "from", "to")
+OF_DEATH = ("cause",)  # in runs whose cells die
 
 
 def names_in(keys, section="Cell types"):
@@ -32,11 +34,12 @@ def read_events(file, names):
     try:
         # a type may have a name that pandas would take for a missing number
         table = pandas.read_csv(file, dtype=str, keep_default_na=False)
-        table = table[list(EVENTS)].astype({"time": float, "id": np.int64})
+        table = table[[*EVENTS, *OF_DEATH[:"cause" in table]]].astype(
+            {"time": float, "id": np.int64})
     except (ValueError, KeyError) as error:  # pandas' own are ValueErrors
         raise Refused("The table", file, "the columns " + ", ".join(EVENTS),
                       f"{error}.") from None
-    for name in {*table["from"], *table["to"]} - {*names}:
+    for name in {*table["from"], *table["to"]} - {*names, ""}:
         raise Refused("The table", file, "types of the run: "
                       + ", ".join(names), f"It has '{name}'.")
     return table

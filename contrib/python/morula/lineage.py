@@ -15,9 +15,11 @@ class Lineage:
     `table` is a data frame with id, parent (-1 for founders), generation,
     birth_time (days) and x, y, z (um) where the cell was born, and in scenes
     with types the number of the type with which it was born; `type` is None
-    in others."""
+    in others. `events` are those of the run: its deaths and removals are
+    arrays `death_time` and `removal_time` (days; infinity for cells that did
+    not die, or are still there)."""
 
-    def __init__(self, table):
+    def __init__(self, table, events=None):
         self.table = table.sort_values("id", kind="stable", ignore_index=True)
         if not np.array_equal(self.table["id"], np.arange(len(self.table))):
             raise Refused("lineage.csv", "its ids", "0, 1, 2, ... without a "
@@ -27,6 +29,18 @@ class Lineage:
         self.birth_time = self.table["birth_time"].to_numpy()
         self.type = (self.table["type"].to_numpy() if "type" in self.table
                      else None)
+
+        self.death_time = self._times_of("death", events)
+        self.removal_time = self._times_of("removal", events)
+
+    def _times_of(self, event, events):
+        times = np.full(len(self), np.inf)
+        if events is not None:
+            # a run that goes on may have events of cells to come
+            rows = events[(events["event"] == event)
+                          & (events["id"] < len(self))]
+            times[rows["id"]] = rows["time"]
+        return times
 
     def __len__(self):
         return len(self.parent)
@@ -46,15 +60,17 @@ class Lineage:
 
     @cached_property
     def end_time(self):
-        """When every cell divided, days; infinity for those that have not."""
-        end = np.full(len(self), np.inf)
+        """When every cell divided or died, days; infinity for those that
+        have not."""
+        end = self.death_time.copy()
         later = self.parent >= 0
         end[self.parent[later]] = self.birth_time[later]
         return end
 
     @property
     def living(self):
-        """Ids of the cells that have not divided until the end of the run."""
+        """Ids of the cells that have neither divided nor died until the end of
+        the run."""
         return np.flatnonzero(np.isinf(self.end_time))
 
     def clone(self, cell):

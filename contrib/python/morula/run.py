@@ -10,7 +10,8 @@
     run.clone(17)                       # ids of all descendants of cell 17
     run.type_names                      # of the cells' types, by their numbers
     run.field_names                     # of what diffuses, e.g. oxygen
-    run.events                          # changes of type: time, id, from, to
+    run.events                          # changes of type, deaths, removals
+    run.lineage.death_time              # day, of every cell; infinity: it lives
 
 The columns are those of the files (README.md, "What comes out").
 
@@ -192,7 +193,7 @@ class Run:
         if not file.is_file():
             raise NoStates(f"{self.directory} has no lineage.csv: it is "
                            "written when the first step ends.")
-        return Lineage(_frame(read_csv(file)))
+        return Lineage(_frame(read_csv(file)), self.events)
 
     @cached_property
     def type_names(self):
@@ -208,10 +209,11 @@ class Run:
 
     @cached_property
     def events(self):
-        """events.csv: every change of a cell's type, in order of time, day:
-        time, id, event ("transition"), from, to (names of types). Types that
-        daughters get when they are born stand in the lineage. Empty in a
-        scene without types."""
+        """events.csv: every change of a cell's type, its death and its removal,
+        in order of time, day: time, id, event ("transition", "death",
+        "removal"), from, to (names of types), and cause of a death ("rate",
+        "when") where cells die. Types that daughters get when they are born
+        stand in the lineage. Empty in a scene without types or death."""
         return read_events(self.directory / "events.csv", self.type_names)
 
     def types_of(self, cell):
@@ -220,7 +222,8 @@ class Run:
         if self.lineage.type is None:
             return []
         self.lineage.require(cell)
-        changes = self.events[self.events["id"] == cell]
+        changes = self.events[(self.events["id"] == cell)
+                              & (self.events["event"] == "transition")]
         return [(float(self.lineage.birth_time[cell]),
                  self.type_names[self.lineage.type[cell]]),
                 *zip(changes["time"], changes["to"])]

@@ -7,13 +7,14 @@
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_types.h>
+#include <morula/effects/fate/death.h>
 #include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/tissue_material.h>
+#include <morula/particles/cell_event.h>
 #include <morula/particles/tissue.h>
-#include <morula/particles/type_change.h>
 
 #include <memory>
 #include <optional>
@@ -34,8 +35,8 @@ namespace Morula
     /** The cells' rows at t + dt, one after the other, but for F; empty where
      *  commit() computes them anew. */
     std::vector<double> rows;
-    /** What became of cells. */
-    std::vector<TypeChange> changes;
+    /** What befell cells. */
+    std::vector<CellEvent> events;
   };
 
   /** What the file of a founder may say of it. */
@@ -59,6 +60,7 @@ namespace Morula
     /** Of the axes of cycles; null: those that the cycle draws. */
     std::unique_ptr<const DivisionRule<dim>> rule;
     std::optional<CellTypes<dim>>            types = {};
+    std::optional<Death<dim>>                death = {};
     /** Whether cells grow by the law, by type; empty: all do. */
     std::vector<bool> grows = {};
     /** Or null. */
@@ -159,6 +161,10 @@ namespace Morula
            const double             t0,
            const double             t1) const;
 
+    /** How cells die, or null. */
+    const Death<dim> *
+    death() const;
+
     /**
      * Sets what a daughter has that her mother has not, and lets her live until
      * the end of the step.
@@ -175,7 +181,7 @@ namespace Morula
          const unsigned int           which,
          const double                 birth,
          const double                 t1,
-         std::vector<TypeChange>     &changes) const;
+         std::vector<CellEvent>      &changes) const;
 
     /** Unit direction along which the daughters of a cell are placed. */
     Tensor<1, dim>
@@ -191,9 +197,9 @@ namespace Morula
                const double            t1) const;
 
     /**
-     * The clock at t1, through all changes of type in (t0, t1]; sets the
-     * columns of the type. What a mother would do behind her division is her
-     * daughters'.
+     * The clock at t1, or at the cell's death if that comes first, through all
+     * changes of type in (t0, t1]; sets the columns of type and death. What a
+     * mother would do behind her division is her daughters'.
      * @param before the cell at the beginning of the step
      * @param after  a copy of its row
      */
@@ -202,7 +208,24 @@ namespace Morula
          const CellView<dim, double> &after,
          const double                 t0,
          const double                 t1,
-         std::vector<TypeChange>     &changes) const;
+         std::vector<CellEvent>      &changes) const;
+
+    /** Lets the cell in @p after die at @p time (day), and returns the clock of
+     *  the dead. @param state its clock at this time */
+    CycleState<dim>
+    die(const PresentCell<dim>      &cell,
+        const CellView<dim, double> &after,
+        CycleState<dim>              state,
+        const double                 time,
+        const DeathCause             cause,
+        std::vector<CellEvent>      &events) const;
+
+    /** Whether the cell is dead at the beginning of a step, or dies then. */
+    bool
+    is_dead_at(const double                 t0,
+               const PresentCell<dim>      &before,
+               const CellView<dim, double> &after,
+               std::vector<CellEvent>      &events) const;
 
     /** Gives a cycle that begins between these states the rule's axis. */
     void
@@ -231,6 +254,17 @@ namespace Morula
            const CycleState<dim>  &next,
            const double            t0,
            const double            t1) const;
+
+    /**
+     * F_g of law, cycle and contraction at t1, which is noted in @p after.
+     * @param next the clock of t1
+     */
+    Tensor<2, dim>
+    living_growth(const PresentCell<dim>      &before,
+                  const CellView<dim, double> &after,
+                  const CycleState<dim>       &next,
+                  const double                 t0,
+                  const double                 t1) const;
 
     /**
      * D F_g, which is noted in @p after: as if D had come before all growth.
@@ -269,7 +303,7 @@ namespace Morula
             const CellView<dim, double> &after,
             const double                 t0,
             const double                 t1,
-            std::vector<TypeChange>     &changes) const;
+            std::vector<CellEvent>      &changes) const;
 
     DevelopmentEffects<dim> effects;
     CellColumns<dim>        columns_;

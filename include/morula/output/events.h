@@ -4,7 +4,7 @@
 #ifndef morula_output_events_h
 #define morula_output_events_h
 
-#include <morula/particles/type_change.h>
+#include <morula/particles/cell_event.h>
 
 #include <mpi.h>
 
@@ -13,21 +13,36 @@
 
 namespace Morula
 {
+  /** What stands in events.csv. */
+  struct EventsContents
+  {
+    /** By the types' numbers; empty: there are no types. */
+    std::vector<std::string> type_names;
+    /** Whether cells die. */
+    bool with_death = false;
+
+    /** Whether there is a file at all. */
+    bool
+    any() const
+    {
+      return with_death || !type_names.empty();
+    }
+  };
+
   /** The columns of events.csv. */
   std::vector<std::string>
-  event_columns();
+  event_columns(const EventsContents &contents);
 
   /**
-   * Rows of events.csv: one for each change of a cell's type on all ranks in a
-   * step, ordered by time, then by the cell's id. Collective; on other ranks
-   * than 0 it is empty.
-   * @param changes of this rank, in any order
-   * @param type_names by the types' numbers
+   * Rows of events.csv: one for each change of a cell's type, its death and its
+   * removal, on all ranks in a step, ordered by time, then by the cell's id.
+   * Collective; on other ranks than 0 it is empty.
+   * @param events of this rank, in any order
    */
   std::string
-  event_rows(const std::vector<TypeChange>  &changes,
-             const std::vector<std::string> &type_names,
-             const MPI_Comm                  comm);
+  event_rows(const std::vector<CellEvent> &events,
+             const EventsContents         &contents,
+             const MPI_Comm                comm);
 } // namespace Morula
 
 #endif

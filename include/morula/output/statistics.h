@@ -8,12 +8,21 @@
 #include <morula/output/tissue_sums.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Morula
 {
+  /** What statistics.csv says of death. */
+  struct DeathCounts
+  {
+    std::uint64_t dying   = 0; // dead cells that are still there
+    std::uint64_t deaths  = 0; // in this step
+    std::uint64_t removed = 0; // in this step
+  };
+
   /** What statistics.csv says of a field. */
   struct FieldStatistics
   {
@@ -44,6 +53,8 @@ namespace Morula
     CellLengths   lengths;
     /** By the types' names; empty without types. */
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
+    /** Only where cells die. */
+    std::optional<DeathCounts> death = {};
     /** By the fields' numbers; empty without fields. */
     std::vector<FieldStatistics> fields = {};
 

@@ -34,6 +34,13 @@ namespace Morula
   std::vector<double>
   attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue);
 
+  /** Boundary points of this rank that are farther from their nearest cell than
+   *  4/3 of its reach, by their positions in the store, in order. Collective,
+   *  and there must be cells. */
+  template <int dim>
+  std::vector<unsigned int>
+  detached_points(const Tissue<dim> &tissue);
+
   /**
    * Pulls detached boundary points back to the tissue. Where no cell is near,
    * the displacement is extrapolated, and a point ahead of the tissue moves

@@ -65,6 +65,12 @@ namespace Morula
             const PointList<dim>            &inserted,
             const BackgroundGrid<dim>       &grid);
 
+    /** Removes these points of this rank, given by their positions in the
+     *  order. Collective: deal.II counts the points of all ranks. */
+    void
+    remove(const std::vector<unsigned int> &removed,
+           const BackgroundGrid<dim>       &grid);
+
     /** Takes all points of this rank out of the store. */
     void
     clear();
@@ -159,13 +165,18 @@ namespace Morula
     void
     sort(const BackgroundGrid<dim> &grid);
 
+    /** Removes points, after which order is not valid. Collective. */
+    void
+    take_out(const std::vector<unsigned int> &removed);
+
     /** Makes room for @p n points. */
     void
     reserve(const std::size_t n);
 
     const unsigned int n_numbers;
     std::size_t        capacity = 0; // points there is room for
-    /** Points inserted since all of them were in order in memory. */
+    /** Points inserted or removed since all of them were in order, without
+     *  gaps, in memory. */
     std::size_t                     n_disordered = 0;
     MappingQ1<dim>                  mapping;
     Particles::ParticleHandler<dim> handler;

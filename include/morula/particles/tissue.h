@@ -71,6 +71,12 @@ namespace Morula
     replace(const std::vector<unsigned int> &mothers,
             const PointList<dim>            &daughters);
 
+    /** Removes cells and boundary points of this rank, given by their positions
+     *  in cells() and boundary_points(), in order. Collective. */
+    void
+    remove(const std::vector<unsigned int> &cells,
+           const std::vector<unsigned int> &boundary_points);
+
     /** Takes these boundary points in place of the present ones. Collective. */
     void
     replace_surface(const PointList<dim> &boundary_points);

@@ -9,6 +9,7 @@
 #include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/effects/fate/death.h>
 #include <morula/effects/fields/fields.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
@@ -54,6 +55,7 @@ namespace Morula
     CellCycleParameters   cell_cycle;
     CellTypesParameters   cell_types;
     ContractionParameters contraction;
+    DeathParameters       death;
     FieldsParameters      fields;
     NitscheParameters     nitsche;
     SolverParameters      solver;
@@ -96,6 +98,10 @@ namespace Morula
     /** Whether cells contract. */
     bool
     has_contraction() const;
+
+    /** Whether cells can die. */
+    bool
+    has_death() const;
 
     bool
     has_proliferation() const;

@@ -46,12 +46,13 @@ namespace Morula
              const Timer                            &clock,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv, lineage.csv and, where cells have types,
-     *  events.csv, and shows the step. Writes the wall time into @p row. */
+    /** Appends to statistics.csv, lineage.csv and, where cells have types or
+     *  die, events.csv, and shows the step. Writes the wall time into @p row.
+     */
     void
     step(StatisticsRow                 &row,
          const std::vector<Birth<dim>> &births,
-         const std::vector<TypeChange> &changes);
+         const std::vector<CellEvent>  &befallen);
 
     /** Writes a message to the terminal and into log.txt. */
     void
@@ -127,13 +128,13 @@ namespace Morula
                  const PointFields<dim> &fields,
                  const double            time);
 
-    const Scene                    scene;
-    const MPI_Comm                 comm;
-    const std::vector<std::string> type_names;
-    std::optional<DirectoryLock>   lock; // until the end
-    const double                   wall_seconds_before;
-    const Timer                   &clock;
-    std::vector<double>            output_times;
+    const Scene                  scene;
+    const MPI_Comm               comm;
+    const EventsContents         contents;
+    std::optional<DirectoryLock> lock; // until the end
+    const double                 wall_seconds_before;
+    const Timer                 &clock;
+    std::vector<double>          output_times;
     // The next ones are due at these multiples of their intervals.
     unsigned int            next_output;
     unsigned int            next_snapshot;

@@ -145,6 +145,8 @@ namespace Morula
     void
     divide();
     void
+    remove_the_dead();
+    void
     write_rows();
     void
     write_condition();
@@ -216,8 +218,8 @@ namespace Morula
 
     // Of the present step.
     GrowthOfStep<dim>                growth_of_step;
-    std::vector<Birth<dim>>          births;  // on this rank
-    std::vector<TypeChange>          changes; // likewise
+    std::vector<Birth<dim>>          births; // on this rank
+    std::vector<CellEvent>           events; // likewise
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it

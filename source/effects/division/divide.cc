@@ -148,13 +148,8 @@ namespace Morula
               dividing[k].position +
               (which == 0 ? -1. : 1.) * distances[k][which] * dividing[k].axis;
             const auto         id   = first_ids[k] + which;
-            const unsigned int type = development.bear(daughter,
-                                                       id,
-                                                       position,
-                                                       which,
-                                                       events[k].time,
-                                                       t1,
-                                                       result.changes);
+            const unsigned int type = development.bear(
+              daughter, id, position, which, events[k].time, t1, result.events);
             daughters.add(id, position, make_array_view(row));
             result.births.push_back({id,
                                      static_cast<int>(events[k].mother),

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/cell_types.h>
+#include <morula/effects/fate/hazard.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -79,21 +80,19 @@ namespace Morula
       return change;
     const unsigned int  n   = after.get(n_changes);
     const std::uint64_t key = cell.lineage_key();
-    std::vector<double> rates;
-    // doc/theory.md (6.6), (6.7)
+    std::vector<Hazard> all;
     for (std::size_t k = 0; k < ways.size(); ++k)
       {
-        rates.push_back(cell.value(ways[k].rate, 0.5 * (t0 + t1)));
-        const double left =
-          Random::transition_threshold(random_seed, key, n, k) -
-          after.get(hazards[k]);
+        all.push_back({cell.value(ways[k].rate, 0.5 * (t0 + t1)),
+                       after.get(hazards[k]),
+                       Random::transition_threshold(random_seed, key, n, k)});
         const double latest = change ? change->time : t1;
-        if (rates[k] > 0. && left <= rates[k] * (latest - t0))
-          change = Change{t0 + std::max(0., left) / rates[k], ways[k].to};
+        if (const auto time = all[k].event(t0, latest))
+          change = Change{*time, ways[k].to};
       }
     const double until = change ? change->time : t1;
     for (std::size_t k = 0; k < ways.size(); ++k)
-      after.set(hazards[k], after.get(hazards[k]) + rates[k] * (until - t0));
+      after.set(hazards[k], all[k].integral_at(t0, until));
     return change;
   }
 

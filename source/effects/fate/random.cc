@@ -67,6 +67,13 @@ namespace Morula::Random
       return std::ldexp(static_cast<double>((random_bits >> 11) + 1), -53);
     }
 
+    /** Exponentially distributed with mean 1. */
+    double
+    exponential_of(const std::array<std::uint64_t, 2> &random_bits)
+    {
+      return std::abs(std::log(uniform(random_bits[0])));
+    }
+
     /** Uniform on the unit sphere (2-D: circle). */
     template <int dim>
     Tensor<1, dim>
@@ -169,7 +176,7 @@ namespace Morula::Random
   {
     if (rate == 0.)
       return std::numeric_limits<double>::infinity();
-    return std::abs(std::log(uniform(bits(seed, key, Draw::wait)[0]))) / rate;
+    return exponential_of(bits(seed, key, Draw::wait)) / rate;
   }
 
 
@@ -181,8 +188,14 @@ namespace Morula::Random
   {
     const std::uint32_t draw =
       static_cast<std::uint32_t>(Draw::transition) * (1 + n_changes) + which;
-    return std::abs(
-      std::log(uniform(bits(seed, key, draw, Domain::lineage)[0])));
+    return exponential_of(bits(seed, key, draw, Domain::lineage));
+  }
+
+
+  double
+  death_threshold(const std::uint64_t seed, const std::uint64_t key)
+  {
+    return exponential_of(bits(seed, key, Draw::death));
   }
 
 

@@ -2,33 +2,22 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/division/divide.h>
 #include <morula/scene/scene.h>
 
 #include <deal.II/lac/full_matrix.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "common/complaint.h"
-#include "common/temporary_file.h"
+#include "effects/fate/lives.h"
 #include "effects/small_tissue.h"
 
 using namespace Morula;
 
 namespace
 {
-  /** A scene of these lines. */
-  Scene
-  read(const std::vector<std::string> &settings)
-  {
-    const TemporaryFile file("cell-types.prm", "");
-    return Scene::read(file.path, settings);
-  }
-
   const std::vector<std::string> two_types = {
     "Dimension=2",
     "Cell types/Names=stem, leaf",
@@ -38,69 +27,6 @@ namespace
     "Cell types/leaf/Proliferation/Law=none",
     "Cell types/stem/Transitions/To leaf=0.5"};
 
-  /** What became of some founders without mechanics. */
-  struct Outcome
-  {
-    std::array<double, 2>   numbers = {{0., 0.}};
-    std::vector<TypeChange> changes;
-    std::vector<double>     births;
-  };
-
-  Outcome
-  run(const Scene       &scene,
-      const unsigned int n_founders,
-      const double       end,
-      const double       step)
-  {
-    SceneEffects<2>          effects = effects_of<2>(scene);
-    const CellDevelopment<2> development(std::move(effects.development),
-                                         effects.columns,
-                                         effects.state,
-                                         TissueMaterial(scene.material),
-                                         scene.random_seed);
-    std::vector<Point<2>>    positions;
-    for (unsigned int i = 0; i < n_founders; ++i)
-      positions.emplace_back(20. * i, 0.);
-    Tissue<2> tissue(GridParameters(), development.columns(), MPI_COMM_WORLD);
-    tissue.place(founders(positions,
-                          100.,
-                          development,
-                          [](const Point<2> &) {
-                            return Tensor<2, 2>(unit_symmetric_tensor<2>());
-                          }),
-                 PointList<2>());
-    types::particle_index next_id = n_founders;
-    Outcome               outcome;
-    const unsigned int    n_steps = std::lround(end / step);
-    for (unsigned int n = 0; n < n_steps; ++n)
-      {
-        const double t0 = n * step, t1 = (n + 1) * step;
-        const auto   of_step = development.of_step(tissue, t0, t1);
-        development.commit(tissue, of_step, t0, t1);
-        outcome.changes.insert(outcome.changes.end(),
-                               of_step.changes.begin(),
-                               of_step.changes.end());
-        const auto due = cells_due(tissue, development, t1);
-        if (due.empty())
-          continue;
-        const auto divisions = divide(tissue, development, due, t1, next_id);
-        outcome.changes.insert(outcome.changes.end(),
-                               divisions.changes.begin(),
-                               divisions.changes.end());
-        for (const auto &birth : divisions.births)
-          outcome.births.push_back(birth.time);
-      }
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      ++outcome.numbers[tissue.cells()[p].get(development.state().type)];
-    std::sort(outcome.changes.begin(),
-              outcome.changes.end(),
-              [](const TypeChange &a, const TypeChange &b) {
-                return a.time < b.time;
-              });
-    std::sort(outcome.births.begin(), outcome.births.end());
-    return outcome;
-  }
-
   /** What reading or checking a scene with these further settings says. */
   std::string
   complaint(std::vector<std::string> settings)
@@ -108,7 +34,7 @@ namespace
     settings.insert(settings.begin(), two_types.begin(), two_types.end());
     settings.push_back("Time/Step=0.002");
     return complaint_of([&] {
-      const Scene scene = read(settings);
+      const Scene scene = scene_of(settings);
       scene.check();
     });
   }
@@ -116,35 +42,47 @@ namespace
 } // namespace
 
 
-// Stem cells divide with the rate b and become leaves with the rate k: the mean
-// numbers are exp(M t) (1, 0) with M = [[b - k, 0], [k, 0]]. The cycle is
-// short, so that the wait is nearly all.
+// Stem cells divide with the rate b, become leaves with the rate k and die with
+// the rate d_1, leaves with d_2: the mean numbers are exp(M t) (1, 0) with M =
+// [[b - k - d_1, 0], [k, -d_2]]. The cycle is short, so that the wait is nearly
+// all.
 TEST(CellTypes, NumbersAreThoseOfTheMatrixExponential)
 {
   constexpr unsigned int n_seeds = 200, n_founders = 8;
   constexpr double       b = 1., k = 0.5, t = 1.;
-  const double           stems = n_founders * std::exp((b - k) * t);
-  const double leaves = n_founders * k / (b - k) * (std::exp((b - k) * t) - 1.);
-  std::array<double, 2> sum = {{0., 0.}}, squares = {{0., 0.}};
-  for (unsigned int seed = 1; seed <= n_seeds; ++seed)
+  for (const auto &[d_1, d_2] : {std::pair(0., 0.), std::pair(0.3, 1.2)})
     {
-      auto settings = two_types;
-      settings.push_back("Random seed=" + std::to_string(seed));
-      const Outcome outcome = run(read(settings), n_founders, t, 0.002);
+      const double stem     = b - k - d_1;
+      const double n_stems  = n_founders * std::exp(stem * t);
+      const double n_leaves = n_founders * k / (stem + d_2) *
+                              (std::exp(stem * t) - std::exp(-d_2 * t));
+      std::array<double, 2> sum = {{0., 0.}}, squares = {{0., 0.}};
+      for (unsigned int seed = 1; seed <= n_seeds; ++seed)
+        {
+          auto settings = two_types;
+          settings.push_back("Random seed=" + std::to_string(seed));
+          if (d_1 > 0.)
+            for (const std::string setting : {"Death/Shrinking time=0",
+                                              "Death/Rate=0.3",
+                                              "Cell types/leaf/Death/Rate=1.2"})
+              settings.push_back(setting);
+          const Lives lives = lead(scene_of(settings), n_founders, t, 0.002);
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              sum[i] += lives.numbers[i];
+              squares[i] += lives.numbers[i] * lives.numbers[i];
+            }
+        }
+      const std::array<double, 2> expected = {{n_stems, n_leaves}};
       for (unsigned int i = 0; i < 2; ++i)
         {
-          sum[i] += outcome.numbers[i];
-          squares[i] += outcome.numbers[i] * outcome.numbers[i];
+          const double mean  = sum[i] / n_seeds;
+          const double sigma = std::sqrt(squares[i] / n_seeds - mean * mean);
+          std::cout << "type " << i << ": " << mean << ", expected "
+                    << expected[i] << ", sigma/sqrt(n) "
+                    << sigma / std::sqrt(n_seeds) << '\n';
+          EXPECT_NEAR(mean, expected[i], 3. * sigma / std::sqrt(n_seeds)) << i;
         }
-    }
-  const std::array<double, 2> expected = {{stems, leaves}};
-  for (unsigned int i = 0; i < 2; ++i)
-    {
-      const double mean  = sum[i] / n_seeds;
-      const double sigma = std::sqrt(squares[i] / n_seeds - mean * mean);
-      std::cout << "type " << i << ": " << mean << ", expected " << expected[i]
-                << ", sigma/sqrt(n) " << sigma / std::sqrt(n_seeds) << '\n';
-      EXPECT_NEAR(mean, expected[i], 3. * sigma / std::sqrt(n_seeds)) << i;
     }
 }
 
@@ -155,16 +93,16 @@ TEST(CellTypes, EventsDoNotDependOnTheStep)
   settings.push_back("Proliferation/Cell cycle/Duration=0.4");
   settings.push_back("Cell types/leaf/Transitions/To stem=2");
   settings.push_back("Cell types/stem/Daughter types=stem, leaf");
-  const Scene   scene = read(settings);
-  const Outcome whole = run(scene, 30, 3.2, 0.2);
-  const Outcome half  = run(scene, 30, 3.2, 0.1);
-  ASSERT_GT(whole.changes.size(), 100u);
+  const Scene scene = scene_of(settings);
+  const Lives whole = lead(scene, 30, 3.2, 0.2);
+  const Lives half  = lead(scene, 30, 3.2, 0.1);
+  ASSERT_GT(whole.events.size(), 100u);
   ASSERT_GT(whole.births.size(), 40u);
-  ASSERT_EQ(whole.changes.size(), half.changes.size());
-  for (std::size_t i = 0; i < whole.changes.size(); ++i)
+  ASSERT_EQ(whole.events.size(), half.events.size());
+  for (std::size_t i = 0; i < whole.events.size(); ++i)
     {
-      EXPECT_NEAR(whole.changes[i].time, half.changes[i].time, 1e-12);
-      EXPECT_EQ(whole.changes[i].to, half.changes[i].to);
+      EXPECT_NEAR(whole.events[i].time, half.events[i].time, 1e-12);
+      EXPECT_EQ(whole.events[i].to, half.events[i].to);
     }
   ASSERT_EQ(whole.births.size(), half.births.size());
   for (std::size_t i = 0; i < whole.births.size(); ++i)
@@ -179,7 +117,7 @@ TEST(CellTypes, HaveValuesOfTheirOwn)
   settings.push_back("Cell types/leaf/Where=X > 50");
   settings.push_back("Cell types/leaf/Material/Young's modulus=7");
   settings.push_back("Material/Poisson's ratio=if(type == leaf, 0.1, 0.3)");
-  const Scene              scene   = read(settings);
+  const Scene              scene   = scene_of(settings);
   SceneEffects<2>          effects = effects_of<2>(scene);
   const TissueMaterial     material(scene.material);
   const CellDevelopment<2> development(std::move(effects.development),
@@ -211,13 +149,14 @@ TEST(CellTypes, MayForgetTheirStress)
   for (const std::string what : {"keep strain", "forget stress"})
     for (const std::string law : {"none", "cell cycle"})
       {
-        const Scene              scene   = read({"Dimension=2",
-                                                 "Cell types/Names=soft, hard",
-                                                 "Proliferation/Law=" + law,
-                                                 "Proliferation/Cell cycle/G0 exit rate=0",
-                                                 "Cell types/hard/Material/Young's modulus=9",
-                                                 "Cell types/soft/Transitions/To hard=1e6",
-                                                 "Material/On transition=" + what});
+        const Scene scene =
+          scene_of({"Dimension=2",
+                    "Cell types/Names=soft, hard",
+                    "Proliferation/Law=" + law,
+                    "Proliferation/Cell cycle/G0 exit rate=0",
+                    "Cell types/hard/Material/Young's modulus=9",
+                    "Cell types/soft/Transitions/To hard=1e6",
+                    "Material/On transition=" + what});
         SceneEffects<2>          effects = effects_of<2>(scene);
         const CellDevelopment<2> development(std::move(effects.development),
                                              effects.columns,
@@ -232,7 +171,7 @@ TEST(CellTypes, MayForgetTheirStress)
           PointList<2>());
         const Tensor<2, 2> F       = tissue.cells()[0].F();
         const auto         of_step = development.of_step(tissue, 0., 0.1);
-        ASSERT_EQ(of_step.changes.size(), 1u);
+        ASSERT_EQ(of_step.events.size(), 1u);
         EXPECT_DOUBLE_EQ(youngs_modulus(of_step.lame[0]), 9.);
         development.commit(tissue, of_step, 0., 0.1);
         for (const double t : {0.1, 0.2})

@@ -11,7 +11,7 @@ from morula.columns import POINTS, STRESS, unit_in
 from morula.draw.colours import (FIELDS, WHOLE_NUMBERS, limits_of, meanings,
                                  palette_of, style_of)
 from morula.draw.points import radii_of
-from morula.run import NoStates, places
+from morula.run import TIME_SLACK, NoStates, places
 
 from . import selection, shell
 from .packing import block, packed, quantised
@@ -130,21 +130,29 @@ class Packed:
                 "cells": len(cells), "shown": len(radii),
                 "shell": depth,
                 "surface": 0 if surface is None else len(surface),
-                "divisions": self._divisions(cells["id"])}
+                **self._before(cells["id"], self.run.times[i])}
 
-    def _divisions(self, ids):
-        """How many divisions of the lineage came before a state, or None if
-        its cells are not those that the lineage then has."""
+    def _before(self, ids, time):
+        """How many divisions of the lineage, and how many removals of the
+        events, came before a state; None divisions if its cells are not those
+        that there then are."""
+        found = {"divisions": None, "removed": 0}
         try:
             lineage = self.run.lineage
         except NoStates:
-            return None
-        born = int(ids.max()) + 1
+            return found
+        births = lineage.birth_time[lineage.founders:]
+        born = lineage.founders + 2 * int(
+            (births <= time + TIME_SLACK * max(1, time)).sum() // 2)
         mothers = lineage.parent[lineage.founders:born]
-        alive = np.setdiff1d(np.arange(born), mothers)
-        if not np.array_equal(alive, ids):
-            return None
-        return (born - lineage.founders) // 2
+        there = np.setdiff1d(np.arange(born), mothers)
+        gone = np.setdiff1d(there, ids)
+        removals = self.run.events["id"][self.run.events["event"] == "removal"]
+        if len(ids) + len(gone) == len(there) and np.array_equal(
+                gone, np.sort(removals[:len(gone)])):
+            found = {"divisions": (born - lineage.founders) // 2,
+                     "removed": len(gone)}
+        return found
 
     def _field(self, name):
         low, high, smallest, largest = self.ranges[name]

@@ -64,6 +64,12 @@ def results(run):
     if run.statistics["held_at_checkpoint"].any():
         curves.append(Curve("Cells held at the size checkpoint", "",
                             {"held_at_checkpoint": "held"}))
+    if "dying" in run.statistics:
+        curves += [Curve("Dead cells that are still there", "",
+                         {"dying": "dead cells"}),
+                   Curve("Deaths and removals in a step", "",
+                         {"deaths": "deaths", "removed": "removals"},
+                         only_steps=True)]
     columns = {f"cells_{name}": name for name in run.type_names}
     if columns and {*columns} <= {*run.statistics}:
         curves.insert(1, Curve("Cells of each type", "", columns, zero=True))

@@ -18,6 +18,7 @@ def summary(run):
         ("divisions", number((len(lineage) - lineage.founders) // 2),
          "divisions"),
         ("cells living at the end", number(len(lineage.living)), "living"),
+        *died(lineage),
         ("founders that never divided", number((sizes == 1).sum()),
          "undivided"),
         ("mean cells of a clone", number(sizes.mean()), "mean-clone"),
@@ -27,13 +28,22 @@ def summary(run):
          "latest-generation")])
 
 
+def died(lineage):
+    """Only where some did."""
+    n = int(np.isfinite(lineage.death_time).sum())
+    gone = int((lineage.clone_sizes == 0).sum())
+    return [("cells that died", number(n), "died"),
+            ("clones that died out", number(gone), "died-out")] if n else []
+
+
 def histograms(run):
     lineage = run.lineage
     generations = np.bincount(lineage.generation[lineage.living])
     sizes = np.bincount(lineage.clone_sizes)
     return joined([
         bars(np.arange(len(sizes)), sizes, "Clones by their living cells",
-             "living cells of a clone", "clones", first=1),
+             "living cells of a clone", "clones",
+             first=int(np.isinf(lineage.death_time).all())),
         bars(np.arange(len(generations)), generations,
              "Living cells by generation", "generation", "cells")])
 
@@ -72,7 +82,20 @@ def blocks(run):
         raise ValueError("lineage.csv: daughters do not stand in pairs")
     found = [block("lineage-packed", packed(mothers.astype(np.uint32),
                                             times.astype(np.float32)))]
+    if np.isfinite(lineage.death_time).any():
+        found.append(deaths_block(run))
     return found if lineage.type is None else [*found, types_block(run)]
+
+
+def deaths_block(run):
+    """Whose deaths, and when; then who was removed, one after the other."""
+    deaths, removals = (run.events[
+        (run.events["event"] == event)
+        & (run.events["id"] < len(run.lineage))]
+        for event in ("death", "removal"))
+    return block("deaths-packed", packed(
+        deaths["id"].to_numpy(np.uint32), deaths["time"].to_numpy(np.float32),
+        removals["id"].to_numpy(np.uint32)))
 
 
 def types_block(run):
@@ -82,8 +105,9 @@ def types_block(run):
     if len(names) > 256 or not ((0 <= born) & (born < len(names))).all():
         raise Refused("lineage.csv", "its types", "numbers of the at most 256 "
                       "types that parameters.prm names")
-    changes = run.events[run.events["id"] < len(born)].sort_values(
-        "id", kind="stable")
+    changes = run.events[(run.events["id"] < len(born))
+                         & (run.events["event"] == "transition")].sort_values(
+                             "id", kind="stable")
     to = changes["to"].map({name: i for i, name in enumerate(names)})
     return block("types-packed", packed(
         changes["id"].to_numpy(np.uint32), changes["time"].to_numpy(
@@ -95,5 +119,6 @@ def about(run):
     return {"founders": lineage.founders,
             "divisions": (len(lineage) - lineage.founders) // 2,
             "largest": int(lineage.clone_sizes.argmax()),
+            "deaths": int(np.isfinite(lineage.death_time).sum()),
             "types": None if lineage.type is None else run.type_names,
             "end": float(run.statistics["time"].iloc[-1])}

@@ -26,8 +26,8 @@ namespace Morula
   {
     /** The daughters born on this rank. */
     std::vector<Birth<dim>> births;
-    /** What became of them before the end of the step. */
-    std::vector<TypeChange> changes;
+    /** What befell them before the end of the step. */
+    std::vector<CellEvent> events;
   };
 
   /**

@@ -26,6 +26,7 @@ namespace Morula::Random
     axis_spread_side, // which way
     noise,
     phase,
+    death,
     // and from here on, one for each entry into a type and each way out of it
     transition = 0x1000
   };
@@ -54,6 +55,11 @@ namespace Morula::Random
                        const std::uint64_t key,
                        const unsigned int  n_changes,
                        const unsigned int  which);
+
+  /** Exponentially distributed with mean 1: when the hazard of death ends the
+   *  cell's life. */
+  double
+  death_threshold(const std::uint64_t seed, const std::uint64_t key);
 
   /** Uniform in (0, 1), the cell's own. */
   double

@@ -17,7 +17,8 @@ async function start() {
   }
   if (about.lineage) {
     report.lineage = new Lineage(about.lineage,
-      await unpack("lineage-packed"), await unpack("types-packed"));
+      await unpack("lineage-packed"), await unpack("types-packed"),
+      await unpack("deaths-packed"));
     report.tree = new Tree(report.lineage, about.lineage);
     byId("to-view").addEventListener("click", showClone);
   }

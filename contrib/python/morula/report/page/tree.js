@@ -6,7 +6,7 @@
 
 /** Daughters of division k have the ids founders + 2k and the next one. */
 class Lineage {
-  constructor(about, bytes, types) {
+  constructor(about, bytes, types, deaths) {
     const n = about.divisions;
     this.founders = about.founders;
     this.end = about.end;
@@ -26,6 +26,16 @@ class Lineage {
     });
     this.typeNames = about.types || [];
     if (types) this.readTypes(types);
+    this.readDeaths(deaths || new Uint8Array(0), about.deaths);
+  }
+
+  /** Who died, and when, then who was removed, in the order of the removals. */
+  readDeaths(bytes, n) {
+    const ids = new Uint32Array(bytes.buffer, 0, n);
+    const times = new Float32Array(bytes.buffer, 4 * n, n);
+    this.deaths = new Map();
+    ids.forEach((id, k) => this.deaths.set(id, times[k]));
+    this.removed = new Uint32Array(bytes.buffer, 8 * n);
   }
 
   /** Whose type changed, when and to which, then the types at birth. */
@@ -64,13 +74,14 @@ class Lineage {
       : this.times[(id - this.founders) >> 1];
   }
 
-  /** Ids of the cells that live after so many divisions, every n-th. */
-  alive(divisions, every) {
-    const ids = [];
+  /** Ids of the cells that a state has, every n-th: after so many divisions
+   * and removals. */
+  present({divisions, removed}, every) {
+    const ids = [], gone = new Set(this.removed.subarray(0, removed));
     const ever = this.founders + 2 * divisions;
     for (let id = 0, i = 0; id < ever; ++id) {
       const k = this.division[id];
-      if (k >= 0 && k < divisions) continue;
+      if (gone.has(id) || k >= 0 && k < divisions) continue;
       if (i++ % every === 0) ids.push(id);
     }
     return Uint32Array.from(ids);
@@ -126,8 +137,10 @@ class Tree {
     const stack = [this.founder];
     while (stack.length) {
       const id = stack.pop(), k = lineage.division[id];
-      const cell = {id, born: lineage.birth(id), divided: k >= 0,
-        end: k >= 0 ? lineage.times[k] : lineage.end,
+      const died = lineage.deaths.has(id);
+      const cell = {id, born: lineage.birth(id), divided: k >= 0, died,
+        end: k >= 0 ? lineage.times[k]
+          : died ? lineage.deaths.get(id) : lineage.end,
         daughters: k >= 0 ? lineage.daughters(k) : []};
       cells.set(id, cell);
       order.push(cell);
@@ -149,8 +162,10 @@ class Tree {
     byId("founder").value = Math.min(Math.max(0,
       Math.floor(this.founder) || 0), last);
     const {order, leaves} = this.cells();
-    byId("tree-words").textContent = `Founder ${this.founder}: ${leaves} `
-      + `living cells after ${leaves - 1} divisions.`;
+    const deaths = order.filter(({died}) => died).length;
+    byId("tree-words").textContent = `Founder ${this.founder}: `
+      + `${leaves - deaths} living cells after ${leaves - 1} divisions`
+      + (deaths ? ` and ${deaths} deaths (crosses).` : ".");
     this.picture(order, leaves);
     this.table(order);
   }
@@ -175,6 +190,8 @@ class Tree {
       if (cell.divided)
         parts.push(line(x(cell.end), y(cell.rows[0]), x(cell.end),
           y(cell.rows[1]), "ended"));
+      else if (cell.died)
+        parts.push(...cross(x(cell.end), y(cell.row), height > 5 ? 4 : 2));
       else if (leaves <= 60)
         parts.push(`<text x="${x(cell.end) + 6}" y="${y(cell.row) + 4}">`
           + `${cell.id}</text>`);
@@ -187,7 +204,7 @@ class Tree {
 
   /** A cell's line; with types in pieces, and a dot where they meet. */
   lifeline(cell, x, y, radius) {
-    const kind = cell.divided ? "ended" : "living";
+    const kind = cell.divided || cell.died ? "ended" : "living";
     const history = this.lineage.history(cell.id);
     if (!history.length) return [line(x(cell.born), y, x(cell.end), y, kind)];
     return history.flatMap(({time, type}, i) => {
@@ -210,11 +227,14 @@ class Tree {
 
   table(order) {
     const typed = this.lineage.typeNames.length > 0;
+    const mortal = this.lineage.deaths.size > 0;
     const head = ["cell", "generation", "born, day", "divided, day",
-      ...typed ? ["type"] : []];
+      ...mortal ? ["died, day"] : [], ...typed ? ["type"] : []];
     const rows = [...order].sort((a, b) => a.id - b.id).slice(0, ROWS)
       .map((cell) => [cell.id, this.lineage.generation[cell.id],
-        shown(cell.born), cell.divided ? shown(cell.end) : "lives",
+        shown(cell.born),
+        cell.divided ? shown(cell.end) : cell.died ? "" : "lives",
+        ...mortal ? [cell.died ? shown(cell.end) : ""] : [],
         ...typed ? [this.lifeInWords(cell.id)] : []]);
     const row = (name, fields, attributes) => made("tr", {},
       ...fields.map((field) => made(name, attributes, field)));
@@ -224,6 +244,11 @@ class Tree {
       order.length > ROWS
         ? made("p", {}, `The first ${ROWS} of ${order.length}.`) : "");
   }
+}
+
+function cross(x, y, size) {
+  return [-size, size].map((across) =>
+    line(x - size, y - across, x + size, y + across, "died"));
 }
 
 function line(x1, y1, x2, y2, kind) {

@@ -38,7 +38,7 @@ class View {
     const cells = await this.once(`cells-${number}`,
       (bytes) => cellsOf(bytes, state.shown));
     const ids = this.lineage && state.divisions !== null
-      ? this.lineage.alive(state.divisions, this.about.stride) : null;
+      ? this.lineage.present(state, this.about.stride) : null;
     const values = field.clone ? this.lineage.colours(ids)
       : await this.once(`field-${field.name}-${number}`, (bytes) => bytes);
     const surface = state.surface && await this.once(`surface-${number}`,

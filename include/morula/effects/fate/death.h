@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_death_h
+#define morula_effects_fate_death_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
+#include <morula/effects/fate/hazard.h>
+
+#include <optional>
+
+namespace Morula
+{
+  template <int dim>
+  class PresentCell;
+
+  /** Section "Death". */
+  struct DeathParameters : public EffectKeys
+  {
+    DeathParameters();
+
+    ExpressionKey rate;           // 1/day
+    ExpressionKey when;           // > 0: at once
+    ExpressionKey shrinking_time; // day
+    ExpressionKey final_volume;   // of that at death
+    ExpressionKey keep_debris;
+
+    bool
+    is_on() const override;
+
+    /** Whether cells shrink before they go, or stay as debris: whether a dead
+     *  cell is ever in the balance of momentum. */
+    bool
+    shrinks() const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /**
+   * How cells die: at a rate (1/day), or at once where a condition holds at the
+   * beginning of a step. A dead cell neither grows nor divides nor changes its
+   * type; its volume falls linearly from that at death to its final part of it,
+   * and then the cell is removed, or stays as debris: doc/theory.md, section
+   * 6.9. Keeps its state in columns of the cells.
+   */
+  template <int dim>
+  class Death : public Effect<dim>
+  {
+  public:
+    using Parameters = DeathParameters;
+
+    /** Declares the columns. @throws InputError */
+    Death(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    /** Whether the cell is dead, but still there. */
+    bool
+    is_dead(const CellView<dim, const double> &cell) const;
+
+    /** When the cell died, day; infinity: it lives. */
+    double
+    time(const CellView<dim, const double> &cell) const;
+
+    /** Whether the condition kills a living cell, at time @p t (day).
+     *  @throws InputError */
+    bool
+    strikes(const PresentCell<dim> &cell, const double t) const;
+
+    /**
+     * The chance of death in (t0, t1]; none without a rate.
+     * @param cell in its state
+     * @param row  keeps the integral
+     * @throws InputError for negative rates
+     */
+    std::optional<Hazard>
+    hazard(const PresentCell<dim>            &cell,
+           const CellView<dim, const double> &row,
+           const double                       t0,
+           const double                       t1) const;
+
+    /** Keeps the integral of the rate. Only with a hazard. */
+    void
+    set_integral(const CellView<dim, double> &row, const double value) const;
+
+    /**
+     * The cell is dead from @p t (day) on. Its numbers are those of this
+     * moment.
+     * @throws InputError
+     */
+    void
+    kill(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const double                 t) const;
+
+    /** Lets a dead cell shrink until @p t (day): the factor by which the
+     *  stretch of F_g changes, which is noted. */
+    double
+    shrink(const CellView<dim, double> &row, const double t) const;
+
+    /** When the cell goes, day; infinity: never, as far as is known. */
+    double
+    removal_time(const CellView<dim, const double> &cell) const;
+
+    /** Whether it goes at @p t (day) at the latest. */
+    bool
+    is_gone(const CellView<dim, const double> &cell, const double t) const;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+  private:
+    Expression           rate, when, shrinking_time, final_volume;
+    Expression           keep_debris;
+    bool                 has_rate, has_condition;
+    std::uint64_t        random_seed;
+    double               slack;
+    Column<double>       integral;
+    Column<double>       time_;
+    Column<double>       remaining; // s
+    Column<double>       duration;  // T_s
+    Column<double>       least;     // s_end
+    Column<unsigned int> stays;
+  };
+} // namespace Morula
+
+#endif

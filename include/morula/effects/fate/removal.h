@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_removal_h
+#define morula_effects_fate_removal_h
+
+#include <morula/effects/development.h>
+#include <morula/particles/cell_event.h>
+#include <morula/particles/tissue.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * Takes the dead cells that go at or before @p t (day) out of the tissue, and
+   * with them the boundary points that have no cell within reach any more:
+   * doc/theory.md, section 6.9. Only with death. Collective.
+   * @return the removals of this rank
+   */
+  template <int dim>
+  std::vector<CellEvent>
+  remove_dead_cells(Tissue<dim>                &tissue,
+                    const CellDevelopment<dim> &development,
+                    const double                t);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/death.h>
+#include <morula/effects/fate/random.h>
+#include <morula/effects/state/present_cell.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The death time of cells that live. */
+    constexpr double never = -1.;
+
+    /** Whether the expression is the same number for all cells: 0. */
+    bool
+    is_zero(const Expression &expression)
+    {
+      return expression.is_constant() && expression.plain_number() == 0.;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Death<dim>::Death(const Parameters         &parameters,
+                    const EffectSetting<dim> &setting)
+    : rate(setting.state.use(parameters.rate))
+    , when(setting.state.use(parameters.when))
+    , shrinking_time(setting.state.use(parameters.shrinking_time))
+    , final_volume(setting.state.use(parameters.final_volume))
+    , keep_debris(setting.state.use(parameters.keep_debris))
+    , has_rate(!is_zero(rate))
+    , has_condition(!is_zero(when))
+    , random_seed(setting.random_seed)
+    , slack(setting.slack)
+  {
+    CellColumns<dim> &columns = setting.columns;
+    columns.need_growth();
+    if (has_rate)
+      integral = columns.template add<double>({"death_hazard",
+                                               "",
+                                               "rate of death, integrated",
+                                               0.,
+                                               AtDivision::reset});
+    time_ = columns.template add<double>({"death_time",
+                                          "day",
+                                          "when the cell died; -1: it lives",
+                                          never,
+                                          AtDivision::reset,
+                                          true});
+    remaining =
+      columns.template add<double>({"remaining_volume",
+                                    "",
+                                    "part of its grown volume at death that "
+                                    "the cell has left; 1: it lives",
+                                    1.,
+                                    AtDivision::reset,
+                                    true});
+    duration = columns.template add<double>(
+      {"shrinking_time", "day", "how long the dead cell shrinks"});
+    least = columns.template add<double>(
+      {"final_volume", "", "remaining volume at the end"});
+    stays = columns.template add<unsigned int>(
+      {"is_debris", "", "whether the dead cell stays"});
+  }
+
+
+  template <int dim>
+  bool
+  Death<dim>::is_dead(const CellView<dim, const double> &cell) const
+  {
+    return cell.get(time_) != never;
+  }
+
+
+  template <int dim>
+  double
+  Death<dim>::time(const CellView<dim, const double> &cell) const
+  {
+    return is_dead(cell) ? cell.get(time_) :
+                           std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  bool
+  Death<dim>::strikes(const PresentCell<dim> &cell, const double t) const
+  {
+    return has_condition && cell.value(when, t) > 0.;
+  }
+
+
+  template <int dim>
+  std::optional<Hazard>
+  Death<dim>::hazard(const PresentCell<dim>            &cell,
+                     const CellView<dim, const double> &row,
+                     const double                       t0,
+                     const double                       t1) const
+  {
+    if (!has_rate)
+      return {};
+    return Hazard{cell.value(rate, 0.5 * (t0 + t1)),
+                  row.get(integral),
+                  Random::death_threshold(random_seed, cell.lineage_key())};
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::set_integral(const CellView<dim, double> &row,
+                           const double                 value) const
+  {
+    row.set(integral, value);
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::kill(const PresentCell<dim>      &cell,
+                   const CellView<dim, double> &row,
+                   const double                 t) const
+  {
+    row.set(time_, t);
+    row.set(duration, cell.value(shrinking_time, t));
+    row.set(least, cell.value(final_volume, t));
+    row.set(stays, cell.value(keep_debris, t) > 0.);
+  }
+
+
+  template <int dim>
+  double
+  Death<dim>::shrink(const CellView<dim, double> &row, const double t) const
+  {
+    const double whole = row.get(duration);
+    // What goes at once does not collapse first.
+    if (whole == 0. && row.get(stays) == 0)
+      return 1.;
+    // doc/theory.md (6.9)
+    const double part =
+      whole > 0. ? std::clamp((t - row.get(time_)) / whole, 0., 1.) : 1.;
+    const double before = row.get(remaining);
+    const double after  = 1. - (1. - row.get(least)) * part;
+    row.set(remaining, after);
+    return std::pow(after / before, 1. / dim);
+  }
+
+
+  template <int dim>
+  double
+  Death<dim>::removal_time(const CellView<dim, const double> &cell) const
+  {
+    return is_dead(cell) && cell.get(stays) == 0 ?
+             cell.get(time_) + cell.get(duration) :
+             std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  bool
+  Death<dim>::is_gone(const CellView<dim, const double> &cell,
+                      const double                       t) const
+  {
+    return removal_time(cell) <= t + slack;
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::check_cell(const PresentCell<dim> &founder, const double) const
+  {
+    for (const Expression *expression :
+         {&rate, &when, &shrinking_time, &final_volume, &keep_debris})
+      founder.value(*expression, 0.);
+  }
+
+
+  template class Death<2>;
+  template class Death<3>;
+} // namespace Morula

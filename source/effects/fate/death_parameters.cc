@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/death.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Whether the expression is another number than 0, or none, for any
+     *  type. */
+    bool
+    can_be_other_than_zero(const Expression &expression)
+    {
+      return !expression.is_constant() || expression.plain_number() != 0.;
+    }
+  } // namespace
+
+
+  DeathParameters::DeathParameters()
+    : rate("Death/Rate",
+           "0",
+           "Rate at which cells die, an expression of their state; not "
+           "negative. Units: 1/day.",
+           Evaluated::step)
+    , when("Death/When",
+           "0",
+           "Cells for which this is > 0 at the beginning of a step die then: "
+           "an expression of their state. E.g. abs(X) < 20 && t >= 1, for a "
+           "cut.",
+           Evaluated::step)
+    , shrinking_time(
+        "Death/Shrinking time",
+        "0.36",
+        "How long a dead cell shrinks, linearly in its volume, until it is "
+        "removed; not negative. 0: it is removed at once, as in a cut. An "
+        "expression of the cell's state. Units: day.",
+        Evaluated::event)
+    , final_volume(
+        "Death/Final volume",
+        "0.05",
+        "Part of its volume at death that a cell has when it is removed; > 0 "
+        "and at most 1. An expression of the cell's state.",
+        Evaluated::event)
+    , keep_debris("Death/Keep debris",
+                  "false",
+                  "Where this is true, dead cells stay at their final volume. "
+                  "false, true, or an expression of the cell's state, which is "
+                  "true if it is > 0.",
+                  Evaluated::event)
+  {
+    rate.not_negative("1/day", "0 lets cells live.");
+    shrinking_time.not_negative("day", "0 removes cells at once.");
+    final_volume.require(
+      [](const double part) { return part > 0. && part <= 1.; },
+      "a number > 0 and at most 1",
+      "It is the part of the cell's volume that is left.");
+  }
+
+
+  bool
+  DeathParameters::is_on() const
+  {
+    return can_be_other_than_zero(rate.expression(3)) ||
+           can_be_other_than_zero(when.expression(3));
+  }
+
+
+  bool
+  DeathParameters::shrinks() const
+  {
+    return can_be_other_than_zero(shrinking_time.expression(3)) ||
+           !keep_debris.is_default() ||
+           !keep_debris.expression(3).types().empty();
+  }
+
+
+  KeyList
+  DeathParameters::list()
+  {
+    return {&rate, &when, &shrinking_time, &final_volume, &keep_debris};
+  }
+} // namespace Morula

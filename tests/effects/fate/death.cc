@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/complaint.h"
+#include "effects/fate/lives.h"
+
+using namespace Morula;
+
+namespace
+{
+  const std::vector<std::string> dying = {"Dimension=2",
+                                          "Material/Energy per=grown volume",
+                                          "Death/Shrinking time=0.25",
+                                          "Death/Final volume=0.2"};
+
+  std::vector<std::string>
+  with(std::vector<std::string> settings, const std::vector<std::string> &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
+  /** One founder that does not move. */
+  class Alone
+  {
+  public:
+    explicit Alone(const std::vector<std::string> &settings)
+      : development(development_of(scene_of(settings)))
+      , tissue(GridParameters(), development.columns(), MPI_COMM_WORLD)
+    {
+      tissue.place(
+        founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
+        PointList<2>());
+    }
+
+    /** Takes it from @p t0 to @p t1, day. */
+    std::vector<CellEvent>
+    step(const double t0, const double t1)
+    {
+      auto of_step = development.of_step(tissue, t0, t1);
+      development.commit(tissue, of_step, t0, t1);
+      return of_step.events;
+    }
+
+    CellView<2, const double>
+    cell() const
+    {
+      return tissue.cells()[0];
+    }
+
+    const CellDevelopment<2> development;
+    Tissue<2>                tissue;
+  };
+
+  std::string
+  complaint(const std::vector<std::string> &settings)
+  {
+    return complaint_of([&] { scene_of(settings).check(); });
+  }
+} // namespace
+
+
+TEST(Death, CellsShrinkLinearlyInVolume)
+{
+  Alone alone(with(dying, {"Death/When=t >= 0.1"}));
+  EXPECT_TRUE(alone.step(0., 0.1).empty());
+  EXPECT_NEAR(determinant(alone.cell().growth()), 1., 1e-14);
+  const auto events = alone.step(0.1, 0.2);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].time, 0.1);
+  EXPECT_EQ(events[0].kind, CellEvent::Kind::death);
+  EXPECT_EQ(events[0].cause, DeathCause::when);
+  // 1 - 0.8 (t - 0.1)/0.25
+  EXPECT_NEAR(determinant(alone.cell().growth()), 0.68, 1e-14);
+  EXPECT_NEAR(alone.cell().growth()[0][0], std::sqrt(0.68), 1e-14);
+  EXPECT_EQ(alone.cell().growth()[0][1], 0.);
+  EXPECT_TRUE(alone.step(0.2, 0.3).empty());
+  EXPECT_NEAR(determinant(alone.cell().growth()), 0.36, 1e-14);
+  EXPECT_TRUE(remove_dead_cells(alone.tissue, alone.development, 0.3).empty());
+  alone.step(0.3, 0.4);
+  EXPECT_NEAR(determinant(alone.cell().growth()), 0.2, 1e-14);
+  const auto removals = remove_dead_cells(alone.tissue, alone.development, 0.4);
+  ASSERT_EQ(removals.size(), 1u);
+  EXPECT_NEAR(removals[0].time, 0.35, 1e-14);
+  EXPECT_EQ(alone.tissue.cells().size(), 0u);
+}
+
+
+TEST(Death, DebrisStays)
+{
+  Alone alone(
+    with(dying, {"Death/When=t >= 0.1", "Death/Keep debris=noise < 2"}));
+  for (const double t : {0., 0.1, 0.2, 0.3, 0.4, 0.5})
+    alone.step(t, t + 0.1);
+  EXPECT_NEAR(determinant(alone.cell().growth()), 0.2, 1e-14);
+  EXPECT_TRUE(remove_dead_cells(alone.tissue, alone.development, 9.).empty());
+}
+
+
+// What is gone at once does not shrink before: nothing pulls at its neighbours.
+TEST(Death, CutsDoNotPull)
+{
+  Alone alone({"Dimension=2", "Death/When=1", "Death/Shrinking time=0"});
+  alone.step(0., 0.1);
+  EXPECT_EQ(determinant(alone.cell().growth()), 1.);
+  EXPECT_EQ(remove_dead_cells(alone.tissue, alone.development, 0.1).size(), 1u);
+}
+
+
+// It has grown until its death, in the middle of a step, and has left the cycle
+// undivided.
+TEST(Death, EndsGrowthAndCycle)
+{
+  const auto   settings = with(dying,
+                               {"Growth/Law=rate",
+                                "Growth/Rate/Rate=0.4",
+                                "Proliferation/Law=cell cycle",
+                                "Proliferation/Cell cycle/Start=together",
+                                "Proliferation/Cell cycle/Duration=4",
+                                "Death/Rate=3"});
+  Alone        alone(settings);
+  double       death = -1.;
+  const double step  = 0.5;
+  for (double t = 0.; death < 0.; t += step)
+    {
+      const auto events = alone.step(t, t + step);
+      if (events.empty())
+        continue;
+      death = events[0].time;
+      ASSERT_GT(death, t);
+      ASSERT_LT(death, std::min(t + step, 2.));
+      EXPECT_EQ(events[0].cause, DeathCause::rate);
+      const double part = std::min(1., (t + step - death) / 0.25);
+      EXPECT_NEAR(determinant(alone.cell().growth()),
+                  std::exp(0.4 * death) * (1. + death / 4.) * (1. - 0.8 * part),
+                  1e-12);
+    }
+  EXPECT_TRUE(cells_due(alone.tissue, alone.development, 100.).empty());
+  // The law grows no more, and nobody dies twice.
+  EXPECT_TRUE(alone.step(4., 4.5).empty());
+  EXPECT_NEAR(determinant(alone.cell().growth()),
+              0.2 * std::exp(0.4 * death) * (1. + death / 4.),
+              1e-12);
+}
+
+
+// Of death, division and transitions the earliest comes first, in steps of any
+// length.
+TEST(Death, EventsDoNotDependOnTheStep)
+{
+  const Scene scene =
+    scene_of(with(dying,
+                  {"Cell types/Names=stem, leaf",
+                   "Proliferation/Law=cell cycle",
+                   "Proliferation/Cell cycle/Duration=0.4",
+                   "Proliferation/Cell cycle/G0 exit rate=1.5",
+                   "Cell types/stem/Transitions/To leaf=0.5",
+                   "Cell types/leaf/Transitions/To stem=2",
+                   "Death/Rate=0.4",
+                   "Cell types/leaf/Death/Rate=1.5",
+                   "Cell types/leaf/Death/Shrinking time=0.05"}));
+  const Lives                 whole = lead(scene, 30, 3.2, 0.2);
+  const Lives                 half  = lead(scene, 30, 3.2, 0.1);
+  std::array<unsigned int, 3> n     = {{0, 0, 0}};
+  for (const CellEvent &event : whole.events)
+    ++n[static_cast<unsigned int>(event.kind)];
+  EXPECT_GT(n[0], 30u);
+  EXPECT_GT(n[1], 30u);
+  EXPECT_GT(n[2], 30u);
+  EXPECT_GT(whole.births.size(), 30u);
+  ASSERT_EQ(whole.events.size(), half.events.size());
+  for (std::size_t i = 0; i < whole.events.size(); ++i)
+    {
+      EXPECT_NEAR(whole.events[i].time, half.events[i].time, 1e-12);
+      EXPECT_EQ(whole.events[i].kind, half.events[i].kind);
+    }
+  ASSERT_EQ(whole.births.size(), half.births.size());
+  for (std::size_t i = 0; i < whole.births.size(); ++i)
+    EXPECT_NEAR(whole.births[i], half.births[i], 1e-12);
+  EXPECT_EQ(whole.numbers, half.numbers);
+}
+
+
+TEST(Death, CostsNothingUnlessThereIsAny)
+{
+  const SceneEffects<2> without = effects_of<2>(scene_of({"Dimension=2"}));
+  EXPECT_FALSE(without.development.death.has_value());
+  EXPECT_EQ(without.columns.n_numbers(), CellColumns<2>().n_numbers());
+  EXPECT_TRUE(scene_of({"Cell types/Names=a, b", "Cell types/b/Death/Rate=1"})
+                .has_death());
+}
+
+
+TEST(Death, RefusesWhatCannotBe)
+{
+  EXPECT_EQ(complaint(with(dying, {"Death/Rate=1"})), "");
+  expect_parts(complaint(dying),
+               {"Death/Shrinking time", "Death/Rate", "Death/When"});
+  expect_parts(complaint({"Death/Rate=1"}),
+               {"Material/Energy per", "grown volume", "Shrinking time"});
+  EXPECT_EQ(complaint({"Death/Rate=1", "Death/Shrinking time=0"}), "");
+  expect_parts(complaint(with(dying, {"Death/Rate=-1"})),
+               {"Death/Rate", "'-1'", ">= 0"});
+  expect_parts(complaint(with(dying, {"Death/Rate=1", "Death/Final volume=0"})),
+               {"Death/Final volume", "'0'", "> 0"});
+  expect_parts(complaint(
+                 with(dying, {"Death/Rate=1", "Death/Final volume=1.5"})),
+               {"Death/Final volume", "'1.5'", "at most 1"});
+  expect_parts(complaint(
+                 with(dying, {"Death/Rate=1", "Death/Shrinking time=-1"})),
+               {"Death/Shrinking time", "'-1'", ">= 0"});
+}

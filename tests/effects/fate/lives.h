@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_effects_fate_lives_h
+#define morula_tests_effects_fate_lives_h
+
+#include <morula/effects/division/divide.h>
+#include <morula/effects/fate/removal.h>
+#include <morula/scene/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "common/temporary_file.h"
+#include "effects/small_tissue.h"
+
+namespace Morula
+{
+  /** A scene of these lines. */
+  inline Scene
+  scene_of(const std::vector<std::string> &settings)
+  {
+    const TemporaryFile file("lives.prm", "");
+    return Scene::read(file.path, settings);
+  }
+
+  /** All that becomes of cells in a scene. */
+  inline CellDevelopment<2>
+  development_of(const Scene &scene)
+  {
+    SceneEffects<2> effects = effects_of<2>(scene);
+    return {std::move(effects.development),
+            effects.columns,
+            effects.state,
+            TissueMaterial(scene.material),
+            scene.random_seed};
+  }
+
+  /** What became of some founders without mechanics. */
+  struct Lives
+  {
+    /** Cells of each type at the end. */
+    std::array<double, 2>  numbers = {{0., 0.}};
+    std::vector<CellEvent> events;
+    std::vector<double>    births; // times
+  };
+
+  /** Lets founders live until @p end, in steps of this length, days. */
+  inline Lives
+  lead(const Scene       &scene,
+       const unsigned int n_founders,
+       const double       end,
+       const double       step)
+  {
+    const CellDevelopment<2> development = development_of(scene);
+    std::vector<Point<2>>    positions;
+    for (unsigned int i = 0; i < n_founders; ++i)
+      positions.emplace_back(20. * i, 0.);
+    Tissue<2> tissue(GridParameters(), development.columns(), MPI_COMM_WORLD);
+    tissue.place(founders(positions,
+                          100.,
+                          development,
+                          [](const Point<2> &) {
+                            return Tensor<2, 2>(unit_symmetric_tensor<2>());
+                          }),
+                 PointList<2>());
+    types::particle_index next_id = n_founders;
+    Lives                 lives;
+    const auto note = [&lives](const std::vector<CellEvent> &events) {
+      lives.events.insert(lives.events.end(), events.begin(), events.end());
+    };
+    const unsigned int n_steps = std::lround(end / step);
+    for (unsigned int n = 0; n < n_steps; ++n)
+      {
+        const double t0 = n * step, t1 = (n + 1) * step;
+        const auto   of_step = development.of_step(tissue, t0, t1);
+        development.commit(tissue, of_step, t0, t1);
+        note(of_step.events);
+        const auto due = cells_due(tissue, development, t1);
+        if (!due.empty())
+          {
+            const auto divisions =
+              divide(tissue, development, due, t1, next_id);
+            note(divisions.events);
+            for (const auto &birth : divisions.births)
+              lives.births.push_back(birth.time);
+          }
+        if (development.death() != nullptr)
+          note(remove_dead_cells(tissue, development, t1));
+      }
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      ++lives.numbers[tissue.cells()[p].get(development.state().type)];
+    std::sort(lives.events.begin(),
+              lives.events.end(),
+              [](const CellEvent &a, const CellEvent &b) {
+                return a.time < b.time;
+              });
+    std::sort(lives.births.begin(), lives.births.end());
+    return lives;
+  }
+} // namespace Morula
+
+#endif

@@ -279,6 +279,8 @@ EFFECTS = [
                            "Growth/Rate/Rate": "0.15*ramp(pressure, 1, 0)"}),
     ("growth and division", DIVIDING),
     ("— held until grown", {**DIVIDING, CYCLE + "Size checkpoint": "0.9"}),
+    ("— and death", {**DIVIDING, "Death/Rate": "0.2",
+                     "Material/Energy per": "grown volume"}),
     ("— along the stretch", {**DIVIDING, CYCLE + "Division axis": "stretch"}),
     ("— along the surface normal", {
         **DIVIDING, CYCLE + "Division axis": "surface normal"}),

@@ -7,6 +7,12 @@ FIXED_AXIS = {CYCLE + "Division axis": "fixed"}
 STRETCH_AXIS = {CYCLE + "Division axis": "stretch"}
 
 CONTRADICTIONS = [
+    wrong("shrinking without death", "Death/Final volume", "0.1",
+          "its default, as Death/Rate is not set",
+          "Set Death/Rate or Death/When, or remove this key"),
+    wrong("death with the energy of whole cells", "Material/Energy per",
+          "initial volume", "grown volume, as cells die and shrink",
+          "Death/Shrinking time = 0", keys={"Death/Rate": "1"}),
     wrong("a cell cycle of nobody", CYCLE + "Where", "Z > 400",
           "a condition that holds at some founder",
           "correct it, or set Proliferation/Law = none"),

@@ -3,6 +3,8 @@
 """Values that a key cannot have, alone or beside others: for most, numbers."""
 from tests.common.refusals.refusal import CONDITIONS, CYCLE, Refusal, wrong
 
+DYING = {"Death/When": "1", "Material/Energy per": "grown volume"}
+
 NUMBERS = [
     wrong("no number", "Time/End time", "long", "a number", "Correct the value"),
     wrong("a number with its unit", "Grid/Spacing", "50 um", "a number",
@@ -72,6 +74,17 @@ NUMBERS = [
     wrong("direction without contraction", "Contraction/Direction", "radial",
           "its default, as Contraction/Stretch is not set",
           "Set Contraction/Stretch, or remove this key"),
+    *(wrong(name, "Death/" + key, value, allowed, remedy, keys=DYING)
+      for name, key, value, allowed, remedy in (
+          ("a rate of birth", "Rate", "-1", ">= 0 1/day", "0 lets cells live"),
+          ("a rate of death that is negative somewhere", "Rate", "X",
+           ">= 0 1/day", "0 lets cells live"),
+          ("shrinking in no time at all", "Shrinking time", "-1", ">= 0 day",
+           "0 removes cells at once"),
+          ("shrinking to nothing", "Final volume", "0", "> 0 and at most 1",
+           "the part of the cell's volume that is left"),
+          ("dead cells that swell", "Final volume", "1.1", "> 0 and at most 1",
+           "the part of the cell's volume that is left"))),
     wrong("no step", "Time/Step", "0", "days > 0", "Choose a positive step"),
     wrong("no end", "Time/End time", "-1", "days > 0", "Choose a later end"),
     wrong("end at the start", "Time/End time", "0", "days > 0",

@@ -8,7 +8,7 @@ Both have `positions` (n, 3) of the cells, their `columns`, whether they are
 Their pictures are of the cells of a mask, with a colour (bytes) each.
 """
 import numpy as np
-from morula.run import Run, places, read_points
+from morula.run import NoStates, Run, places, read_points
 from morula.shapes.regions import regions_of_state
 
 from . import spheres
@@ -24,6 +24,8 @@ class Spheres:
     def __init__(self, file):
         self.columns = read_points(file)
         self.positions = places(self.columns)
+        if not len(self.positions):
+            raise NoStates(f"{file} has no cells: all have died")
         self.flat = bool(np.ptp(self.positions[:, 2]) == 0
                          and len(self.positions) > 1)
         self.radii = radii_of(self.columns["volume"], self.flat)

@@ -47,8 +47,9 @@ def numbers(run):
 
 
 def cells_per_edge(run, row):
-    """h over the mean cell's edge, which is L_p at first."""
-    state = run.statistics.iloc[row]
+    """h over the mean cell's edge, which is L_p at first; of the rows that
+    have cells."""
+    state = run.statistics[run.statistics["cells"] > 0].iloc[row]
     edge = (state["total_volume"] / state["cells"]) ** (1 / run.dimension)
     return run.number("Grid/Spacing") / edge
 

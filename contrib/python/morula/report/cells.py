@@ -46,7 +46,9 @@ class Packed:
         self.run, self.blocks = run, []
         flat = run.dimension == 2
         counts = [self._count(i) for i in range(len(run.times))]
-        per_cell = self._bytes_per_cell(fields)
+        while counts[-1] == 0:  # all cells are dead: nothing to show
+            counts.pop()
+        per_cell = self._bytes_per_cell(fields, len(counts) - 1)
         self.selection = selection.choose(run, counts, per_cell, fields,
                                           wanted, limit)
         self._measure(flat)
@@ -62,9 +64,9 @@ class Packed:
         row = (self.run.statistics["time"] - self.run.times[i]).abs().argmin()
         return int(self.run.statistics["cells"][row])
 
-    def _bytes_per_cell(self, fields):
+    def _bytes_per_cell(self, fields, last):
         """In the page, from the last state, the most disordered one."""
-        cells = self.run.cells(-1)
+        cells = self.run.cells(last)
         size = 0
         for values, dtype in [(cells[c], np.uint16) for c in "xyz"] + [
                 (cells[name], np.uint8) for name in ("volume", *fields)]:

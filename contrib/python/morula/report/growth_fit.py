@@ -45,6 +45,8 @@ def range_of_fit(time):
 def fit_growth(time, values):
     """A Fit, or None where there are too few rows or nothing grows."""
     low, high = range_of_fit(time)
+    if not min(values) > 0:  # all cells have died
+        return None
     try:
         found = fit_exponential(time, values, (low, high))
     except NothingToFit:

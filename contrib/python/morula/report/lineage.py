@@ -38,6 +38,8 @@ def died(lineage):
 
 def histograms(run):
     lineage = run.lineage
+    if not len(lineage.living):
+        return joined([])
     generations = np.bincount(lineage.generation[lineage.living])
     sizes = np.bincount(lineage.clone_sizes)
     return joined([

@@ -165,7 +165,7 @@ class Tree {
     const deaths = order.filter(({died}) => died).length;
     byId("tree-words").textContent = `Founder ${this.founder}: `
       + `${leaves - deaths} living cells after ${leaves - 1} divisions`
-      + (deaths ? ` and ${deaths} deaths (crosses).` : ".");
+      + (deaths ? `; ${deaths} died (crosses).` : ".");
     this.picture(order, leaves);
     this.table(order);
   }

@@ -10,12 +10,12 @@ namespace Morula
 {
   namespace
   {
-    const std::string section = "Cell types/";
+    const std::string section_of_types = "Cell types/";
 
     std::string
-    path(const std::string &type, const std::string &key)
+    type_path(const std::string &type, const std::string &key)
     {
-      return section + type + "/" + key;
+      return section_of_types + type + "/" + key;
     }
   } // namespace
 
@@ -25,23 +25,23 @@ namespace Morula
                              const std::vector<const ExpressionKey *> &of_cells,
                              const std::string &growth_laws)
     : name(name)
-    , where(path(name, "Where"),
+    , where(type_path(name, "Where"),
             "",
             "Founders for which this is > 0 are of this type; of several types "
             "the last one counts, and the first type is that of all others. An "
             "expression of X, Y, Z (um).",
             Evaluated::founder)
-    , daughters(path(name, "Daughter types"),
+    , daughters(type_path(name, "Daughter types"),
                 "",
                 "Types of the two daughters, the one at -n_s first; empty: the "
                 "mother's. E.g. stem, transit.")
-    , growth_law(path(name, "Growth/Law"),
+    , growth_law(type_path(name, "Growth/Law"),
                  "",
                  "none, or the law by which cells of this type grow; empty: "
                  "that of all.",
                  {"|none|" + growth_laws})
     , proliferation_law(
-        path(name, "Proliferation/Law"),
+        type_path(name, "Proliferation/Law"),
         "",
         "none, or how cells of this type proliferate; empty: "
         "as all. Cells that are past the onset of S divide, and "
@@ -50,7 +50,7 @@ namespace Morula
   {
     for (const std::string &other : others)
       {
-        transitions.emplace_back(path(name, "Transitions/To " + other),
+        transitions.emplace_back(type_path(name, "Transitions/To " + other),
                                  "0",
                                  "Rate at which cells of this type become " +
                                    other +
@@ -61,7 +61,7 @@ namespace Morula
                                         "0 lets cells keep their type.");
       }
     for (const ExpressionKey *key : of_cells)
-      overrides.push_back(key->in_section_of_type(section + name));
+      overrides.push_back(key->in_section_of_type(section_of_types + name));
   }
 
 
@@ -81,7 +81,7 @@ namespace Morula
 
   CellTypesParameters::CellTypesParameters()
     : names(
-        section + "Names",
+        section_of_types + "Names",
         "",
         "Types of cells, separated by commas; the first is that of founders "
         "for which no other one's Where holds. Each has a section of this "

@@ -12,17 +12,17 @@ namespace Morula
 {
   namespace
   {
-    const std::string section = "Fields/";
+    const std::string section_of_fields = "Fields/";
 
     std::string
-    path(const std::string &field, const std::string &key)
+    field_path(const std::string &field, const std::string &key)
     {
-      return section + field + "/" + key;
+      return section_of_fields + field + "/" + key;
     }
 
     /** Columns of tables have such names. */
     std::string
-    reason_against(const std::string &name)
+    reason_against_field(const std::string &name)
     {
       const bool small =
         std::none_of(name.begin(), name.end(), [](const char c) {
@@ -37,23 +37,23 @@ namespace Morula
 
   FieldKeys::FieldKeys(const std::string &name)
     : name(name)
-    , time(path(name, "Time"),
+    , time(field_path(name, "Time"),
            "steady",
            "steady: in each configuration the field has its steady state. "
            "transient: it changes with time.",
            {"steady|transient"})
-    , diffusion(path(name, "Diffusion"),
+    , diffusion(field_path(name, "Diffusion"),
                 "",
                 "Diffusion coefficient D, an expression of the cells' state; > "
                 "0. Units: um^2/day.",
                 Evaluated::step)
     , production(
-        path(name, "Production"),
+        field_path(name, "Production"),
         "0",
         "What a cell makes of it per time and volume, an expression of "
         "the cell's state; not negative. In the field's unit per day.",
         Evaluated::step)
-    , consumption(path(name, "Consumption"),
+    , consumption(field_path(name, "Consumption"),
                   "0",
                   "Rate k at which a cell uses it up, k times the field, an "
                   "expression of the cell's state, which may read the field "
@@ -61,30 +61,30 @@ namespace Morula
                   "1/day.",
                   Evaluated::step)
     , initial(
-        path(name, "Initial"),
+        field_path(name, "Initial"),
         "0",
         "The field at t = 0, at which a steady field is sought first; not "
         "negative. An expression of X, Y, Z (um).",
         Evaluated::founder)
     , fixed_where(
-        path(name, "Fixed where"),
+        field_path(name, "Fixed where"),
         "",
         "At boundary points at which this is > 0 the field has Value; "
         "empty: nowhere. An expression of X, Y, Z (um).",
         Evaluated::founder)
-    , value(path(name, "Value"),
+    , value(field_path(name, "Value"),
             "0",
             "The field at the fixed boundary points, and outside of the others "
             "if there is a Transfer; not negative. An expression of X, Y, Z "
             "(um), t (day).",
             Evaluated::place)
-    , transfer(path(name, "Transfer"),
+    , transfer(field_path(name, "Transfer"),
                "",
                "At boundary points that are not fixed -D dc/dn = Transfer (c - "
                "Value); not negative; empty: nothing passes there. An "
                "expression of X, Y, Z (um), t (day). Units: um/day.",
                Evaluated::place)
-    , dilution(path(name, "Dilution"),
+    , dilution(field_path(name, "Dilution"),
                true,
                "Whether a transient field becomes less where cells grow, so "
                "that its amount stays. The steady state knows no dilution.")
@@ -150,7 +150,7 @@ namespace Morula
 
 
   FieldsParameters::FieldsParameters()
-    : names(section + "Names",
+    : names(section_of_fields + "Names",
             "",
             "Fields that diffuse through the tissue, separated by commas. Each "
             "has a section of this name, and expressions of cells may have its "
@@ -189,7 +189,8 @@ namespace Morula
   void
   FieldsParameters::declare_fields(const std::string &text)
   {
-    for (const std::string &name : declared_names(names, text, reason_against))
+    for (const std::string &name :
+         declared_names(names, text, reason_against_field))
       fields.emplace_back(name);
     if (fields.size() > most_fields)
       throw InputError(names.path(),

@@ -13,7 +13,7 @@ namespace Morula
   {
     /** Why a section cannot have this name; empty if it can. */
     std::string
-    reason_against(const std::string &name)
+    reason_against_obstacle(const std::string &name)
     {
       const bool plain =
         !name.empty() &&
@@ -24,7 +24,7 @@ namespace Morula
     }
 
     std::string
-    path(const std::string &name, const std::string &key)
+    obstacle_path(const std::string &name, const std::string &key)
     {
       return "Obstacles/" + name + "/" + key;
     }
@@ -33,33 +33,35 @@ namespace Morula
 
   ObstacleKeys::ObstacleKeys(const std::string &name)
     : name(name)
-    , shape(path(name, "Shape"),
+    , shape(obstacle_path(name, "Shape"),
             "",
             "plane, sphere (2-D: a disc), cylinder (without ends) or box (its "
             "edges along the axes).",
             {"|plane|sphere|cylinder|box"})
-    , side(path(name, "Side"),
+    , side(obstacle_path(name, "Side"),
            "outside",
            "outside: the tissue is outside of the body, in front of the plane; "
            "inside: the tissue is inside, as in a mould.",
            {"outside|inside"})
     , center(
-        path(name, "Center"),
+        obstacle_path(name, "Center"),
         {0., 0., 0.},
         "Center of the body, or a point of the plane, at t = 0. Units: um.")
-    , radius(path(name, "Radius"),
+    , radius(obstacle_path(name, "Radius"),
              0.,
              "Of a sphere or cylinder; > 0. Units: um.")
-    , normal(path(name, "Normal"),
+    , normal(obstacle_path(name, "Normal"),
              "",
              "Of a plane; it points to the tissue if Side = outside.")
-    , size(path(name, "Size"), {}, "Full edge lengths of a box. Units: um.")
-    , axis(path(name, "Axis"), "", "Of a cylinder.")
-    , stiffness(path(name, "Stiffness"),
+    , size(obstacle_path(name, "Size"),
+           {},
+           "Full edge lengths of a box. Units: um.")
+    , axis(obstacle_path(name, "Axis"), "", "Of a cylinder.")
+    , stiffness(obstacle_path(name, "Stiffness"),
                 100.,
                 "Pressure on the tissue over its depth in the obstacle; > 0. E "
                 "is that of the stiffest cell. Units: E/h.")
-    , velocity(path(name, "Velocity"),
+    , velocity(obstacle_path(name, "Velocity"),
                "0; 0; 0",
                "Velocity of the obstacle: functions of t separated by ';'. "
                "Units: um/day.",
@@ -124,7 +126,8 @@ namespace Morula
   void
   ObstaclesParameters::declare_sections(const std::string &text)
   {
-    for (const std::string &name : declared_names(names, text, reason_against))
+    for (const std::string &name :
+         declared_names(names, text, reason_against_obstacle))
       obstacles.emplace_back(name);
   }
 

@@ -66,9 +66,12 @@ class Request:
         """As source/scene/seeded_tissue.cc decides."""
         keys = self.scene.keys
         choice = keys["Tissue/Points surface"]
-        held_or_loaded = any(value for key, value in keys.items()
-                             if key.startswith("Boundary conditions/")
-                             and key.endswith(" where"))
+        # The tension acts everywhere if it is there.
+        tension = "Boundary conditions/Surface tension"
+        held_or_loaded = keys[tension] != "0" or keys["Obstacles/Names"] or any(
+            value for key, value in keys.items()
+            if key.startswith("Boundary conditions/")
+            and key.endswith(" where") and key != tension + " where")
         return (keys["Tissue/Shape"] != "points" or choice == "always"
                 or (choice == "automatic" and held_or_loaded))
 

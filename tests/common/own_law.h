@@ -8,6 +8,7 @@
 #include <morula/mechanics/materials/own_material.h>
 
 #include <string>
+#include <string_view>
 
 namespace Morula
 {
@@ -56,12 +57,13 @@ namespace Morula
     return materials;
   }
 
-  /** One of them. */
+  /** One of them. By std::string_view, as GCC 13 warns of a reference that is
+   *  returned by a function of a temporary string. */
   inline const Material &
-  material_of_test(const std::string &name)
+  material_of_test(const std::string_view name)
   {
     static const Materials materials = all_materials();
-    return *materials.find(name);
+    return *materials.find(std::string(name));
   }
 } // namespace Morula
 

@@ -1,31 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""A ball between two planes, `upper` and `lower`, that have each come nearer by
-delta: the forces on both are Hertz'. Argument: the tolerance, relative.
+"""A ball between two planes, `upper` and `lower`, that each come nearer, at a
+constant velocity: the forces on both are those on a linearly elastic ball
+(tests/verification/pressed_ball.py), whose surface goes into the planes by the
+pressure over kappa. Argument: the tolerance, relative.
 """
 import sys
 
 import numpy
 
+from morula.run import read_csv
 from tests.common.results import Results, agree
+from tests.verification import pressed_ball
 
 results = Results(sys.argv[1])
 tolerance = float(sys.argv[2])
-surface = results.last_surface()
 R = results.number("Tissue/Radius")
 E = results.number("Material/Young's modulus")
 nu = results.number("Material/Poisson's ratio")
-t = surface["time"][0]
-delta = -t * float(results.keys["Obstacles/upper/Velocity"].split(";")[2])
-kappa = (results.number("Obstacles/upper/Stiffness") * E
-         / results.number("Grid/Spacing"))
-hertz = 4 * E * numpy.sqrt(R) * delta**1.5 / (3 * (1 - nu**2))
-print("delta/R:", delta / R, "force after Hertz, kPa um^2:", hertz)
-assert delta > 0.02 * R
-depths = [numpy.maximum(0, side * surface["z"] - (R - delta)) for side in (1, -1)]
-forces = [kappa * numpy.sum(surface["area"] * depth) for depth in depths]
-agree("force over Hertz'", numpy.array(forces) / hertz, 1, tolerance)
-agree("difference of the two forces over Hertz'",
-      (forces[0] - forces[1]) / hertz, 0, 1e-3)
-agree("depth in the planes over h", numpy.max(depths)
-      / results.number("Grid/Spacing"), 0, 0.01)
+h = results.number("Grid/Spacing")
+kappa = results.number("Obstacles/upper/Stiffness") * E / h
+velocity = -float(results.keys["Obstacles/upper/Velocity"].split(";")[2])
+ball = pressed_ball.Ball(results.lame())
+surfaces = [read_csv(file) for file in results.outputs("surface")]
+assert len(surfaces) > 2
+for before, surface in zip(surfaces, surfaces[1:]):
+    assert (before["id"] == surface["id"]).all()
+    delta = velocity * surface["time"][0]
+    depths = [numpy.maximum(0, side * surface["z"] - (R - delta))
+              for side in (1, -1)]
+    # The term's area is that at the beginning of the step.
+    forces = [kappa * numpy.sum(before["area"] * depth) for depth in depths]
+    exact = R**2 * pressed_ball.force(ball, delta / R, 1 / (kappa * R))
+    hertz = R**2 * pressed_ball.hertz(delta / R, E, nu)
+    print(f"delta/R = {delta / R:g}: F/F_Hertz = {forces[0] / hertz:.4f}, of the "
+          f"elastic ball {exact / hertz:.4f}; F/F_ball = {forces[0] / exact:.4f}")
+    agree("force over that on the elastic ball", numpy.array(forces) / exact, 1,
+          tolerance)
+    agree("difference of the two forces over it", (forces[0] - forces[1]) / exact,
+          0, 1e-3)
+    agree("depth in the planes over h", numpy.max(depths) / h, 0, 0.01)
+assert delta >= 0.05 * R

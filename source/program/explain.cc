@@ -138,7 +138,8 @@ namespace Morula
                    divides,
                    "axis = " + cycle.division_axis +
                      details_of(catalogue.division_rules, cycle.division_axis) +
-                     (cycle.axis_follows_rotation ? ", follows rotation" : ""));
+                     (cycle.axis_follows_rotation ? ", follows rotation" : "") +
+                     (cycle.stay_inside ? ", inside the surface" : ""));
       print_effect(out,
                    "contraction",
                    scene.has_contraction(),

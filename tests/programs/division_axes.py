@@ -5,6 +5,7 @@
 the second where it points: lineage.csv tells all axes of a run."""
 import numpy
 from program import SCENES, ProgramTest, main, overrides, read_csv
+from scipy.spatial import KDTree
 
 from tests.common.results import (Results, initial_positions, positions,
                                   stresses)
@@ -37,6 +38,30 @@ subsection Tissue
 end
 subsection Grid
   set Spacing = 50
+end
+"""
+
+FREE_BALL = """
+subsection Time
+  set End time = 4.5
+  set Step     = 0.5
+end
+subsection Tissue
+  set Radius       = 60
+  set Cell spacing = 10
+end
+subsection Grid
+  set Spacing = 50
+end
+subsection Proliferation
+  set Law = cell cycle
+  subsection Cell cycle
+    set Start = together
+  end
+end
+subsection Output
+  set Formats  = csv
+  set Interval = 4.5
 end
 """
 
@@ -259,6 +284,26 @@ class DivisionAxes(ProgramTest):
         ends = abs(cells["X"]) > 190
         self.assertGreater(cells["y"][middle].mean() - cells["y"][ends].mean(),
                            40)
+
+    def test_daughters_stay_inside(self):
+        """Of a ball without anything that holds it, after four divisions of all
+        cells: how far they stand outside the tangent planes of its surface."""
+        beyond = []
+        for inside in ("false", "true"):
+            run = self.run_scene(f"inside {inside}", FREE_BALL, {
+                CYCLE + "Stay inside surface": inside})
+            surface, cells = run.last_surface(), run.last_cells()
+            places = positions(surface)
+            nearest = KDTree(places).query(positions(cells))[1]
+            normals = numpy.stack([surface[name] for name in ("nx", "ny", "nz")],
+                                  axis=1)
+            beyond.append(numpy.sum((positions(cells) - places[nearest])
+                                    * normals[nearest], axis=1))
+        print("beyond the surface, um:", [b.max() for b in beyond],
+              "parts of the cells:", [(b > 1).mean() for b in beyond])
+        self.assertGreater((beyond[0] > 1).mean(), 0.03)
+        # cells are about 10 um long, and walls let them leave by 5e-4 of it
+        self.assertLess(beyond[1].max(), 0.2)
 
     def test_ranks(self):
         """The lineage on two ranks is that on one."""

@@ -18,6 +18,7 @@ TOOLS = {  # those of an installation, then those that need Morula's tree
     "half-fixed-sphere": "upkeep.half_fixed_sphere",
     "doxygen": "upkeep.manual.tool", "renew": "upkeep.renew",
     "step-pages": "upkeep.steps", "reproduce": "reproduction.tool",
+    "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool", "verify": "tests.verification.tool",
     "hard-cases": "tests.hard.tool"}
 

@@ -44,11 +44,14 @@ namespace Morula
       return points;
     }
 
-    /** Fixed and slip boundary points of this rank, and those of others whose
-     *  wall a ray of length @p longest may hit. */
+    /** Fixed and slip boundary points of this rank, or all with
+     *  @p whole_surface, and those of others whose wall a ray of length
+     *  @p longest may hit. */
     template <int dim>
     std::vector<WallPoint<dim>>
-    walls(const Tissue<dim> &tissue, const double longest)
+    walls(const Tissue<dim> &tissue,
+          const double       longest,
+          const bool         whole_surface)
     {
       // present normal and spacing
       using Patch                      = std::tuple<Tensor<1, dim>, double>;
@@ -58,7 +61,7 @@ namespace Morula
       for (unsigned int p = 0; p < store.size(); ++p)
         {
           const auto point = store[p];
-          if (point.condition() != SurfaceCondition::fixed &&
+          if (!whole_surface && point.condition() != SurfaceCondition::fixed &&
               point.condition() != SurfaceCondition::slip)
             continue;
           const Tensor<1, dim> area    = point.area_vector();
@@ -116,11 +119,12 @@ namespace Morula
     longest = Utilities::MPI::max(longest, comm);
 
     const PointList<dim> neighbors = neighborhood(tissue, 2. * longest);
-    const auto           distances = daughter_distances(dividing,
-                                              neighbors.ids,
-                                              neighbors.positions,
-                                              walls(tissue, longest),
-                                              tissue.grid().box());
+    const auto           distances =
+      daughter_distances(dividing,
+                         neighbors.ids,
+                         neighbors.positions,
+                         walls(tissue, longest, cycle.stays_inside()),
+                         tissue.grid().box());
 
     std::vector<DivisionEvent> events;
     for (const unsigned int p : due)

@@ -223,6 +223,14 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  CellCycle<dim>::stays_inside() const
+  {
+    return stay_inside;
+  }
+
+
+  template <int dim>
   double
   CellCycle<dim>::axis_spread(const PresentCell<dim> &cell,
                               const double            t) const

@@ -86,6 +86,7 @@ namespace Morula
     , least_anisotropy_(state.use(parameters.least_anisotropy))
     , start_together(parameters.start == "together")
     , axis_follows_rotation(parameters.axis_follows_rotation)
+    , stay_inside(parameters.stay_inside)
     , seed(seed)
     , slack(slack)
     , own_duration(depends_on_more_than_place(duration))

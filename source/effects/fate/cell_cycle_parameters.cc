@@ -83,6 +83,11 @@ namespace Morula
         "false: daughters are placed along n_s, as in the paper; "
         "true: along F_e n_s. For Division axis = random or fixed; others "
         "place them along the direction that they name.")
+    , stay_inside(
+        path("Stay inside surface"),
+        false,
+        "true: daughters are placed inside the whole surface; false: only "
+        "inside what is held of it, as in the paper.")
   {
     duration.positive("day", "Choose the duration of a cycle in days.");
     exit_rate.not_negative("1/day", "0 lets cells wait forever.");
@@ -112,6 +117,7 @@ namespace Morula
             &division_axis,
             &axis_spread,
             &least_anisotropy,
-            &axis_follows_rotation};
+            &axis_follows_rotation,
+            &stay_inside};
   }
 } // namespace Morula

@@ -37,6 +37,7 @@ namespace Morula
     ExpressionKey    axis_spread; // κ
     ExpressionKey    least_anisotropy;
     Key<bool>        axis_follows_rotation;
+    Key<bool>        stay_inside;
 
     using Keys::list;
     KeyList
@@ -281,6 +282,11 @@ namespace Morula
     placement_axis(const CycleState<dim> &state,
                    const Tensor<2, dim>  &F_e) const;
 
+    /** Whether daughters stay inside the whole surface, not only inside what
+     *  is held of it. */
+    bool
+    stays_inside() const;
+
     /** κ of (6.3d) of a cell, for division rules; 0: no spread.
      *  @throws InputError */
     double
@@ -351,6 +357,7 @@ namespace Morula
     Expression    axis_spread_, least_anisotropy_;
     bool          start_together;
     bool          axis_follows_rotation;
+    bool          stay_inside;
     std::uint64_t seed;
     double        slack;
     bool          own_duration, own_hazard;

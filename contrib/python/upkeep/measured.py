@@ -48,6 +48,12 @@ PAGES = {
           "-s", "Tissue/Cell spacing=50", "-s", "Grid/Spacing=100", "fig-1d",
           "fig-3a"),),
         reproduction),
+    "showcase": Page(
+        "showcase.md",
+        (("contrib/showcase", "--document", *BUILT),),
+        (("contrib/showcase", *BUILT, "-s", "Tissue/Cell spacing=30",
+          "-s", "Grid/Spacing=80", "-s", "Time/End time=1",
+          "WM983b, 2500 cells"),)),
     "verification": Page(
         "verification.md",
         (("contrib/verify", "--full", "--document"),),

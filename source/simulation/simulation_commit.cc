@@ -107,8 +107,8 @@ namespace Morula
     fields.set(tissue, of_step);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
-        const CellView<dim, double> cell   = tissue.cell(p);
-        const double                volume = cell.volume();
+        const CellView<dim, double> cell = tissue.cell(p);
+        const double volume = fields.present() ? cell.volume() : 0.;
         // doc/theory.md (1.1)
         Tensor<2, dim> F = cells.deformations[p] * cell.F();
         if (!volumes.empty())

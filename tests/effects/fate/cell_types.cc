@@ -98,16 +98,7 @@ TEST(CellTypes, EventsDoNotDependOnTheStep)
   const Lives half  = lead(scene, 30, 3.2, 0.1);
   ASSERT_GT(whole.events.size(), 100u);
   ASSERT_GT(whole.births.size(), 40u);
-  ASSERT_EQ(whole.events.size(), half.events.size());
-  for (std::size_t i = 0; i < whole.events.size(); ++i)
-    {
-      EXPECT_NEAR(whole.events[i].time, half.events[i].time, 1e-12);
-      EXPECT_EQ(whole.events[i].to, half.events[i].to);
-    }
-  ASSERT_EQ(whole.births.size(), half.births.size());
-  for (std::size_t i = 0; i < whole.births.size(); ++i)
-    EXPECT_NEAR(whole.births[i], half.births[i], 1e-12);
-  EXPECT_EQ(whole.numbers, half.numbers);
+  expect_same(whole, half);
 }
 
 
@@ -117,14 +108,7 @@ TEST(CellTypes, HaveValuesOfTheirOwn)
   settings.push_back("Cell types/leaf/Where=X > 50");
   settings.push_back("Cell types/leaf/Material/Young's modulus=7");
   settings.push_back("Material/Poisson's ratio=if(type == leaf, 0.1, 0.3)");
-  const Scene              scene   = scene_of(settings);
-  SceneEffects<2>          effects = effects_of<2>(scene);
-  const TissueMaterial     material(scene.material);
-  const CellDevelopment<2> development(std::move(effects.development),
-                                       effects.columns,
-                                       effects.state,
-                                       material,
-                                       1);
+  const CellDevelopment<2> development = development_of(scene_of(settings));
   for (const double X : {0., 100.})
     {
       std::vector<double> row =
@@ -149,43 +133,26 @@ TEST(CellTypes, MayForgetTheirStress)
   for (const std::string what : {"keep strain", "forget stress"})
     for (const std::string law : {"none", "cell cycle"})
       {
-        const Scene scene =
-          scene_of({"Dimension=2",
-                    "Cell types/Names=soft, hard",
-                    "Proliferation/Law=" + law,
-                    "Proliferation/Cell cycle/G0 exit rate=0",
-                    "Cell types/hard/Material/Young's modulus=9",
-                    "Cell types/soft/Transitions/To hard=1e6",
-                    "Material/On transition=" + what});
-        SceneEffects<2>          effects = effects_of<2>(scene);
-        const CellDevelopment<2> development(std::move(effects.development),
-                                             effects.columns,
-                                             effects.state,
-                                             TissueMaterial(scene.material),
-                                             scene.random_seed);
-        Tissue<2>                tissue(GridParameters(),
-                         development.columns(),
-                         MPI_COMM_WORLD);
-        tissue.place(
-          founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
-          PointList<2>());
-        const Tensor<2, 2> F       = tissue.cells()[0].F();
-        const auto         of_step = development.of_step(tissue, 0., 0.1);
+        Alone              alone({"Dimension=2",
+                                  "Cell types/Names=soft, hard",
+                                  "Proliferation/Law=" + law,
+                                  "Proliferation/Cell cycle/G0 exit rate=0",
+                                  "Cell types/hard/Material/Young's modulus=9",
+                                  "Cell types/soft/Transitions/To hard=1e6",
+                                  "Material/On transition=" + what});
+        const Tensor<2, 2> F       = alone.cell().F();
+        const auto         of_step = alone.live(0., 0.1);
         ASSERT_EQ(of_step.events.size(), 1u);
         EXPECT_DOUBLE_EQ(youngs_modulus(of_step.lame[0]), 9.);
-        development.commit(tissue, of_step, 0., 0.1);
         for (const double t : {0.1, 0.2})
           {
-            const Tensor<2, 2> F_e = tissue.cells()[0].elastic_deformation();
+            const Tensor<2, 2> F_e = alone.cell().elastic_deformation();
             const Tensor<2, 2> expected =
               what == "forget stress" ?
                 Tensor<2, 2>(unit_symmetric_tensor<2>()) :
                 F;
             EXPECT_NEAR((F_e - expected).norm(), 0., 1e-14) << what << law;
-            development.commit(tissue,
-                               development.of_step(tissue, t, t + 0.1),
-                               t,
-                               t + 0.1);
+            alone.live(t, t + 0.1);
           }
       }
 }

@@ -24,38 +24,6 @@ namespace
     return settings;
   }
 
-  /** One founder that does not move. */
-  class Alone
-  {
-  public:
-    explicit Alone(const std::vector<std::string> &settings)
-      : development(development_of(scene_of(settings)))
-      , tissue(GridParameters(), development.columns(), MPI_COMM_WORLD)
-    {
-      tissue.place(
-        founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
-        PointList<2>());
-    }
-
-    /** Takes it from @p t0 to @p t1, day. */
-    std::vector<CellEvent>
-    step(const double t0, const double t1)
-    {
-      auto of_step = development.of_step(tissue, t0, t1);
-      development.commit(tissue, of_step, t0, t1);
-      return of_step.events;
-    }
-
-    CellView<2, const double>
-    cell() const
-    {
-      return tissue.cells()[0];
-    }
-
-    const CellDevelopment<2> development;
-    Tissue<2>                tissue;
-  };
-
   std::string
   complaint(const std::vector<std::string> &settings)
   {
@@ -172,16 +140,7 @@ TEST(Death, EventsDoNotDependOnTheStep)
   EXPECT_GT(n[1], 30u);
   EXPECT_GT(n[2], 30u);
   EXPECT_GT(whole.births.size(), 30u);
-  ASSERT_EQ(whole.events.size(), half.events.size());
-  for (std::size_t i = 0; i < whole.events.size(); ++i)
-    {
-      EXPECT_NEAR(whole.events[i].time, half.events[i].time, 1e-12);
-      EXPECT_EQ(whole.events[i].kind, half.events[i].kind);
-    }
-  ASSERT_EQ(whole.births.size(), half.births.size());
-  for (std::size_t i = 0; i < whole.births.size(); ++i)
-    EXPECT_NEAR(whole.births[i], half.births[i], 1e-12);
-  EXPECT_EQ(whole.numbers, half.numbers);
+  expect_same(whole, half);
 }
 
 

@@ -8,6 +8,8 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/scene/scene.h>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -37,6 +39,45 @@ namespace Morula
             scene.random_seed};
   }
 
+  /** One founder that does not move. */
+  class Alone
+  {
+  public:
+    explicit Alone(const std::vector<std::string> &settings)
+      : development(development_of(scene_of(settings)))
+      , tissue(GridParameters(), development.columns(), MPI_COMM_WORLD)
+    {
+      tissue.place(
+        founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
+        PointList<2>());
+    }
+
+    /** Takes it from @p t0 to @p t1, day. */
+    GrowthOfStep<2>
+    live(const double t0, const double t1)
+    {
+      auto of_step = development.of_step(tissue, t0, t1);
+      development.commit(tissue, of_step, t0, t1);
+      return of_step;
+    }
+
+    /** The same: what befalls it. */
+    std::vector<CellEvent>
+    step(const double t0, const double t1)
+    {
+      return live(t0, t1).events;
+    }
+
+    CellView<2, const double>
+    cell() const
+    {
+      return tissue.cells()[0];
+    }
+
+    const CellDevelopment<2> development;
+    Tissue<2>                tissue;
+  };
+
   /** What became of some founders without mechanics. */
   struct Lives
   {
@@ -45,6 +86,23 @@ namespace Morula
     std::vector<CellEvent> events;
     std::vector<double>    births; // times
   };
+
+  /** Whether the same has come about in steps of other lengths. */
+  inline void
+  expect_same(const Lives &a, const Lives &b)
+  {
+    ASSERT_EQ(a.events.size(), b.events.size());
+    for (std::size_t i = 0; i < a.events.size(); ++i)
+      {
+        EXPECT_NEAR(a.events[i].time, b.events[i].time, 1e-12);
+        EXPECT_EQ(a.events[i].kind, b.events[i].kind);
+        EXPECT_EQ(a.events[i].to, b.events[i].to);
+      }
+    ASSERT_EQ(a.births.size(), b.births.size());
+    for (std::size_t i = 0; i < a.births.size(); ++i)
+      EXPECT_NEAR(a.births[i], b.births[i], 1e-12);
+    EXPECT_EQ(a.numbers, b.numbers);
+  }
 
   /** Lets founders live until @p end, in steps of this length, days. */
   inline Lives

@@ -329,6 +329,21 @@ namespace Morula
   }
 
 
+  bool
+  Expression::is_always(const double       number,
+                        const unsigned int n_components) const
+  {
+    if (constants.size() < n_components ||
+        std::any_of(constants.begin(),
+                    constants.begin() + n_components,
+                    [=](const double c) { return c != number; }))
+      return false;
+    return std::all_of(of_types.begin(), of_types.end(), [=](const auto &own) {
+      return own.second.is_always(number, n_components);
+    });
+  }
+
+
   std::optional<double>
   Expression::plain_number() const
   {

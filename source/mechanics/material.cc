@@ -101,8 +101,7 @@ namespace Morula
   bool
   MaterialParameters::relaxes() const
   {
-    const Expression &time = relaxation_time.expression(3);
-    return !time.is_constant() || time.plain_number() != 0.;
+    return !relaxation_time.expression(3).is_always(0.);
   }
 
 

@@ -133,6 +133,25 @@ TEST(Expression, RecognisesPlainNumbersAndTime)
 }
 
 
+TEST(Expression, KnowsWhatIsAlwaysTheSameNumber)
+{
+  EXPECT_TRUE(Expression(key, "0").is_always(0.));
+  EXPECT_TRUE(Expression(key, "1e0").is_always(1.));
+  EXPECT_FALSE(Expression(key, "1").is_always(0.));
+  EXPECT_FALSE(Expression(key, "0*X").is_always(0.));
+  // the components that count
+  const Expression upward(key, "0; 0; 1", 3);
+  EXPECT_TRUE(upward.is_always(0., 2));
+  EXPECT_FALSE(upward.is_always(0., 3));
+  // every type counts
+  const Expression zero(key, "0");
+  EXPECT_TRUE(zero.with_types({{1, Expression(key, "0.0")}}).is_always(0.));
+  EXPECT_FALSE(zero.with_types({{1, Expression(key, "2")}}).is_always(0.));
+  EXPECT_FALSE(
+    Expression(key, "2").with_types({{1, zero}, {2, zero}}).is_always(0.));
+}
+
+
 TEST(Expression, SaysWhereAnErrorIs)
 {
   expect_parts(

@@ -119,6 +119,11 @@ namespace Morula
     bool
     is_constant() const;
 
+    /** Whether each of the first @p n_components is this plain number, for all
+     *  types of cells. */
+    bool
+    is_always(const double number, const unsigned int n_components = 1) const;
+
     /** The first component, if all of this text are plain numbers, whatever the
      *  types' are. */
     std::optional<double>

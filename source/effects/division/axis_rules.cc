@@ -60,8 +60,7 @@ namespace Morula
                             const EffectSetting<dim> &setting)
     : direction(setting.state.use(parameters.axis))
   {
-    if (direction.is_constant() &&
-        !(direction.vector(Point<dim>(), 0.).norm() > 0.))
+    if (direction.is_always(0., dim))
       parameters.axis.refuse(zero_is_refused<dim>(), remedy_of_zero);
   }
 

@@ -252,8 +252,7 @@ namespace Morula
   bool
   CellCycle<dim>::has_checkpoint() const
   {
-    return !size_checkpoint.is_constant() ||
-           size_checkpoint.value(Point<dim>(), 0.) != 0.;
+    return !size_checkpoint.is_always(0.);
   }
 
 

@@ -15,13 +15,6 @@ namespace Morula
   {
     /** The death time of cells that live. */
     constexpr double never = -1.;
-
-    /** Whether the expression is the same number for all cells: 0. */
-    bool
-    is_zero(const Expression &expression)
-    {
-      return expression.is_constant() && expression.plain_number() == 0.;
-    }
   } // namespace
 
 
@@ -33,8 +26,8 @@ namespace Morula
     , shrinking_time(setting.state.use(parameters.shrinking_time))
     , final_volume(setting.state.use(parameters.final_volume))
     , keep_debris(setting.state.use(parameters.keep_debris))
-    , has_rate(!is_zero(rate))
-    , has_condition(!is_zero(when))
+    , has_rate(!rate.is_always(0.))
+    , has_condition(!when.is_always(0.))
     , random_seed(setting.random_seed)
     , slack(setting.slack)
   {

@@ -5,18 +5,6 @@
 
 namespace Morula
 {
-  namespace
-  {
-    /** Whether the expression is another number than 0, or none, for any
-     *  type. */
-    bool
-    can_be_other_than_zero(const Expression &expression)
-    {
-      return !expression.is_constant() || expression.plain_number() != 0.;
-    }
-  } // namespace
-
-
   DeathParameters::DeathParameters()
     : rate("Death/Rate",
            "0",
@@ -61,15 +49,15 @@ namespace Morula
   bool
   DeathParameters::is_on() const
   {
-    return can_be_other_than_zero(rate.expression(3)) ||
-           can_be_other_than_zero(when.expression(3));
+    return !(rate.expression(3).is_always(0.) &&
+             when.expression(3).is_always(0.));
   }
 
 
   bool
   DeathParameters::shrinks() const
   {
-    return can_be_other_than_zero(shrinking_time.expression(3)) ||
+    return !shrinking_time.expression(3).is_always(0.) ||
            !keep_debris.is_default() ||
            !keep_debris.expression(3).types().empty();
   }

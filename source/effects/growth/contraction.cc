@@ -41,8 +41,7 @@ namespace Morula
   bool
   ContractionParameters::is_on() const
   {
-    const Expression &gamma = stretch.expression(3);
-    return !gamma.is_constant() || gamma.plain_number() != 1.;
+    return !stretch.expression(3).is_always(1.);
   }
 
 

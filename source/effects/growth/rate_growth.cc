@@ -93,7 +93,7 @@ namespace Morula
                        "Say along which Direction, or leave both empty for "
                        "isotropic growth.");
     homeostasis = setting.state.use(parameters.homeostasis);
-    if (homeostasis->is_constant() && *homeostasis->plain_number() == 0.)
+    if (homeostasis->is_always(0.))
       homeostasis.reset();
     else
       homeostatic_stress = setting.state.use(parameters.homeostatic_stress);

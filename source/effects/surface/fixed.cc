@@ -75,8 +75,7 @@ namespace Morula
   bool
   Fixed<dim>::moves() const
   {
-    return !(displacement_.is_constant() &&
-             displacement_.vector(Point<dim>(), 0.) == Tensor<1, dim>());
+    return !displacement_.is_always(0., dim);
   }
 
 

@@ -19,6 +19,39 @@ namespace Morula
   } // namespace
 
   template <int dim>
+  typename CellDevelopment<dim>::NextEvent
+  CellDevelopment<dim>::next_event(const PresentCell<dim>      &cell,
+                                   const CellView<dim, double> &after,
+                                   const CycleState<dim>       &next,
+                                   const double                 t,
+                                   const double                 t1) const
+  {
+    NextEvent event{t1};
+    if (effects.cycle && effects.cycle->divides(next, CellAt<dim>(cell, t), t1))
+      event.time =
+        std::min(t1, effects.cycle->division_time(next, CellAt<dim>(cell, t)));
+    std::optional<Hazard> hazard;
+    if (effects.death)
+      hazard = effects.death->hazard(cell, after, t, event.time);
+    if (hazard)
+      if (const auto death = hazard->event(t, event.time))
+        {
+          event.dies = true;
+          event.time = *death;
+        }
+    if (effects.types)
+      event.change = effects.types->next_change(cell, after, t, event.time);
+    if (event.change)
+      {
+        event.dies = false;
+        event.time = event.change->time;
+      }
+    if (hazard)
+      effects.death->set_integral(after, hazard->integral_at(t, event.time));
+    return event;
+  }
+
+  template <int dim>
   CycleState<dim>
   CellDevelopment<dim>::live(const PresentCell<dim>      &before,
                              const CellView<dim, double> &after,
@@ -38,44 +71,24 @@ namespace Morula
                                     before.id(),
                                     before.position(),
                                     before.reader());
-        CycleState<dim>        next = state;
-        double                 end  = t1;
-        if (has_clock)
-          {
-            next = next_clock(cell, state, t, t1);
-            if (effects.cycle->divides(next, CellAt<dim>(cell, t), t1))
-              end = std::min(
-                t1, effects.cycle->division_time(next, CellAt<dim>(cell, t)));
-          }
-        // Death and the ways out of the type: the first of them counts.
-        std::optional<Hazard> hazard;
-        if (effects.death)
-          hazard = effects.death->hazard(cell, after, t, end);
-        const auto death =
-          hazard ? hazard->event(t, end) : std::optional<double>();
-        double until = death.value_or(end);
-        std::optional<typename CellTypes<dim>::Change> change;
-        if (effects.types)
-          change = effects.types->next_change(cell, after, t, until);
-        if (change)
-          until = change->time;
-        if (hazard)
-          effects.death->set_integral(after, hazard->integral_at(t, until));
-        if (!change && !death)
+        const CycleState<dim>  next =
+          has_clock ? next_clock(cell, state, t, t1) : state;
+        const NextEvent event = next_event(cell, after, next, t, t1);
+        if (!event.dies && !event.change)
           return next;
         if (has_clock)
-          state = next_clock(cell, state, t, until);
-        if (!change)
-          return die(cell, after, state, until, DeathCause::rate, events);
+          state = next_clock(cell, state, t, event.time);
+        if (event.dies)
+          return die(cell, after, state, event.time, DeathCause::rate, events);
         if (has_clock)
           set_clock(after, state);
-        events.push_back({until,
+        events.push_back({event.time,
                           cell.id(),
                           CellEvent::Kind::transition,
                           cell.type(),
-                          change->to});
-        effects.types->change(after, state_, change->to, until);
-        t = until;
+                          event.change->to});
+        effects.types->change(after, state_, event.change->to, event.time);
+        t = event.time;
       }
     throw InputError("Cell types",
                      "",

@@ -196,6 +196,28 @@ namespace Morula
                const double            t0,
                const double            t1) const;
 
+    /** What befalls a cell first, if anything does. */
+    struct NextEvent
+    {
+      double                                         time; // day
+      bool                                           dies   = false;
+      std::optional<typename CellTypes<dim>::Change> change = {};
+    };
+
+    /**
+     * Death, or the first way out of its type, in (t, t1], but not behind its
+     * division. Integrates the rates until then.
+     * @param cell  of its present type
+     * @param after keeps the integrals
+     * @param next  its clock at t1 if nothing befalls it
+     */
+    NextEvent
+    next_event(const PresentCell<dim>      &cell,
+               const CellView<dim, double> &after,
+               const CycleState<dim>       &next,
+               const double                 t,
+               const double                 t1) const;
+
     /**
      * The clock at t1, or at the cell's death if that comes first, through all
      * changes of type in (t0, t1]; sets the columns of type and death. What a

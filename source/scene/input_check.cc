@@ -52,6 +52,20 @@ namespace Morula
                       "'automatic' takes the fastest.");
     }
 
+    /** Refuses a type's value of a key that does nothing, because what it
+     *  belongs to is off. */
+    void
+    refuse_for_types(const Scene       &scene,
+                     const AnyKey      &key,
+                     const std::string &allowed,
+                     const std::string &remedy)
+    {
+      for (const CellTypeKeys &type : scene.cell_types.types)
+        for (const ExpressionKey &own : type.overrides)
+          if (!own.empty() && own.path() == type.path_of(key))
+            own.refuse(allowed, remedy);
+    }
+
     /**
      * Refuses values that do nothing because what they belong to is off. If
      * the user wrote the switch, it was switched off on purpose.
@@ -64,10 +78,16 @@ namespace Morula
     {
       if (scene.has_set(switch_key))
         return;
+      const std::string why   = ", as " + switch_key.path() + " is not set";
+      const std::string to_do = remedy + ", or remove this key.";
       for (const AnyKey *key : keys.list())
-        if (key != &switch_key && !key->is_default())
-          key->refuse("its default, as " + switch_key.path() + " is not set",
-                      remedy + ", or remove this key.");
+        {
+          if (key == &switch_key)
+            continue;
+          if (!key->is_default())
+            key->refuse("its default" + why, to_do);
+          refuse_for_types(scene, *key, "nothing" + why, to_do);
+        }
     }
 
     void

@@ -65,6 +65,13 @@ namespace Morula
   }
 
 
+  std::string
+  CellTypeKeys::path_of(const AnyKey &key) const
+  {
+    return type_path(name, key.path());
+  }
+
+
   KeyList
   CellTypeKeys::list()
   {

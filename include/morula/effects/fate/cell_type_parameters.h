@@ -37,6 +37,10 @@ namespace Morula
     /** Values of keys for this type; empty: those of all. */
     std::deque<ExpressionKey> overrides;
 
+    /** Where a key of cells stands for this type. */
+    std::string
+    path_of(const AnyKey &key) const;
+
     using Keys::list;
     KeyList
     list() override;

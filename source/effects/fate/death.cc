@@ -154,6 +154,14 @@ namespace Morula
 
   template <int dim>
   bool
+  Death<dim>::shrinks(const CellView<dim, const double> &cell) const
+  {
+    return is_dead(cell) && cell.get(duration) > 0.;
+  }
+
+
+  template <int dim>
+  bool
   Death<dim>::is_gone(const CellView<dim, const double> &cell,
                       const double                       t) const
   {

@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <numeric>
@@ -15,6 +16,45 @@ namespace Morula
 {
   namespace
   {
+    /**
+     * Hands the volumes of shrunken cells that go to those that stay in their
+     * grid cell: without it each would leave a hole, and the tissue would
+     * become ever more porous. Where cells go unshrunken a gap is meant.
+     */
+    template <int dim>
+    void
+    hand_on(Tissue<dim>                     &tissue,
+            const Death<dim>                &death,
+            const std::vector<unsigned int> &gone)
+    {
+      const Cells<dim> &cells = tissue.cells();
+      auto              next  = gone.begin();
+      for (const auto &grid_cell : cells.grid_cells())
+        {
+          const auto first = next;
+          double     from = 0., to = 0.; // µm^dim
+          for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+            if (next != gone.end() && *next == p)
+              {
+                if (death.shrinks(cells[p]))
+                  from += cells.volume(p);
+                ++next;
+              }
+            else if (first != gone.end() && *first < grid_cell.end)
+              to += cells.volume(p);
+          if (from == 0. || to == 0.)
+            continue;
+          // doc/theory.md (6.9b)
+          const double stretch =
+            std::pow(1. + std::min(1., from / to), 1. / dim);
+          for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+            {
+              const CellView<dim, double> cell = tissue.cell(p);
+              cell.set(cell.columns().deformation, stretch * cell.F());
+            }
+        }
+    }
+
     /** Boundary points of this rank that the removal of these cells leaves
      *  without a cell within reach. Points that had none before are let be:
      *  they are held where they are. Takes the cells out. */
@@ -67,6 +107,7 @@ namespace Morula
                             type,
                             type});
         }
+    hand_on(tissue, *development.death(), gone);
     if (Utilities::MPI::max(gone.size(), tissue.communicator()) > 0)
       tissue.remove({}, take_out(tissue, gone));
     return events;

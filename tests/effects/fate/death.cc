@@ -69,6 +69,37 @@ TEST(Death, DebrisStays)
 }
 
 
+// What is left of a shrunken cell is taken over by those in its grid cell, so
+// that it leaves no hole; a cut is meant to leave one.
+TEST(Death, HandsItsRestOn)
+{
+  for (const bool is_cut : {false, true})
+    {
+      auto settings = with(dying, {"Death/When=X > 5"});
+      if (is_cut)
+        settings.push_back("Death/Shrinking time=0");
+      // The last one has a grid cell of its own.
+      Alone some(settings, {{3., 4.}, {8., 4.}, {4., 9.}, {200., 4.}});
+      some.step(0., 0.3);
+      const Cells<2>                         &cells = some.tissue.cells();
+      std::map<types::particle_index, double> volumes;
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        volumes[cells.id(p)] = cells.volume(p);
+      EXPECT_EQ(remove_dead_cells(some.tissue, some.development, 0.3).size(),
+                2u);
+      ASSERT_EQ(cells.size(), 2u);
+      const double rest = is_cut ? 0. : volumes[1];
+      for (const unsigned int p : {0, 1})
+        {
+          const double V = volumes[cells.id(p)];
+          EXPECT_NEAR(cells.volume(p),
+                      V * (1. + rest / (volumes[0] + volumes[2])),
+                      1e-12 * V);
+        }
+    }
+}
+
+
 // What is gone at once does not shrink before: nothing pulls at its neighbours.
 TEST(Death, CutsDoNotPull)
 {

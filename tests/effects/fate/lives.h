@@ -39,17 +39,17 @@ namespace Morula
             scene.random_seed};
   }
 
-  /** One founder that does not move. */
+  /** A founder, or some, that do not move. */
   class Alone
   {
   public:
-    explicit Alone(const std::vector<std::string> &settings)
+    explicit Alone(const std::vector<std::string> &settings,
+                   const std::vector<Point<2>>    &positions = {{3., 4.}})
       : development(development_of(scene_of(settings)))
       , tissue(GridParameters(), development.columns(), MPI_COMM_WORLD)
     {
-      tissue.place(
-        founders({Point<2>(3., 4.)}, 100., development, some_deformation<2>),
-        PointList<2>());
+      tissue.place(founders(positions, 100., development, some_deformation<2>),
+                   PointList<2>());
     }
 
     /** Takes it from @p t0 to @p t1, day. */

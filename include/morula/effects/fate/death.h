@@ -103,6 +103,10 @@ namespace Morula
     double
     removal_time(const CellView<dim, const double> &cell) const;
 
+    /** Whether a dead cell has a time to shrink before it goes. */
+    bool
+    shrinks(const CellView<dim, const double> &cell) const;
+
     /** Whether it goes at @p t (day) at the latest. */
     bool
     is_gone(const CellView<dim, const double> &cell, const double t) const;

@@ -281,6 +281,11 @@ EFFECTS = [
     ("— held until grown", {**DIVIDING, CYCLE + "Size checkpoint": "0.9"}),
     ("— and death", {**DIVIDING, "Death/Rate": "0.2",
                      "Material/Energy per": "grown volume"}),
+    ("— death, and a steady field", {
+        **DIVIDING, "Death/Rate": "0.2 + 0.1*(oxygen < 40)",
+        "Material/Energy per": "grown volume", "Fields/Names": "oxygen",
+        "Fields/oxygen/Diffusion": "1e8", "Fields/oxygen/Consumption": "4e4",
+        "Fields/oxygen/Fixed where": "1", "Fields/oxygen/Value": "160"}),
     ("— along the stretch", {**DIVIDING, CYCLE + "Division axis": "stretch"}),
     ("— along the surface normal", {
         **DIVIDING, CYCLE + "Division axis": "surface normal"}),

@@ -78,15 +78,15 @@ namespace Morula
     {
       if (scene.has_set(switch_key))
         return;
-      const std::string why   = ", as " + switch_key.path() + " is not set";
+      const std::string why   = switch_key.path() + " is not set";
       const std::string to_do = remedy + ", or remove this key.";
       for (const AnyKey *key : keys.list())
         {
           if (key == &switch_key)
             continue;
           if (!key->is_default())
-            key->refuse("its default" + why, to_do);
-          refuse_for_types(scene, *key, "nothing" + why, to_do);
+            key->refuse("its default, as " + why, to_do);
+          refuse_for_types(scene, *key, "nothing, as " + why, to_do);
         }
     }
 

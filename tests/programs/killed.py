@@ -23,6 +23,13 @@ STEP, INTERVAL = 1 / 32, 1 / 8
 FINE = overrides({"Time/Step": STEP, "Output/Snapshot interval": INTERVAL})
 N_ROWS = 1 + round(1 / STEP)
 SEED = 20261
+# Cells also die, and live on what diffuses.
+DYING = overrides({
+    "Material/Energy per": "grown volume", "Death/Rate": "oxygen > 0.3",
+    "Death/Shrinking time": 0.2, "Fields/Names": "oxygen",
+    "Fields/oxygen/Time": "transient", "Fields/oxygen/Diffusion": 2e4,
+    "Fields/oxygen/Consumption": 20, "Fields/oxygen/Initial": 1,
+    "Fields/oxygen/Fixed where": 1, "Fields/oxygen/Value": 1})
 PATIENCE = 300  # s, for a machine that has other things to do
 
 
@@ -118,8 +125,11 @@ class Killed(ProgramTest):
 
     def assert_same_run(self, whole, resumed):
         """Equal bit for bit, but for the wall time."""
-        for name in ("lineage.csv", "cells-0000.csv", "cells-0001.csv",
-                     "cells-0002.csv", "surface-0002.csv"):
+        names = {path.name for path in whole.glob("*.csv")}
+        self.assertLessEqual({"lineage.csv", "cells-0000.csv",
+                              "cells-0001.csv", "cells-0002.csv",
+                              "surface-0002.csv"}, names)
+        for name in names - {"statistics.csv", "timings.csv"}:
             self.assert_same_file(whole / name, resumed / name)
         rows = [without_wall_time(run) for run in (whole, resumed)]
         self.assertEqual(len(rows[0]), 1 + N_ROWS)
@@ -130,19 +140,31 @@ class Killed(ProgramTest):
         self.execute(SCENE, *FINE, *arguments, output=output)
         return output
 
-    def test_at_random(self):
-        whole, chance, killed = self.whole(), random.Random(SEED), 0
+    def kill_at_random(self, *arguments):
+        """Kills ten runs at moments that are drawn, and resumes them; returns
+        the run that nothing interrupted."""
+        whole, chance, killed = self.whole(*arguments), random.Random(SEED), 0
         print(f"seed {SEED}")
         for n in range(10):
             row, delay = chance.randint(0, 29), chance.uniform(0, 0.03)
             print(f"kill -9 {delay * 1e3:.1f} ms after row {row}", flush=True)
             output = self.work / f"killed-{n}"
             with self.subTest(row=row, delay=delay):
-                killed += self.interrupt(output, row, delay)
-                self.resume(output)
+                killed += self.interrupt(output, row, delay, arguments)
+                self.resume(output, *arguments)
                 self.assert_same_run(whole, output)
         # on a machine that stands still in between, a run may be faster
         self.assertGreaterEqual(killed, 7)
+        return whole
+
+    def test_at_random(self):
+        self.kill_at_random()
+
+    def test_at_random_where_cells_die(self):
+        whole = self.kill_at_random(*DYING)
+        events = (whole / "events.csv").read_text()
+        self.assertGreater(events.count("death"), 10)
+        self.assertGreater(events.count("removal"), 10)
 
     def test_while_a_snapshot_is_written(self):
         """snapshot.h5.tmp is there and incomplete or not yet renamed."""

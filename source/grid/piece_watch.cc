@@ -5,6 +5,7 @@
 
 #include <deal.II/base/types.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Morula
@@ -101,6 +102,22 @@ namespace Morula
     return place;
   }
 
+  template <int dim>
+  unsigned int
+  pieces_with_cells(const SplineSpace<dim> &space)
+  {
+    std::vector<char> holds_cells(space.n_pieces(), false);
+    for (unsigned int number = 0; number < space.box().size(); ++number)
+      if (space.piece(number) != no_former &&
+          space.occupancy().n_particles(number) > 0)
+        holds_cells[space.piece(number)] = true;
+    return std::count(holds_cells.begin(), holds_cells.end(), true);
+  }
+
   template class PieceWatch<2>;
   template class PieceWatch<3>;
+  template unsigned int
+  pieces_with_cells(const SplineSpace<2> &);
+  template unsigned int
+  pieces_with_cells(const SplineSpace<3> &);
 } // namespace Morula

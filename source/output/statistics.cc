@@ -49,6 +49,7 @@ namespace Morula
         list.emplace_back("dying", number(death->dying));
         list.emplace_back("deaths", number(death->deaths));
         list.emplace_back("removed", number(death->removed));
+        list.emplace_back("pieces", number(death->pieces));
       }
     for (const FieldStatistics &field : fields)
       {

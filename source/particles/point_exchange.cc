@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace Morula
 {
@@ -91,6 +92,37 @@ namespace Morula
 
   template <int dim>
   PointList<dim>
+  of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
+  {
+    PointList<dim> all(own.n_numbers);
+    const auto     ids       = Utilities::MPI::all_gather(comm, own.ids);
+    const auto     positions = Utilities::MPI::all_gather(comm, own.positions);
+    const auto     numbers   = Utilities::MPI::all_gather(comm, own.numbers);
+    for (unsigned int rank = 0; rank < ids.size(); ++rank)
+      {
+        PointList<dim> part(own.n_numbers);
+        part.ids       = ids[rank];
+        part.positions = positions[rank];
+        part.numbers   = numbers[rank];
+        all.append(part);
+      }
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+      return all.ids[a] < all.ids[b];
+    });
+    PointList<dim> sorted(own.n_numbers);
+    sorted.reserve(all.size());
+    for (const std::size_t i : order)
+      sorted.add(all.ids[i],
+                 all.positions[i],
+                 ArrayView<const double>(all.row(i)));
+    return sorted;
+  }
+
+
+  template <int dim>
+  PointList<dim>
   send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid)
   {
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
@@ -131,6 +163,10 @@ namespace Morula
     return others;
   }
 
+  template PointList<2>
+  of_all_ranks(const PointList<2> &, const MPI_Comm);
+  template PointList<3>
+  of_all_ranks(const PointList<3> &, const MPI_Comm);
   template PointList<2>
   send_to_owners(const PointList<2> &, const BackgroundGrid<2> &);
   template PointList<3>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_coarsening.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -26,37 +26,6 @@ namespace Morula
     /** Cosine of the largest angle between the normals of patches that merge:
      *  not across an edge of the body. */
     constexpr double least_cosine = 0.5;
-
-    /** The list of what all ranks have, by id. */
-    template <int dim>
-    PointList<dim>
-    of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
-    {
-      PointList<dim> all(own.n_numbers);
-      const auto     ids   = Utilities::MPI::all_gather(comm, own.ids);
-      const auto positions = Utilities::MPI::all_gather(comm, own.positions);
-      const auto numbers   = Utilities::MPI::all_gather(comm, own.numbers);
-      for (unsigned int rank = 0; rank < ids.size(); ++rank)
-        {
-          PointList<dim> part(own.n_numbers);
-          part.ids       = ids[rank];
-          part.positions = positions[rank];
-          part.numbers   = numbers[rank];
-          all.append(part);
-        }
-      std::vector<std::size_t> order(all.size());
-      std::iota(order.begin(), order.end(), std::size_t(0));
-      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-        return all.ids[a] < all.ids[b];
-      });
-      PointList<dim> sorted(own.n_numbers);
-      sorted.reserve(all.size());
-      for (const std::size_t i : order)
-        sorted.add(all.ids[i],
-                   all.positions[i],
-                   ArrayView<const double>(all.row(i)));
-      return sorted;
-    }
 
     /** Patches that may merge, of all ranks, by id. */
     template <int dim>

@@ -3,22 +3,19 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/seeding/filling.h>
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/points_surface_mesh.h>
 #include <morula/seeding/share.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -28,102 +25,19 @@ namespace Morula
 {
   namespace
   {
-    namespace bgi = boost::geometry::index;
-
-    /** All cells, on rank 0. */
-    template <int dim>
-    struct AllCells
-    {
-      std::vector<Point<dim>> positions; // um
-      std::vector<double>     volumes;   // um^dim
-      double                  volume = 0.;
-      double                  length = 0.; // of the mean cell, um
-    };
-
+    /** The cells of all ranks, on rank 0. */
     template <int dim>
     AllCells<dim>
     gather(const Founders<dim> &founders, const MPI_Comm comm)
     {
-      AllCells<dim> all;
+      std::vector<Point<dim>> positions;
+      std::vector<double>     volumes;
       for (const auto &part : Utilities::MPI::gather(comm, founders.positions))
-        all.positions.insert(all.positions.end(), part.begin(), part.end());
+        positions.insert(positions.end(), part.begin(), part.end());
       for (const auto &part : Utilities::MPI::gather(comm, founders.volumes))
-        all.volumes.insert(all.volumes.end(), part.begin(), part.end());
-      for (const double V : all.volumes)
-        all.volume += V;
-      if (!all.volumes.empty())
-        all.length = std::pow(all.volume / all.volumes.size(), 1. / dim);
-      return all;
+        volumes.insert(volumes.end(), part.begin(), part.end());
+      return {positions, volumes};
     }
-
-    /**
-     * The part of space that cells fill, smoothed: each cell spreads its volume
-     * as a Gaussian. Of cells side by side on a lattice, whatever its
-     * direction, it is 1 inside, to 0.5 %, and 1/2 where they end:
-     * doc/theory.md (1.9).
-     */
-    template <int dim>
-    class Filling
-    {
-    public:
-      explicit Filling(const AllCells<dim> &cells)
-        : cells(cells)
-        , sigma(0.6 * cells.length)
-        , tree(pack_rtree_of_indices(cells.positions))
-      {}
-
-      std::pair<double, Tensor<1, dim>>
-      value_and_gradient(const Point<dim> &x) const
-      {
-        const double                      reach = 4. * sigma;
-        std::pair<Point<dim>, Point<dim>> corners(x, x);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            corners.first[d] -= reach;
-            corners.second[d] += reach;
-          }
-        std::vector<std::size_t> near;
-        tree.query(bgi::intersects(BoundingBox<dim>(corners)),
-                   std::back_inserter(near));
-        std::sort(near.begin(), near.end());
-        const double scale =
-          std::pow(2. * numbers::PI * sigma * sigma, -0.5 * dim);
-        std::pair<double, Tensor<1, dim>> result;
-        for (const std::size_t i : near)
-          {
-            const Tensor<1, dim> way = x - cells.positions[i];
-            const double         part =
-              scale * cells.volumes[i] *
-              std::exp(-0.5 * way.norm_square() / (sigma * sigma));
-            result.first += part;
-            result.second -= part / (sigma * sigma) * way;
-          }
-        return result;
-      }
-
-      /** The upper quartile over some cells: what it is inside. */
-      double
-      inside() const
-      {
-        constexpr std::size_t most = 1000;
-        const std::size_t     every =
-          std::max<std::size_t>(1, cells.positions.size() / most);
-        std::vector<double> values;
-        for (std::size_t i = 0; i < cells.positions.size(); i += every)
-          values.push_back(value_and_gradient(cells.positions[i]).first);
-        const auto quartile = values.begin() + values.size() * 3 / 4;
-        std::nth_element(values.begin(), quartile, values.end());
-        return *quartile;
-      }
-
-    private:
-      using Tree = decltype(pack_rtree_of_indices(
-        std::declval<const std::vector<Point<dim>> &>()));
-
-      const AllCells<dim> &cells;
-      const double         sigma;
-      const Tree           tree;
-    };
 
     /** Moves the vertices to where the filling falls to half, by no more than
      *  3/4 of a cell. */
@@ -341,24 +255,61 @@ namespace Morula
       return cut_into_patches(triangles, n_wished, PatchArea::projected);
     }
 
-    /** Refuses cells around which there is no common surface. */
+    /** A surface around cells, and how it fits them. */
     template <int dim>
-    void
-    check_surface(const TissueParameters   &parameters,
-                  const AllCells<dim>      &cells,
-                  const ClosedSurface<dim> &surface)
+    struct Enclosure
     {
-      const double ratio = enclosed_volume(surface) / cells.volume;
+      ClosedSurface<dim> surface;
+      std::size_t        n_parts;
+      double             volume_ratio; // of what it encloses to the cells'
+
+      /** Whether it is one around all cells rather than around each. */
+      bool
+      fits(const std::size_t n_cells) const
+      {
+        return volume_ratio > 0.5 && volume_ratio < 2. &&
+               (n_parts == 1 || 2 * n_parts <= n_cells);
+      }
+    };
+
+    template <int dim>
+    std::size_t
+    count_parts(const ClosedSurface<dim> &surface)
+    {
       boost::disjoint_sets_with_storage<> bodies(surface.vertices.size());
       std::vector<std::size_t>            all(surface.vertices.size());
       std::iota(all.begin(), all.end(), 0);
       for (const auto &facet : surface.facets)
         for (const unsigned int v : facet)
           bodies.union_set(std::size_t(facet[0]), std::size_t(v));
-      const std::size_t n = bodies.count_sets(all.begin(), all.end());
-      if (ratio > 0.5 && ratio < 2. &&
-          (n == 1 || 2 * n <= cells.volumes.size()))
+      return bodies.count_sets(all.begin(), all.end());
+    }
+
+    template <int dim>
+    Enclosure<dim>
+    enclose(const AllCells<dim> &cells)
+    {
+      ClosedSurface<dim> surface = wrap_points(cells.positions, cells.length);
+      if constexpr (dim == 2)
+        cut_segments(0.5 * cells.length, surface);
+      move_to_half(cells, surface);
+      match_volume(cells, surface);
+      const std::size_t n_parts = count_parts(surface);
+      const double      ratio   = enclosed_volume(surface) / cells.volume;
+      return {std::move(surface), n_parts, ratio};
+    }
+
+    /** Refuses cells around which there is no common surface. */
+    template <int dim>
+    void
+    check_surface(const TissueParameters &parameters,
+                  const AllCells<dim>    &cells,
+                  const Enclosure<dim>   &enclosure)
+    {
+      if (enclosure.fits(cells.volumes.size()))
         return;
+      const std::size_t  n     = enclosure.n_parts;
+      const double       ratio = enclosure.volume_ratio;
       std::ostringstream found;
       found << "It would have " << n << (n == 1 ? " part" : " parts") << " for "
             << cells.volumes.size() << " cells and enclose " << as_text(ratio)
@@ -374,18 +325,22 @@ namespace Morula
           "Points surface = none.");
     }
 
+    /** The surface in about so many patches. */
     template <int dim>
-    ClosedSurface<dim>
-    surface_around(const TissueParameters &parameters,
-                   const AllCells<dim>    &cells)
+    SurfacePatches<dim>
+    tiled(const ClosedSurface<dim> &surface, const double n_wished)
     {
-      ClosedSurface<dim> surface = wrap_points(cells.positions, cells.length);
-      if constexpr (dim == 2)
-        cut_segments(0.5 * cells.length, surface);
-      move_to_half(cells, surface);
-      match_volume(cells, surface);
-      check_surface(parameters, cells, surface);
-      return surface;
+      SurfacePatches<dim> all;
+      for (const SurfacePatch<dim> &patch : patches(
+             surface,
+             static_cast<std::uint64_t>(std::max(1., std::round(n_wished)))))
+        {
+          all.positions.push_back(patch.position);
+          all.normals.push_back(patch.normal);
+          all.areas.push_back(patch.area);
+        }
+      all.n_global = all.areas.size();
+      return all;
     }
 
     /** This rank's share of what rank 0 has. */
@@ -419,21 +374,27 @@ namespace Morula
     const AllCells<dim> cells = gather(founders, comm);
     SurfacePatches<dim> all;
     on_root(comm, [&]() {
-      const ClosedSurface<dim> surface = surface_around(parameters, cells);
-      const double             n_by_length =
-        std::round(total_area(surface) / std::pow(cells.length, dim - 1));
-      for (const SurfacePatch<dim> &patch :
-           patches(surface,
-                   parameters.boundary_points > 0 ?
-                     parameters.boundary_points :
-                     static_cast<std::uint64_t>(std::max(1., n_by_length))))
-        {
-          all.positions.push_back(patch.position);
-          all.normals.push_back(patch.normal);
-          all.areas.push_back(patch.area);
-        }
+      const Enclosure<dim> enclosure = enclose(cells);
+      check_surface(parameters, cells, enclosure);
+      all = tiled(enclosure.surface,
+                  parameters.boundary_points > 0 ?
+                    parameters.boundary_points :
+                    total_area(enclosure.surface) /
+                      std::pow(cells.length, dim - 1));
     });
     return shares(all, comm);
+  }
+
+  template <int dim>
+  std::optional<SurfacePatches<dim>>
+  surface_around(const std::vector<Point<dim>> &positions,
+                 const std::vector<double>     &volumes,
+                 const double                   patch_area)
+  {
+    const Enclosure<dim> enclosure = enclose(AllCells<dim>(positions, volumes));
+    if (!enclosure.fits(volumes.size()))
+      return {};
+    return tiled(enclosure.surface, total_area(enclosure.surface) / patch_area);
   }
 
   template SurfacePatches<2>
@@ -444,4 +405,12 @@ namespace Morula
   seed_points_surface(const TissueParameters &,
                       const Founders<3> &,
                       const MPI_Comm);
+  template std::optional<SurfacePatches<2>>
+  surface_around(const std::vector<Point<2>> &,
+                 const std::vector<double> &,
+                 const double);
+  template std::optional<SurfacePatches<3>>
+  surface_around(const std::vector<Point<3>> &,
+                 const std::vector<double> &,
+                 const double);
 } // namespace Morula

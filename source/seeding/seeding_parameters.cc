@@ -92,6 +92,15 @@ namespace Morula
         "area at t = 0, and split it again where it is twice that, for tissue "
         "that shrinks. Area and enclosed volume are kept. Needs Refine "
         "surface.")
+    , renew_surface(
+        "Tissue/Renew surface",
+        0.,
+        "Time after which the surface is made anew around the cells, as around "
+        "points from a file, and at once when boundary points have lost "
+        "the cells near them or are carried off: for tissue that is lost, parts, joins or turns over. "
+        "Points that are held stay. 0: never. Needs Coarsen surface. Units: "
+        "day.",
+        {0.})
   {}
 
 
@@ -110,7 +119,8 @@ namespace Morula
             &surface_cells,
             &boundary_points,
             &refine_surface,
-            &coarsen_surface};
+            &coarsen_surface,
+            &renew_surface};
   }
 
 
@@ -245,6 +255,10 @@ namespace Morula
       coarsen_surface.refuse("false, as Tissue/Refine surface = false",
                              "What is merged must be split again: set Refine "
                              "surface = true.");
+    if (renew_surface > 0. && !coarsen_surface)
+      renew_surface.refuse("0, as Tissue/Coarsen surface = false",
+                           "Between two renewals patches are split and merged: "
+                           "set Coarsen surface = true.");
 
     if (shape == "mesh" || shape == "points")
       return; // their files are judged when they are read

@@ -5,8 +5,7 @@
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/surface_coarsening.h>
-#include <morula/particles/surface_refinement.h>
+#include <morula/particles/even_fill.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -150,6 +149,7 @@ namespace Morula
     clipped.clear();
     const SplineSpace<dim> space = splines();
     tell_of_joined_pieces(space);
+    count_pieces(space);
     solve_steady_fields(space);
     const RigidModes<dim> modes = rigid_modes(space);
     Equilibrium::Vector   u;
@@ -163,8 +163,17 @@ namespace Morula
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
+    const PointList<dim> former =
+      renews_surface() ? tissue.boundary_points().copy() : PointList<dim>();
     remove_the_dead();
-    refine_stretched_surface(space);
+    if (renews_surface())
+      {
+        even_out_fill(tissue,
+                      space.occupancy(),
+                      std::min(1., row.dt / scene.tissue.renew_surface));
+        renew_surface(former, row.dt);
+      }
+    refine_stretched_surface(space, former);
     complete_row(space);
   }
 
@@ -183,24 +192,6 @@ namespace Morula
     tissue.defragment(); // here, where a step holds least memory
     return tissue.splines(material.volumetric_form() !=
                           VolumetricStrain::pointwise);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::tell_of_joined_pieces(const SplineSpace<dim> &space)
-  {
-    const std::optional<Point<dim>> place = piece_watch.joined(space);
-    if (!place || pieces_have_joined)
-      return;
-    pieces_have_joined = true;
-    std::ostringstream text;
-    text << "Warning: at t = " << time_steps.time()
-         << " day two parts of the tissue have come within a grid spacing of "
-         << "each other near (" << *place << ") um. From now on they stick "
-         << "together there, though their cells may not touch yet "
-         << "(doc/faq.md, bodies that stick). A smaller Grid/Spacing lets them "
-         << "come closer. Later ones are not told of.";
-    files->message(text.str());
   }
 
   template <int dim>
@@ -243,52 +234,6 @@ namespace Morula
   {
     if (condition)
       files->condition(n_steps, row.time - row.dt, *condition);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::refine_surface(
-    const std::function<bool(const Point<dim> &)> &crowded)
-  {
-    if (!scene.tissue.refine_surface)
-      return;
-    const TimerOutput::Scope section(timer, "surface refinement");
-    PointList<dim>           points       = tissue.boundary_points().copy();
-    const auto              &columns      = tissue.boundary_points().columns();
-    const double             longest_edge = 0.5 * scene.grid.spacing;
-    const bool               has_merged   = scene.tissue.coarsen_surface &&
-                            coarsen_surface<dim>(
-                              points,
-                              columns,
-                              longest_edge,
-                              [this](const auto &a, const auto &b) {
-                                return boundary_conditions.alike(a, b);
-                              },
-                              comm);
-    const bool has_split = Morula::refine_surface(
-      points, columns, longest_edge, crowded, next_boundary_id, comm);
-    if (has_merged || has_split)
-      tissue.replace_surface(points);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::refine_stretched_surface(const SplineSpace<dim> &space)
-  {
-    try
-      {
-        refine_surface([&space](const Point<dim> &x) {
-          return space.occupancy().crowded(x);
-        });
-      }
-    catch (const SurfaceTorn &error)
-      {
-        // This step is done; the next one could not be.
-        complete_row(space);
-        write_rows();
-        ++n_steps;
-        give_up(error.what() + std::string("."));
-      }
   }
 
   template <int dim>

@@ -327,7 +327,8 @@ namespace Morula
     state.lengths = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
     if (scene.has_death())
-      state.death = DeathCounts{Utilities::MPI::sum(dying, comm)};
+      state.death =
+        DeathCounts{Utilities::MPI::sum(dying, comm), 0, 0, n_pieces};
     Utilities::MPI::sum(of_types, comm, of_types);
     for (std::size_t type = 0; type < of_types.size(); ++type)
       state.cells_of_types.emplace_back(development.state().type_names()[type],
@@ -342,6 +343,7 @@ namespace Morula
   {
     first_splines.emplace(splines());
     solve_steady_fields(*first_splines);
+    count_pieces(*first_splines);
     row = statistics();
     count_splines(*first_splines, row);
   }

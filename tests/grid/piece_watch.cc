@@ -85,7 +85,12 @@ TEST(PieceWatch,
      TellsWherePartsOfTheTissueJoin){MORULA_BOTH_DIMENSIONS(check_joining)}
 
 
-TEST(PieceWatch, ComparesPiecesNotTheirNumber)
+TEST(PieceWatch,
+     ComparesPiecesNotTheirNumber){MORULA_BOTH_DIMENSIONS(check_other_pieces)}
+
+
+TEST(PieceWatch, CountsPiecesThatHoldCells)
 {
-  MORULA_BOTH_DIMENSIONS(check_other_pieces)
+  EXPECT_EQ(pieces_with_cells(*blocks<2>({0.}).space), 1u);
+  EXPECT_EQ(pieces_with_cells(*blocks<3>({-14., -4., 2.}).space), 3u);
 }

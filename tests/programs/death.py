@@ -192,6 +192,55 @@ class Death(ProgramTest):
             run.surface(1)[run.surface(1)["x"] < 40]["x"],
             run.surface(-1)["x"])
 
+    def test_last_cells(self):
+        """Cells die until one is left of each piece, and then of all: also one
+        cell has a state of equilibrium, and the run ends without any."""
+        output, process = self.run_disc({
+            "Death/Shrinking time": "0",
+            "Death/When": "abs(X) > 10 || abs(Y) > 10"
+                          " || t >= 0.4*(noise > 0.5) + 0.4*(X > 0)"})
+        self.assertIn("Finished: all cells are dead", process.text)
+        table = Run(output).statistics
+        self.assertIn(1, {*table["cells"]} | {*table["pieces"]})
+        self.assertEqual(table["cells"].iloc[-1], 0)
+        self.assertEqual(table["rejected_steps"].sum(), 0)
+
+    def test_with_obstacles_and_coarsening(self):
+        """Half of the cells on a plate die. The rest is as large as it was, and
+        under little stress: what was left of its dead neighbours has stretched
+        it beside them. Its surface is closed where they were."""
+        box = {"Tissue/Shape": "box", "Tissue/Size": "120, 60, 60",
+               "Tissue/Cell spacing": "10", "Tissue/Refine surface": "true",
+               "Tissue/Coarsen surface": "true",
+               "Tissue/Renew surface": "0.5",
+               "Material/Relaxation time": "0.05",
+               "Obstacles/Names": "plate"}
+        plate = "Obstacles/plate/"
+        output, _ = self.run_disc({
+            **box, plate + "Shape": "plane", plate + "Center": "0, -29.5, 0",
+            plate + "Normal": "0, 1, 0", "Time/End time": "1.5",
+            "Death/When": "X > 0 && t >= 0.25"})
+        run = Run(output)
+        last = run.statistics.iloc[-1]
+        self.assertEqual(last["cells"], 36)
+        self.assertEqual(last["dying"], 0)
+        self.assertAlmostEqual(last["total_volume"] / 3600, 1, delta=0.02)
+        self.assertLess(last["mean_energy_density"], 0.02)
+        surface = run.surface(-1)
+        self.assertLess(surface["x"].max(), run.cells(-1)["x"].max() + 10)
+        self.assertLess(abs((surface["nx"] * surface["area"]).sum()), 1e-6)
+
+    def test_pieces(self):
+        """A bar is cut: two pieces, which the user is told once."""
+        output, process = self.run_disc({
+            "Tissue/Shape": "box", "Tissue/Size": "300, 50, 50",
+            "Death/Shrinking time": "0",
+            "Death/When": "abs(X) < 50 && t >= 0.25"})
+        self.assertEqual([*Run(output).statistics["pieces"]],
+                         [1, 1, 1, 1, 2, 2, 2, 2, 2])
+        self.assertEqual(process.text.count("the tissue has parted"), 1)
+        self.assertIn("it has 2 pieces now, and had 1", process.text)
+
     def test_rates_that_become_negative(self):
         keys = {"Death/Rate": "0.35 - t"}
         for more in ((), ("--resume",)):

@@ -37,6 +37,12 @@ namespace Morula
     GridBox<dim>              box;
     std::vector<unsigned int> pieces; // by grid cell
   };
+
+  /** How many pieces of the tissue hold cells. All ranks get the same answer
+   *  without communication. */
+  template <int dim>
+  unsigned int
+  pieces_with_cells(const SplineSpace<dim> &space);
 } // namespace Morula
 
 #endif

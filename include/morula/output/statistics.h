@@ -21,6 +21,7 @@ namespace Morula
     std::uint64_t dying   = 0; // dead cells that are still there
     std::uint64_t deaths  = 0; // in this step
     std::uint64_t removed = 0; // in this step
+    std::uint64_t pieces  = 0; // that hold cells, on the grid of the step
   };
 
   /** What statistics.csv says of a field. */

@@ -18,6 +18,11 @@ namespace Morula
   PointList<dim>
   send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
 
+  /** The points of all ranks, by id. Collective. */
+  template <int dim>
+  PointList<dim>
+  of_all_ranks(const PointList<dim> &own, const MPI_Comm comm);
+
   /**
    * Copies of other ranks' points that may lie within @p reach (µm) of a
    * position in one of this rank's grid cells. Collective.

@@ -8,6 +8,9 @@
 
 #include <mpi.h>
 
+#include <optional>
+#include <vector>
+
 namespace Morula
 {
   using namespace dealii;
@@ -30,6 +33,19 @@ namespace Morula
   seed_points_surface(const TissueParameters &parameters,
                       const Founders<dim>    &founders,
                       const MPI_Comm          comm);
+
+  /**
+   * The same surface around cells at these positions (µm) with these volumes
+   * (µm^dim), in patches of about @p patch_area (µm^(dim-1)).
+   * @return nothing where the cells have no common surface: it would enclose
+   * less than half or more than twice their volume, or have more parts than
+   * half the cells
+   */
+  template <int dim>
+  std::optional<SurfacePatches<dim>>
+  surface_around(const std::vector<Point<dim>> &positions,
+                 const std::vector<double>     &volumes,
+                 const double                   patch_area);
 } // namespace Morula
 
 #endif

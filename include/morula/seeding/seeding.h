@@ -48,6 +48,7 @@ namespace Morula
     Key<unsigned int>        boundary_points;
     Key<bool>                refine_surface;
     Key<bool>                coarsen_surface;
+    Key<double>              renew_surface;
 
     using Keys::list;
     KeyList

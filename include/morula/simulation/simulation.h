@@ -102,6 +102,8 @@ namespace Morula
     void
     tell_of_joined_pieces(const SplineSpace<dim> &space);
     void
+    count_pieces(const SplineSpace<dim> &space);
+    void
     solve_step(const SplineSpace<dim> &space,
                const RigidModes<dim>  &rigid_modes,
                Equilibrium::Vector    &u);
@@ -140,8 +142,19 @@ namespace Morula
     field_statistics() const;
     void
     refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
+    /** @param former points before the step lost any, where the scene renews
+     *  the surface */
     void
-    refine_stretched_surface(const SplineSpace<dim> &space);
+    refine_stretched_surface(const SplineSpace<dim> &space,
+                             const PointList<dim>   &former);
+    bool
+    renews_surface() const;
+    /** Where it is time, or the step has lost points. @param dt day */
+    void
+    renew_surface(const PointList<dim> &former, const double dt);
+    /** Whether that can be done. Collective. */
+    bool
+    make_surface_anew(const PointList<dim> &former);
     void
     divide();
     void
@@ -227,6 +240,8 @@ namespace Morula
 
     PieceWatch<dim> piece_watch;
     bool            pieces_have_joined = false; // and the user knows
+    unsigned int    n_pieces           = 0;     // counted if cells die
+    bool            pieces_have_parted = false; // and so on
 
     bool warned_of_long_cells = false; // once a run, or before it started
     bool warned_of_fields     = false; // that did not converge

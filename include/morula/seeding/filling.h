@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_filling_h
+#define morula_seeding_filling_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <utility>
+#include <vector>
+
+namespace Morula
+{
+  using namespace dealii;
+
+  /** Where cells are, and how large. */
+  template <int dim>
+  struct AllCells
+  {
+    AllCells(const std::vector<Point<dim>> &positions,
+             const std::vector<double>     &volumes);
+
+    const std::vector<Point<dim>> positions; // µm
+    const std::vector<double>     volumes;   // µm^dim
+    /** Of all of them, µm^dim. */
+    double volume;
+    /** Of the mean cell, µm; 0 if there are no cells. */
+    double length;
+  };
+
+  /**
+   * The part of space that cells fill, smoothed: each cell spreads its volume
+   * as a Gaussian. Of cells side by side on a lattice, whatever its
+   * direction, it is 1 inside, to 0.5 %, and 1/2 where they end:
+   * doc/theory.md (1.9).
+   */
+  template <int dim>
+  class Filling
+  {
+  public:
+    /** @param cells must outlive this */
+    explicit Filling(const AllCells<dim> &cells);
+
+    /** Its value and gradient (1/µm) at @p x (µm). */
+    std::pair<double, Tensor<1, dim>>
+    value_and_gradient(const Point<dim> &x) const;
+
+    /** The upper quartile over some cells: what it is inside. */
+    double
+    inside() const;
+
+  private:
+    using Tree = decltype(pack_rtree_of_indices(
+      std::declval<const std::vector<Point<dim>> &>()));
+
+    const AllCells<dim> &cells;
+    const double         sigma;
+    const Tree           tree;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/particles/point_exchange.h>
+#include <morula/seeding/points_surface.h>
+#include <morula/seeding/surface_renewal.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    namespace bgi = boost::geometry::index;
+
+    /** How near to a held point a patch is the same part of the surface, in
+     *  sides of a patch, and the cosine of the largest angle between them. */
+    constexpr double beside = 1.5, least_cosine = 0.5;
+
+    /** Former points of all ranks, by id, to find the nearest one. */
+    template <int dim>
+    class FormerPoints
+    {
+    public:
+      FormerPoints(const PointList<dim>       &points,
+                   const BoundaryColumns<dim> &columns)
+        : points(points)
+        , columns(columns)
+        , tree(pack_rtree_of_indices(points.positions))
+      {}
+
+      BoundaryView<dim>
+      operator[](const std::size_t i) const
+      {
+        return {points.row(i), columns};
+      }
+
+      /** The point nearest to @p x (µm) of this kind: held or not; nothing if
+       *  there is none. */
+      std::optional<std::size_t>
+      nearest(const Point<dim> &x, const bool held) const
+      {
+        std::vector<std::size_t> found;
+        tree.query(bgi::nearest(x, 1) &&
+                     bgi::satisfies(
+                       [&](const std::size_t i) { return is_held(i) == held; }),
+                   std::back_inserter(found));
+        return found.empty() ? std::optional<std::size_t>() : found[0];
+      }
+
+      bool
+      is_held(const std::size_t i) const
+      {
+        const SurfaceCondition condition = (*this)[i].condition();
+        return condition == SurfaceCondition::fixed ||
+               condition == SurfaceCondition::slip;
+      }
+
+      /** Mean area that a patch shall have, µm^(dim-1). */
+      double
+      wanted_area(const double longest_edge) const
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < points.size(); ++i)
+          sum += (*this)[i].wanted_area(longest_edge);
+        return sum / points.size();
+      }
+
+      const PointList<dim>       &points;
+      const BoundaryColumns<dim> &columns;
+
+    private:
+      using Tree = decltype(pack_rtree_of_indices(
+        std::declval<const std::vector<Point<dim>> &>()));
+      const Tree tree;
+    };
+
+    /** Whether the patch is that of a held point, which stays. */
+    template <int dim>
+    bool
+    is_beside_held(const FormerPoints<dim> &present,
+                   const Point<dim>        &x,
+                   const Tensor<1, dim>    &n,
+                   const double             side)
+    {
+      const auto i = present.nearest(x, true);
+      if (!i || present.points.positions[*i].distance(x) > beside * side)
+        return false;
+      const Tensor<1, dim> area = present[*i].area_vector();
+      return area * n > least_cosine * area.norm();
+    }
+
+    /** Adds a point whose patch is new to a list, like its nearest former one.
+     */
+    template <int dim>
+    void
+    add_patch(const FormerPoints<dim>    &former,
+              const types::particle_index id,
+              const Point<dim>           &x,
+              const Tensor<1, dim>       &area,
+              PointList<dim>             &list)
+    {
+      const auto          like = former.nearest(x, false);
+      std::vector<double> row;
+      if (like)
+        row.assign(former.points.row(*like).begin(),
+                   former.points.row(*like).end());
+      else
+        row = former.columns.initial_point(x,
+                                           area / area.norm(),
+                                           area.norm(),
+                                           SurfaceCondition::free);
+      // doc/theory.md (4.12e)
+      former.columns.set_square_patch(make_array_view(row),
+                                      Tensor<2, dim>(
+                                        unit_symmetric_tensor<dim>()),
+                                      area);
+      list.add(id, x, make_array_view(row));
+    }
+
+    /** Positions and present volumes (µm^dim) of the cells of all ranks. */
+    template <int dim>
+    PointList<dim>
+    volumes_of_all_ranks(const Cells<dim> &cells, const MPI_Comm comm)
+    {
+      PointList<dim> own(1);
+      own.reserve(cells.size());
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        own.add_value(cells.id(p), cells.position(p), cells.volume(p));
+      return of_all_ranks(own, comm);
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::optional<PointList<dim>>
+  renewed_surface(const Cells<dim>           &cells,
+                  const PointList<dim>       &former,
+                  const PointList<dim>       &present,
+                  const BoundaryColumns<dim> &columns,
+                  const double                longest_edge,
+                  types::particle_index      &next_id,
+                  const MPI_Comm              comm)
+  {
+    const PointList<dim> all         = volumes_of_all_ranks(cells, comm);
+    const PointList<dim> all_former  = of_all_ranks(former, comm);
+    const PointList<dim> all_present = of_all_ranks(present, comm);
+    const bool           is_possible = all.size() > 0 && all_former.size() > 0;
+    if (!is_possible)
+      return {};
+    PointList<dim>        list(columns.n_numbers());
+    types::particle_index n_new = 0;
+    bool                  found = false;
+    on_root(comm, [&]() {
+      const FormerPoints<dim> like(all_former, columns);
+      const FormerPoints<dim> kept(all_present, columns);
+      const double            wanted = like.wanted_area(longest_edge);
+      const auto patches = surface_around(all.positions, all.numbers, wanted);
+      if (!patches)
+        return;
+      found = true;
+      for (std::size_t i = 0; i < all_present.size(); ++i)
+        if (kept.is_held(i))
+          list.add(all_present.ids[i],
+                   all_present.positions[i],
+                   ArrayView<const double>(all_present.row(i)));
+      for (std::size_t k = 0; k < patches->areas.size(); ++k)
+        {
+          const Point<dim>     x = patches->positions[k];
+          const Tensor<1, dim> n = patches->normals[k];
+          if (!is_beside_held(kept, x, n, std::pow(wanted, 1. / (dim - 1))))
+            add_patch(like, next_id + n_new++, x, patches->areas[k] * n, list);
+        }
+    });
+    next_id += Utilities::MPI::broadcast(comm, n_new, 0);
+    if (!Utilities::MPI::broadcast(comm, found, 0))
+      return {};
+    return list;
+  }
+
+#define INSTANTIATE(dim)                                  \
+  template std::optional<PointList<dim>> renewed_surface( \
+    const Cells<dim> &,                                   \
+    const PointList<dim> &,                               \
+    const PointList<dim> &,                               \
+    const BoundaryColumns<dim> &,                         \
+    const double,                                         \
+    types::particle_index &,                              \
+    const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -40,6 +40,9 @@ namespace Morula
      *  that must have room outside of it, in lengths of a cell. */
     constexpr double offset = 0.5, alpha = 2.;
 
+    /** Fewer cells are surrounded by points first. */
+    constexpr std::size_t few = 9;
+
     /** CGAL shuffles points before it inserts them. With the same numbers each
      *  time, the same cells have the same surface. */
     void
@@ -94,6 +97,22 @@ namespace Morula
         }
     }
 
+    /** Points round each, halfway to the first surface. Few points have a wrap
+     * of few triangles, which need not have them inside. */
+    std::vector<Kernel::Point_3>
+    surrounded(const std::vector<Kernel::Point_3> &points, const double length)
+    {
+      std::vector<Kernel::Point_3> around;
+      for (const Kernel::Point_3 &x : points)
+        for (const double way : {-0.5 * offset * length, 0.5 * offset * length})
+          {
+            around.push_back(x + Kernel::Vector_3(way, 0., 0.));
+            around.push_back(x + Kernel::Vector_3(0., way, 0.));
+            around.push_back(x + Kernel::Vector_3(0., 0., way));
+          }
+      return around;
+    }
+
     /** A closed mesh. */
     struct Wrap
     {
@@ -125,14 +144,17 @@ namespace Morula
                 return other.contains(center) == other.is_cavity;
               }))
             continue;
+          // CGAL 5.5 reads the last parameters, CGAL 6 those before
           std::vector<Kernel::Point_3> seeds = {center};
+          const auto                   from_seeds =
+            CGAL::parameters::seed_points(std::ref(seeds));
           found.emplace_back();
           CGAL::alpha_wrap_3(points,
                              alpha * length,
                              offset * length,
                              found.back().mesh,
-                             CGAL::parameters::default_values(),
-                             CGAL::parameters::seed_points(std::ref(seeds)));
+                             from_seeds,
+                             from_seeds);
           // else it has leaked out, and is outer again
           found.back().is_cavity = found.back().contains(center);
         }
@@ -148,6 +170,8 @@ namespace Morula
     std::vector<Kernel::Point_3> centers;
     for (const Point<3> &x : points)
       centers.emplace_back(x[0], x[1], x[2]);
+    if (points.size() < few)
+      centers = surrounded(centers, length);
     Wrap outer;
     CGAL::alpha_wrap_3(centers, alpha * length, offset * length, outer.mesh);
     ClosedSurface<3> surface;

@@ -27,14 +27,21 @@ namespace Morula
 
 
   std::string
-  reason_against_variable(const std::string &name)
+  reason_against_section(const std::string &name)
   {
     const bool plain =
-      !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
-      std::all_of(name.begin(), name.end(), [](const char c) {
+      !name.empty() && std::all_of(name.begin(), name.end(), [](const char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
       });
-    if (!plain)
+    return plain ? "" : "Names have letters, digits and '_'.";
+  }
+
+
+  std::string
+  reason_against_variable(const std::string &name)
+  {
+    if (!reason_against_section(name).empty() ||
+        !std::isalpha(static_cast<unsigned char>(name[0])))
       return "Names have letters, digits and '_', and begin with a letter.";
     if (!is_free_name(name))
       return "Expressions have a variable or function of this name: choose "
@@ -62,5 +69,13 @@ namespace Morula
                              (reason.empty() ? "it is there twice." : reason));
       }
     return list;
+  }
+
+
+  void
+  place_in(const KeyList &keys, const std::string &section)
+  {
+    for (AnyKey *key : keys)
+      key->place_in(section);
   }
 } // namespace Morula

@@ -16,6 +16,10 @@ namespace Morula
   std::vector<std::string>
   split_names(const std::string &text);
 
+  /** Why a section cannot have this name; empty if it can. */
+  std::string
+  reason_against_section(const std::string &name);
+
   /** Why a name cannot stand in an expression; empty if it can. */
   std::string
   reason_against_variable(const std::string &name);
@@ -30,6 +34,33 @@ namespace Morula
     const AnyKey                                          &key,
     const std::string                                     &text,
     const std::function<std::string(const std::string &)> &reason_against);
+
+  /** Puts keys into a section: "Key" becomes "Section/Key". */
+  void
+  place_in(const KeyList &keys, const std::string &section);
+
+  /** The key that names sections, and those of the sections. */
+  template <typename Sections>
+  KeyList
+  keys_of_all(AnyKey &names, Sections &sections)
+  {
+    KeyList list{&names};
+    for (auto &section : sections)
+      for (AnyKey *key : section.list())
+        list.push_back(key);
+    return list;
+  }
+
+  /** The names of sections. */
+  template <typename Sections>
+  std::vector<std::string>
+  names_of(const Sections &sections)
+  {
+    std::vector<std::string> list;
+    for (const auto &section : sections)
+      list.push_back(section.name);
+    return list;
+  }
 } // namespace Morula
 
 #endif

@@ -11,12 +11,6 @@ namespace Morula
   namespace
   {
     const std::string section_of_types = "Cell types/";
-
-    std::string
-    type_path(const std::string &type, const std::string &key)
-    {
-      return section_of_types + type + "/" + key;
-    }
   } // namespace
 
 
@@ -25,23 +19,23 @@ namespace Morula
                              const std::vector<const ExpressionKey *> &of_cells,
                              const std::string &growth_laws)
     : name(name)
-    , where(type_path(name, "Where"),
+    , where("Where",
             "",
             "Founders for which this is > 0 are of this type; of several types "
             "the last one counts, and the first type is that of all others. An "
             "expression of X, Y, Z (um).",
             Evaluated::founder)
-    , daughters(type_path(name, "Daughter types"),
+    , daughters("Daughter types",
                 "",
                 "Types of the two daughters, the one at -n_s first; empty: the "
                 "mother's. E.g. stem, transit.")
-    , growth_law(type_path(name, "Growth/Law"),
+    , growth_law("Growth/Law",
                  "",
                  "none, or the law by which cells of this type grow; empty: "
                  "that of all.",
                  {"|none|" + growth_laws})
     , proliferation_law(
-        type_path(name, "Proliferation/Law"),
+        "Proliferation/Law",
         "",
         "none, or how cells of this type proliferate; empty: "
         "as all. Cells that are past the onset of S divide, and "
@@ -50,7 +44,7 @@ namespace Morula
   {
     for (const std::string &other : others)
       {
-        transitions.emplace_back(type_path(name, "Transitions/To " + other),
+        transitions.emplace_back("Transitions/To " + other,
                                  "0",
                                  "Rate at which cells of this type become " +
                                    other +
@@ -60,6 +54,7 @@ namespace Morula
         transitions.back().not_negative("1/day",
                                         "0 lets cells keep their type.");
       }
+    place_in(list(), section_of_types + name);
     for (const ExpressionKey *key : of_cells)
       overrides.push_back(key->in_section_of_type(section_of_types + name));
   }
@@ -68,7 +63,7 @@ namespace Morula
   std::string
   CellTypeKeys::path_of(const AnyKey &key) const
   {
-    return type_path(name, key.path());
+    return section_of_types + name + "/" + key.path();
   }
 
 
@@ -107,10 +102,7 @@ namespace Morula
   std::vector<std::string>
   CellTypesParameters::name_list() const
   {
-    std::vector<std::string> list;
-    for (const CellTypeKeys &type : types)
-      list.push_back(type.name);
-    return list;
+    return names_of(types);
   }
 
 
@@ -188,10 +180,6 @@ namespace Morula
   KeyList
   CellTypesParameters::list()
   {
-    KeyList list{&names};
-    for (CellTypeKeys &type : types)
-      for (AnyKey *key : type.list())
-        list.push_back(key);
-    return list;
+    return keys_of_all(names, types);
   }
 } // namespace Morula

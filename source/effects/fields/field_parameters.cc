@@ -12,14 +12,6 @@ namespace Morula
 {
   namespace
   {
-    const std::string section_of_fields = "Fields/";
-
-    std::string
-    field_path(const std::string &field, const std::string &key)
-    {
-      return section_of_fields + field + "/" + key;
-    }
-
     /** Columns of tables have such names. */
     std::string
     reason_against_field(const std::string &name)
@@ -37,23 +29,23 @@ namespace Morula
 
   FieldKeys::FieldKeys(const std::string &name)
     : name(name)
-    , time(field_path(name, "Time"),
+    , time("Time",
            "steady",
            "steady: in each configuration the field has its steady state. "
            "transient: it changes with time.",
            {"steady|transient"})
-    , diffusion(field_path(name, "Diffusion"),
+    , diffusion("Diffusion",
                 "",
                 "Diffusion coefficient D, an expression of the cells' state; > "
                 "0. Units: um^2/day.",
                 Evaluated::step)
     , production(
-        field_path(name, "Production"),
+        "Production",
         "0",
         "What a cell makes of it per time and volume, an expression of "
         "the cell's state; not negative. In the field's unit per day.",
         Evaluated::step)
-    , consumption(field_path(name, "Consumption"),
+    , consumption("Consumption",
                   "0",
                   "Rate k at which a cell uses it up, k times the field, an "
                   "expression of the cell's state, which may read the field "
@@ -61,34 +53,35 @@ namespace Morula
                   "1/day.",
                   Evaluated::step)
     , initial(
-        field_path(name, "Initial"),
+        "Initial",
         "0",
         "The field at t = 0, at which a steady field is sought first; not "
         "negative. An expression of X, Y, Z (um).",
         Evaluated::founder)
     , fixed_where(
-        field_path(name, "Fixed where"),
+        "Fixed where",
         "",
         "At boundary points at which this is > 0 the field has Value; "
         "empty: nowhere. An expression of X, Y, Z (um).",
         Evaluated::founder)
-    , value(field_path(name, "Value"),
+    , value("Value",
             "0",
             "The field at the fixed boundary points, and outside of the others "
             "if there is a Transfer; not negative. An expression of X, Y, Z "
             "(um), t (day).",
             Evaluated::place)
-    , transfer(field_path(name, "Transfer"),
+    , transfer("Transfer",
                "",
                "At boundary points that are not fixed -D dc/dn = Transfer (c - "
                "Value); not negative; empty: nothing passes there. An "
                "expression of X, Y, Z (um), t (day). Units: um/day.",
                Evaluated::place)
-    , dilution(field_path(name, "Dilution"),
+    , dilution("Dilution",
                true,
                "Whether a transient field becomes less where cells grow, so "
                "that its amount stays. The steady state knows no dilution.")
   {
+    place_in(list(), "Fields/" + name);
     diffusion.positive("um^2/day", "Oxygen has about 1.7e8.");
     production.not_negative("a day", "What a cell uses up is Consumption.");
     consumption.not_negative("1/day", "What a cell makes is Production.");
@@ -150,7 +143,7 @@ namespace Morula
 
 
   FieldsParameters::FieldsParameters()
-    : names(section_of_fields + "Names",
+    : names("Fields/Names",
             "",
             "Fields that diffuse through the tissue, separated by commas. Each "
             "has a section of this name, and expressions of cells may have its "
@@ -179,10 +172,7 @@ namespace Morula
   std::vector<std::string>
   FieldsParameters::name_list() const
   {
-    std::vector<std::string> list;
-    for (const FieldKeys &field : fields)
-      list.push_back(field.name);
-    return list;
+    return names_of(fields);
   }
 
 
@@ -203,10 +193,6 @@ namespace Morula
   KeyList
   FieldsParameters::list()
   {
-    KeyList list{&names};
-    for (FieldKeys &field : fields)
-      for (AnyKey *key : field.list())
-        list.push_back(key);
-    return list;
+    return keys_of_all(names, fields);
   }
 } // namespace Morula

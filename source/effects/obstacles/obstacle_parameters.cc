@@ -4,70 +4,42 @@
 #include <morula/base/name_list.h>
 #include <morula/effects/obstacles/obstacle_parameters.h>
 
-#include <algorithm>
-#include <cctype>
-
 namespace Morula
 {
-  namespace
-  {
-    /** Why a section cannot have this name; empty if it can. */
-    std::string
-    reason_against_obstacle(const std::string &name)
-    {
-      const bool plain =
-        !name.empty() &&
-        std::all_of(name.begin(), name.end(), [](const char c) {
-          return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-        });
-      return plain ? "" : "Names have letters, digits and '_'.";
-    }
-
-    std::string
-    obstacle_path(const std::string &name, const std::string &key)
-    {
-      return "Obstacles/" + name + "/" + key;
-    }
-  } // namespace
-
-
   ObstacleKeys::ObstacleKeys(const std::string &name)
     : name(name)
-    , shape(obstacle_path(name, "Shape"),
+    , shape("Shape",
             "",
             "plane, sphere (2-D: a disc), cylinder (without ends) or box (its "
             "edges along the axes).",
             {"|plane|sphere|cylinder|box"})
-    , side(obstacle_path(name, "Side"),
+    , side("Side",
            "outside",
            "outside: the tissue is outside of the body, in front of the plane; "
            "inside: the tissue is inside, as in a mould.",
            {"outside|inside"})
     , center(
-        obstacle_path(name, "Center"),
+        "Center",
         {0., 0., 0.},
         "Center of the body, or a point of the plane, at t = 0. Units: um.")
-    , radius(obstacle_path(name, "Radius"),
-             0.,
-             "Of a sphere or cylinder; > 0. Units: um.")
-    , normal(obstacle_path(name, "Normal"),
+    , radius("Radius", 0., "Of a sphere or cylinder; > 0. Units: um.")
+    , normal("Normal",
              "",
              "Of a plane; it points to the tissue if Side = outside.")
-    , size(obstacle_path(name, "Size"),
-           {},
-           "Full edge lengths of a box. Units: um.")
-    , axis(obstacle_path(name, "Axis"), "", "Of a cylinder.")
-    , stiffness(obstacle_path(name, "Stiffness"),
+    , size("Size", {}, "Full edge lengths of a box. Units: um.")
+    , axis("Axis", "", "Of a cylinder.")
+    , stiffness("Stiffness",
                 100.,
                 "Pressure on the tissue over its depth in the obstacle; > 0. E "
                 "is that of the stiffest cell. Units: E/h.")
-    , velocity(obstacle_path(name, "Velocity"),
+    , velocity("Velocity",
                "0; 0; 0",
                "Velocity of the obstacle: functions of t separated by ';'. "
                "Units: um/day.",
                Evaluated::place,
                3)
   {
+    place_in(list(), "Obstacles/" + name);
     stiffness.require([](const double value) { return value > 0.; },
                       "a value > 0, in units of E/h",
                       "100 lets tissue under the pressure E go in by h/100.");
@@ -127,7 +99,7 @@ namespace Morula
   ObstaclesParameters::declare_sections(const std::string &text)
   {
     for (const std::string &name :
-         declared_names(names, text, reason_against_obstacle))
+         declared_names(names, text, reason_against_section))
       obstacles.emplace_back(name);
   }
 
@@ -135,10 +107,6 @@ namespace Morula
   KeyList
   ObstaclesParameters::list()
   {
-    KeyList list{&names};
-    for (ObstacleKeys &obstacle : obstacles)
-      for (AnyKey *key : obstacle.list())
-        list.push_back(key);
-    return list;
+    return keys_of_all(names, obstacles);
   }
 } // namespace Morula

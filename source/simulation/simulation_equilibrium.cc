@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/obstacles/contact.h>
+#include <morula/mechanics/drag.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/simulation/simulation.h>

@@ -9,105 +9,63 @@ namespace Morula
 {
   namespace
   {
-    /** A boundary point as the step deforms it. */
-    template <int dim>
-    struct DeformedPoint
-    {
-      /** Force of the tension on the area, γ a, kPa µm^dim. */
-      double force;
-      /** Unit normal. */
-      Tensor<1, dim> n;
-      /** s_a, the surface gradients of the splines, per µm. */
-      std::array<Tensor<1, dim>, BSpline<dim>::n> s;
-    };
-
-    template <int dim>
-    DeformedPoint<dim>
-    deformed_point(const Tensor<2, dim>    &f,
-                   const double             J,
-                   const SplineValues<dim> &splines,
-                   const double             tension,
-                   const Tensor<1, dim>    &area)
-    {
-      const Tensor<2, dim> f_inverse = invert(f);
-      const Tensor<1, dim> m         = J * (area * f_inverse);
-      DeformedPoint<dim>   point;
-      point.force = tension * m.norm();
-      point.n     = m / m.norm();
-      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        {
-          Tensor<1, dim> gradient;
-          for (unsigned int k = 0; k < dim; ++k)
-            gradient[k] = splines.gradient[k][a];
-          const Tensor<1, dim> g = gradient * f_inverse;
-          point.s[a]             = g - (g * point.n) * point.n;
-        }
-      return point;
-    }
-
+    /**
+     * @param force of the tension on the area, γ a, kPa µm^dim
+     * @param n     unit normal
+     * @param s     s_a, the surface gradients of the splines, per µm
+     */
     template <int dim>
     void
-    add_tangent(const DeformedPoint<dim> &point, LocalSystem<dim> &system)
+    add_tangent(const double                                       force,
+                const Tensor<1, dim>                              &n,
+                const std::array<Tensor<1, dim>, BSpline<dim>::n> &s,
+                LocalSystem<dim>                                  &system)
     {
-      constexpr unsigned int n      = BSpline<dim>::n;
-      constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
+      constexpr unsigned int n_splines = BSpline<dim>::n;
+      constexpr unsigned int n_dofs    = LocalSystem<dim>::n_dofs;
+      for (unsigned int a = 0; a < n_splines; ++a)
+        for (unsigned int b = 0; b < n_splines; ++b)
           {
-            const Tensor<1, dim> &s_a = point.s[a], &s_b = point.s[b];
-            const double          both = s_a * s_b;
+            const double both = s[a] * s[b];
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
-                system.matrix[(i * n + a) * n_dofs + j * n + b] +=
-                  point.force * (s_a[i] * s_b[j] - s_b[i] * s_a[j] +
-                                 point.n[i] * point.n[j] * both);
+                system
+                  .matrix[(i * n_splines + a) * n_dofs + j * n_splines + b] +=
+                  force *
+                  (s[a][i] * s[b][j] - s[b][i] * s[a][j] + n[i] * n[j] * both);
           }
     }
   } // namespace
 
 
   template <int dim>
-  SurfaceEnergy<dim>::SurfaceEnergy(GroupedPoints<dim> points,
-                                    std::vector<Load>  loads)
-    : points(std::move(points))
-    , loads(std::move(loads))
-  {}
-
-
-  template <int dim>
   void
-  SurfaceEnergy<dim>::add(const unsigned int     cell,
-                          const LocalField<dim> &field,
-                          const GrowthAt,
-                          LocalSystem<dim> &system) const
+  SurfaceEnergy<dim>::add_load(const typename AreaTerm<dim>::Load     &load,
+                               const typename AreaTerm<dim>::Deformed &point,
+                               LocalSystem<dim> &system) const
   {
-    for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
-         ++p)
+    if (load.value == 0.)
+      return;
+    const Tensor<1, dim> m     = point.J * (load.area * point.f_inverse);
+    const double         force = load.value * m.norm();
+    const Tensor<1, dim> n     = m / m.norm();
+    std::array<Tensor<1, dim>, BSpline<dim>::n> s;
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
-        if (loads[p].tension == 0.)
-          continue;
-        const SplineValues<dim> splines(points.xi[p], points.h);
-        const Tensor<2, dim>    f = field.step_deformation(splines);
-        const double            J = determinant(f);
-        if (J <= 0.)
-          {
-            system.inverted = true;
-            return;
-          }
-        const DeformedPoint<dim> point =
-          deformed_point(f, J, splines, loads[p].tension, loads[p].area);
-        if (system.wanted == LocalSystem<dim>::tangent)
-          {
-            add_tangent(point, system);
-            continue;
-          }
-        // Of the step, so that the large constant spoils no difference.
-        const double before = loads[p].tension * loads[p].area.norm();
-        system.add_energy(point.force - before, point.force + before);
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-            system.add_force(i, a, point.force * point.s[a][i]);
+        const Tensor<1, dim> g = point.gradient(a);
+        s[a]                   = g - (g * n) * n;
       }
+    if (system.wanted == LocalSystem<dim>::tangent)
+      {
+        add_tangent(force, n, s, system);
+        return;
+      }
+    // Of the step, so that the large constant spoils no difference.
+    const double before = load.value * load.area.norm();
+    system.add_energy(force - before, force + before);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        system.add_force(i, a, force * s[a][i]);
   }
 
 

@@ -117,17 +117,6 @@ namespace
         }
   }
 
-  template <int dim>
-  void
-  check_drag()
-  {
-    std::mt19937    generator(3);
-    const Drag<dim> term(random_points_in_cell<dim>(generator, 3),
-                         {1., 2., 3.},
-                         0.1);
-    expect_derivatives(term, random_field<dim>(generator, 0.2));
-  }
-
   /** Depth by the term's energy of one point of area 1 on a plane that goes to
    *  +x with this velocity, κ = 100 E/h, E = 2, h = 50. */
   double
@@ -156,10 +145,6 @@ TEST(Body, GradientAndCurvatureAreDerivatives){
 
 TEST(Contact, ResidualAndTangentAreTheEnergysDerivatives){
   MORULA_BOTH_DIMENSIONS(check_contact)}
-
-
-TEST(Drag, ResidualAndTangentAreTheEnergysDerivatives){
-  MORULA_BOTH_DIMENSIONS(check_drag)}
 
 
 TEST(Obstacles, MoveByTheIntegralOfTheirVelocity)

@@ -5,8 +5,7 @@
 #define morula_effects_obstacles_contact_h
 
 #include <morula/effects/obstacles/body.h>
-#include <morula/mechanics/material_points.h>
-#include <morula/mechanics/term.h>
+#include <morula/mechanics/point_term.h>
 
 #include <vector>
 
@@ -20,7 +19,7 @@ namespace Morula
    * doc/theory.md (4.8d), (4.8e). Keeps references to the bodies.
    */
   template <int dim>
-  class Contact : public Term<dim>
+  class Contact : public PointTerm<dim>
   {
   public:
     /** A boundary point. */
@@ -57,48 +56,15 @@ namespace Morula
             std::vector<BoundaryPoint> boundary_points,
             std::vector<Obstacle>      obstacles);
 
-    void
-    add(const unsigned int     cell,
-        const LocalField<dim> &field,
-        const GrowthAt         growth,
-        LocalSystem<dim>      &system) const override;
-
   private:
-    const GroupedPoints<dim>         points;
+    void
+    add_point(const unsigned int       p,
+              const SplineValues<dim> &splines,
+              const LocalField<dim>   &field,
+              LocalSystem<dim>        &system) const override;
+
     const std::vector<BoundaryPoint> boundary_points;
     const std::vector<Obstacle>      obstacles;
-  };
-
-  /**
-   * What resists the displacement of cells in a step, energy Σ η V⁰ |u|²/2: so
-   * weak that it does not count, but it decides where a piece of tissue goes
-   * that nothing holds but obstacles, which only push: doc/theory.md (4.8f).
-   */
-  template <int dim>
-  class Drag : public Term<dim>
-  {
-  public:
-    /** η h²/E where E is that of the stiffest cell. */
-    static constexpr double relative = 1e-4;
-
-    /**
-     * @param volumes V⁰ of each cell, µm^dim
-     * @param eta     η, kPa/µm²
-     */
-    Drag(GroupedPoints<dim>  cells,
-         std::vector<double> volumes,
-         const double        eta);
-
-    void
-    add(const unsigned int     cell,
-        const LocalField<dim> &field,
-        const GrowthAt         growth,
-        LocalSystem<dim>      &system) const override;
-
-  private:
-    const GroupedPoints<dim>  cells;
-    const std::vector<double> volumes;
-    const double              eta;
   };
 } // namespace Morula
 

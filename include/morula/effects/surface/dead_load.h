@@ -4,8 +4,7 @@
 #ifndef morula_effects_surface_dead_load_h
 #define morula_effects_surface_dead_load_h
 
-#include <morula/mechanics/material_points.h>
-#include <morula/mechanics/term.h>
+#include <morula/mechanics/point_term.h>
 
 #include <vector>
 
@@ -18,7 +17,7 @@ namespace Morula
    * doc/theory.md (4.7).
    */
   template <int dim>
-  class DeadLoad : public Term<dim>
+  class DeadLoad : public PointTerm<dim>
   {
   public:
     /**
@@ -33,7 +32,12 @@ namespace Morula
         LocalSystem<dim>      &system) const override;
 
   private:
-    const GroupedPoints<dim>          points;
+    void
+    add_point(const unsigned int       p,
+              const SplineValues<dim> &splines,
+              const LocalField<dim>   &field,
+              LocalSystem<dim>        &system) const override;
+
     const std::vector<Tensor<1, dim>> forces;
   };
 } // namespace Morula

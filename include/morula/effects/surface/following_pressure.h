@@ -4,10 +4,7 @@
 #ifndef morula_effects_surface_following_pressure_h
 #define morula_effects_surface_following_pressure_h
 
-#include <morula/mechanics/material_points.h>
-#include <morula/mechanics/term.h>
-
-#include <vector>
+#include <morula/effects/surface/area_term.h>
 
 namespace Morula
 {
@@ -19,32 +16,20 @@ namespace Morula
    * (4.8).
    */
   template <int dim>
-  class FollowingPressure : public Term<dim>
+  class FollowingPressure : public AreaTerm<dim>
   {
   public:
-    /** What presses on a boundary point. */
-    struct Load
-    {
-      /** p, kPa; positive pushes inward. */
-      double pressure;
-      /** a_t n_t, µm^(dim-1). */
-      Tensor<1, dim> area;
-    };
-
-    FollowingPressure(GroupedPoints<dim> points, std::vector<Load> loads);
-
-    void
-    add(const unsigned int     cell,
-        const LocalField<dim> &field,
-        const GrowthAt         growth,
-        LocalSystem<dim>      &system) const override;
+    using AreaTerm<dim>::AreaTerm;
 
     bool
     is_conservative() const override;
 
   private:
-    const GroupedPoints<dim> points;
-    const std::vector<Load>  loads;
+    /** p > 0 pushes inward. */
+    void
+    add_load(const typename AreaTerm<dim>::Load     &load,
+             const typename AreaTerm<dim>::Deformed &point,
+             LocalSystem<dim>                       &system) const override;
   };
 } // namespace Morula
 

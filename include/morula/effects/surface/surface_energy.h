@@ -4,10 +4,7 @@
 #ifndef morula_effects_surface_surface_energy_h
 #define morula_effects_surface_surface_energy_h
 
-#include <morula/mechanics/material_points.h>
-#include <morula/mechanics/term.h>
-
-#include <vector>
+#include <morula/effects/surface/area_term.h>
 
 namespace Morula
 {
@@ -19,29 +16,16 @@ namespace Morula
    * symmetric: doc/theory.md (4.8a), (4.8b).
    */
   template <int dim>
-  class SurfaceEnergy : public Term<dim>
+  class SurfaceEnergy : public AreaTerm<dim>
   {
   public:
-    /** The tension of a boundary point. */
-    struct Load
-    {
-      /** γ, kPa µm. */
-      double tension;
-      /** a_t n_t, µm^(dim-1). */
-      Tensor<1, dim> area;
-    };
-
-    SurfaceEnergy(GroupedPoints<dim> points, std::vector<Load> loads);
-
-    void
-    add(const unsigned int     cell,
-        const LocalField<dim> &field,
-        const GrowthAt         growth,
-        LocalSystem<dim>      &system) const override;
+    using AreaTerm<dim>::AreaTerm;
 
   private:
-    const GroupedPoints<dim> points;
-    const std::vector<Load>  loads;
+    void
+    add_load(const typename AreaTerm<dim>::Load     &load,
+             const typename AreaTerm<dim>::Deformed &point,
+             LocalSystem<dim>                       &system) const override;
   };
 } // namespace Morula
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_point_term_h
+#define morula_mechanics_point_term_h
+
+#include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
+
+namespace Morula
+{
+  /** A term that is a sum over points, which have nothing to do with each
+   *  other. */
+  template <int dim>
+  class PointTerm : public Term<dim>
+  {
+  public:
+    explicit PointTerm(GroupedPoints<dim> points);
+
+    void
+    add(const unsigned int     grid_cell,
+        const LocalField<dim> &field,
+        const GrowthAt         growth,
+        LocalSystem<dim>      &system) const override;
+
+  protected:
+    /**
+     * Adds what @p system wants of point number @p p.
+     * @param splines at the point
+     * @param field   displacement since the beginning of the step
+     */
+    virtual void
+    add_point(const unsigned int       p,
+              const SplineValues<dim> &splines,
+              const LocalField<dim>   &field,
+              LocalSystem<dim>        &system) const = 0;
+
+  private:
+    const GroupedPoints<dim> points;
+  };
+
+  /** Adds the residual of a force at a place, kPa µm^(dim-1). */
+  template <int dim>
+  void
+  add_force_at(const SplineValues<dim> &splines,
+               const Tensor<1, dim>    &force,
+               LocalSystem<dim>        &system);
+
+  /**
+   * Adds what @p system wants of a force at a place that depends on the
+   * displacement there.
+   * @param energy    kPa µm^dim
+   * @param force     its derivative, kPa µm^(dim-1)
+   * @param stiffness that of the force, kPa µm^(dim-2)
+   */
+  template <int dim>
+  void
+  add_force_at(const SplineValues<dim> &splines,
+               const double             energy,
+               const Tensor<1, dim>    &force,
+               const Tensor<2, dim>    &stiffness,
+               LocalSystem<dim>        &system);
+} // namespace Morula
+
+#endif

@@ -6,9 +6,8 @@
 #ifndef own_effects_drag_h
 #define own_effects_drag_h
 
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
 #include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Own
 {
@@ -35,41 +34,28 @@ namespace Own
   };
 
   template <int dim>
-  class Drag : public BoundaryCondition<dim>
+  class Drag : public PlacedCondition<dim>
   {
   public:
     using Parameters = DragKeys;
 
     explicit Drag(const Parameters &parameters)
-      : where(parameters.where.expression(dim))
+      : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
       , load(parameters.load.expression(dim))
     {}
-
-    SurfaceCondition
-    kind() const override
-    {
-      return SurfaceCondition::loaded;
-    }
-
-    bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &) const override
-    {
-      return holds(where, X);
-    }
 
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override
     {
-      std::vector<Tensor<1, dim>> forces;
-      for (const auto &point : points.points)
-        forces.push_back(holds(where, point.X_seed) ?
-                           point.initial_area * load.vector(point.X, t) :
-                           Tensor<1, dim>());
-      return std::make_unique<DeadLoad<dim>>(points, std::move(forces));
+      return std::make_unique<DeadLoad<dim>>(
+        points,
+        this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
+          return point.initial_area * load.vector(point.X, t);
+        }));
     }
 
   private:
-    const Expression where, load;
+    const Expression load;
   };
 } // namespace Own
 

@@ -42,25 +42,9 @@ namespace Morula
 
   template <int dim>
   Fixed<dim>::Fixed(const Parameters &parameters)
-    : where(parameters.where.expression(dim))
+    : PlacedCondition<dim>(SurfaceCondition::fixed, parameters)
     , displacement_(parameters.displacement.expression(dim))
   {}
-
-
-  template <int dim>
-  SurfaceCondition
-  Fixed<dim>::kind() const
-  {
-    return SurfaceCondition::fixed;
-  }
-
-
-  template <int dim>
-  bool
-  Fixed<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &) const
-  {
-    return holds(where, X);
-  }
 
 
   template <int dim>
@@ -81,12 +65,9 @@ namespace Morula
 
   template <int dim>
   void
-  Fixed<dim>::check(const Preview<dim> &scene) const
+  Fixed<dim>::check_at(const Point<dim> &X, const double t) const
   {
-    for (const Point<dim> &X : scene.boundary_points)
-      if (holds(where, X))
-        for (const double t : {0., scene.end_time})
-          displacement_.vector(X, t);
+    displacement_.vector(X, t);
   }
 
 

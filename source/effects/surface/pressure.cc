@@ -4,8 +4,6 @@
 #include <morula/effects/surface/following_pressure.h>
 #include <morula/effects/surface/pressure.h>
 
-#include <utility>
-
 namespace Morula
 {
   PressureParameters::PressureParameters()
@@ -36,48 +34,28 @@ namespace Morula
 
   template <int dim>
   Pressure<dim>::Pressure(const Parameters &parameters)
-    : where(parameters.where.expression(dim))
+    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
     , pressure(parameters.pressure.expression(dim))
   {}
-
-
-  template <int dim>
-  SurfaceCondition
-  Pressure<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  Pressure<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &) const
-  {
-    return holds(where, X);
-  }
 
 
   template <int dim>
   std::unique_ptr<Term<dim>>
   Pressure<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {
-    std::vector<typename FollowingPressure<dim>::Load> loads;
-    for (const auto &point : points.points)
-      loads.push_back(
-        {holds(where, point.X_seed) ? pressure.value(point.X, t) : 0.,
-         point.area});
-    return std::make_unique<FollowingPressure<dim>>(points, std::move(loads));
+    using Load = typename AreaTerm<dim>::Load;
+    return std::make_unique<FollowingPressure<dim>>(
+      points, this->template loads<Load>(points, [&](const auto &point) {
+        return Load{pressure.value(point.X, t), point.area};
+      }));
   }
 
 
   template <int dim>
   void
-  Pressure<dim>::check(const Preview<dim> &scene) const
+  Pressure<dim>::check_at(const Point<dim> &X, const double t) const
   {
-    for (const Point<dim> &X : scene.boundary_points)
-      if (holds(where, X))
-        for (const double t : {0., scene.end_time})
-          pressure.value(X, t);
+    pressure.value(X, t);
   }
 
 

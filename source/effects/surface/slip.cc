@@ -36,7 +36,7 @@ namespace Morula
 
   template <int dim>
   Slip<dim>::Slip(const Parameters &parameters)
-    : where(parameters.where.expression(dim))
+    : PlacedCondition<dim>(SurfaceCondition::slip, parameters)
   {
     if (!parameters.normal.empty())
       normal = unit_vector<dim>(parameters.normal.path(), parameters.normal);
@@ -44,18 +44,11 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceCondition
-  Slip<dim>::kind() const
-  {
-    return SurfaceCondition::slip;
-  }
-
-
-  template <int dim>
   bool
   Slip<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const
   {
-    return holds(where, X) && (!normal || std::abs(N * *normal) > 0.9);
+    return PlacedCondition<dim>::acts_on(X, N) &&
+           (!normal || std::abs(N * *normal) > 0.9);
   }
 
 

@@ -6,7 +6,6 @@
 #include <morula/effects/surface/surface_tension.h>
 
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {
@@ -55,26 +54,9 @@ namespace Morula
 
   template <int dim>
   SurfaceTension<dim>::SurfaceTension(const Parameters &parameters)
-    : where(parameters.where.expression(dim))
+    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
     , tension(parameters.tension.expression(dim))
   {}
-
-
-  template <int dim>
-  SurfaceCondition
-  SurfaceTension<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  SurfaceTension<dim>::acts_on(const Point<dim> &X,
-                               const Tensor<1, dim> &) const
-  {
-    return holds(where, X);
-  }
 
 
   template <int dim>
@@ -99,22 +81,19 @@ namespace Morula
   SurfaceTension<dim>::term(const LoadedPoints<dim> &points,
                             const double             t) const
   {
-    std::vector<typename SurfaceEnergy<dim>::Load> loads;
-    for (const auto &point : points.points)
-      loads.push_back(
-        {holds(where, point.X_seed) ? value(point.X, t) : 0., point.area});
-    return std::make_unique<SurfaceEnergy<dim>>(points, std::move(loads));
+    using Load = typename AreaTerm<dim>::Load;
+    return std::make_unique<SurfaceEnergy<dim>>(
+      points, this->template loads<Load>(points, [&](const auto &point) {
+        return Load{value(point.X, t), point.area};
+      }));
   }
 
 
   template <int dim>
   void
-  SurfaceTension<dim>::check(const Preview<dim> &scene) const
+  SurfaceTension<dim>::check_at(const Point<dim> &X, const double t) const
   {
-    for (const Point<dim> &X : scene.boundary_points)
-      if (holds(where, X))
-        for (const double t : {0., scene.end_time})
-          value(X, t);
+    value(X, t);
   }
 
 

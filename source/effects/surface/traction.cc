@@ -4,8 +4,6 @@
 #include <morula/effects/surface/dead_load.h>
 #include <morula/effects/surface/traction.h>
 
-#include <utility>
-
 namespace Morula
 {
   TractionParameters::TractionParameters()
@@ -37,48 +35,28 @@ namespace Morula
 
   template <int dim>
   Traction<dim>::Traction(const Parameters &parameters)
-    : where(parameters.where.expression(dim))
+    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
     , traction(parameters.traction.expression(dim))
   {}
-
-
-  template <int dim>
-  SurfaceCondition
-  Traction<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  Traction<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &) const
-  {
-    return holds(where, X);
-  }
 
 
   template <int dim>
   std::unique_ptr<Term<dim>>
   Traction<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {
-    std::vector<Tensor<1, dim>> forces;
-    for (const auto &point : points.points)
-      forces.push_back(holds(where, point.X_seed) ?
-                         point.initial_area * traction.vector(point.X, t) :
-                         Tensor<1, dim>());
-    return std::make_unique<DeadLoad<dim>>(points, std::move(forces));
+    return std::make_unique<DeadLoad<dim>>(
+      points,
+      this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
+        return point.initial_area * traction.vector(point.X, t);
+      }));
   }
 
 
   template <int dim>
   void
-  Traction<dim>::check(const Preview<dim> &scene) const
+  Traction<dim>::check_at(const Point<dim> &X, const double t) const
   {
-    for (const Point<dim> &X : scene.boundary_points)
-      if (holds(where, X))
-        for (const double t : {0., scene.end_time})
-          traction.vector(X, t);
+    traction.vector(X, t);
   }
 
 

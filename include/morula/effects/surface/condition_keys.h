@@ -31,14 +31,6 @@ namespace Morula
     std::string
     details() const override;
   };
-
-  /** Whether an expression of the place holds at @p X (µm). */
-  template <int dim>
-  bool
-  holds(const Expression &where, const Point<dim> &X)
-  {
-    return where.value(X, 0.) > 0.;
-  }
 } // namespace Morula
 
 #endif

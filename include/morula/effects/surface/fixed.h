@@ -4,8 +4,7 @@
 #ifndef morula_effects_surface_fixed_h
 #define morula_effects_surface_fixed_h
 
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
@@ -27,7 +26,7 @@ namespace Morula
 
   /** Points that are held in all directions, at a prescribed displacement. */
   template <int dim>
-  class Fixed : public BoundaryCondition<dim>
+  class Fixed : public PlacedCondition<dim>
   {
   public:
     using Parameters = FixedParameters;
@@ -35,19 +34,16 @@ namespace Morula
     /** @throws InputError for expressions that cannot be parsed */
     explicit Fixed(const Parameters &parameters);
 
-    SurfaceCondition
-    kind() const override;
-    bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
     Tensor<1, dim>
     displacement(const Point<dim> &X, const double t) const override;
     bool
     moves() const override;
-    void
-    check(const Preview<dim> &scene) const override;
 
   private:
-    const Expression where, displacement_;
+    void
+    check_at(const Point<dim> &X, const double t) const override;
+
+    const Expression displacement_;
   };
 } // namespace Morula
 

@@ -4,8 +4,7 @@
 #ifndef morula_effects_surface_pressure_h
 #define morula_effects_surface_pressure_h
 
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
@@ -25,7 +24,7 @@ namespace Morula
 
   /** Pressure that follows the surface: doc/theory.md (4.8). */
   template <int dim>
-  class Pressure : public BoundaryCondition<dim>
+  class Pressure : public PlacedCondition<dim>
   {
   public:
     using Parameters = PressureParameters;
@@ -33,17 +32,14 @@ namespace Morula
     /** @throws InputError for expressions that cannot be parsed */
     explicit Pressure(const Parameters &parameters);
 
-    SurfaceCondition
-    kind() const override;
-    bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
-    void
-    check(const Preview<dim> &scene) const override;
 
   private:
-    const Expression where, pressure;
+    void
+    check_at(const Point<dim> &X, const double t) const override;
+
+    const Expression pressure;
   };
 } // namespace Morula
 

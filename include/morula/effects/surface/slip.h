@@ -5,8 +5,7 @@
 #define morula_effects_surface_slip_h
 
 #include <morula/base/unit_vector.h>
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
+#include <morula/effects/surface/placed_condition.h>
 
 #include <optional>
 
@@ -28,7 +27,7 @@ namespace Morula
 
   /** Points that are held along their own initial normal. */
   template <int dim>
-  class Slip : public BoundaryCondition<dim>
+  class Slip : public PlacedCondition<dim>
   {
   public:
     using Parameters = SlipParameters;
@@ -37,13 +36,10 @@ namespace Morula
      *  parsed */
     explicit Slip(const Parameters &parameters);
 
-    SurfaceCondition
-    kind() const override;
     bool
     acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
 
   private:
-    const Expression              where;
     std::optional<Tensor<1, dim>> normal; // of the points that slip
   };
 } // namespace Morula

@@ -4,8 +4,7 @@
 #ifndef morula_effects_surface_surface_tension_h
 #define morula_effects_surface_surface_tension_h
 
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
@@ -28,7 +27,7 @@ namespace Morula
   /** Tension of the surface, which squeezes a ball by Laplace's pressure:
    *  doc/theory.md (4.8a), (4.8c). */
   template <int dim>
-  class SurfaceTension : public BoundaryCondition<dim>
+  class SurfaceTension : public PlacedCondition<dim>
   {
   public:
     using Parameters = SurfaceTensionParameters;
@@ -36,22 +35,19 @@ namespace Morula
     /** @throws InputError for expressions that cannot be parsed */
     explicit SurfaceTension(const Parameters &parameters);
 
-    SurfaceCondition
-    kind() const override;
-    bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
     /** @throws InputError where the tension has no value or is negative */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
-    void
-    check(const Preview<dim> &scene) const override;
 
   private:
+    void
+    check_at(const Point<dim> &X, const double t) const override;
+
     /** γ at a point that the tension acts on, kPa µm. @throws InputError */
     double
     value(const Point<dim> &X, const double t) const;
 
-    const Expression where, tension;
+    const Expression tension;
   };
 } // namespace Morula
 

@@ -4,8 +4,7 @@
 #ifndef morula_effects_surface_traction_h
 #define morula_effects_surface_traction_h
 
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
@@ -25,7 +24,7 @@ namespace Morula
 
   /** Dead traction: doc/theory.md (4.7). */
   template <int dim>
-  class Traction : public BoundaryCondition<dim>
+  class Traction : public PlacedCondition<dim>
   {
   public:
     using Parameters = TractionParameters;
@@ -33,17 +32,14 @@ namespace Morula
     /** @throws InputError for expressions that cannot be parsed */
     explicit Traction(const Parameters &parameters);
 
-    SurfaceCondition
-    kind() const override;
-    bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
-    void
-    check(const Preview<dim> &scene) const override;
 
   private:
-    const Expression where, traction;
+    void
+    check_at(const Point<dim> &X, const double t) const override;
+
+    const Expression traction;
   };
 } // namespace Morula
 

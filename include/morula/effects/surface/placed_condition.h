@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_placed_condition_h
+#define morula_effects_surface_placed_condition_h
+
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/condition_keys.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** A condition that acts where an expression of the place is positive. */
+  template <int dim>
+  class PlacedCondition : public BoundaryCondition<dim>
+  {
+  public:
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    void
+    check(const Preview<dim> &scene) const override;
+
+  protected:
+    /** @throws InputError for an expression that cannot be parsed */
+    PlacedCondition(const SurfaceCondition kind, const ConditionKeys &keys);
+
+    /** Refuses what the condition cannot do at @p X (µm) and @p t (day), where
+     *  it acts. @throws InputError */
+    virtual void
+    check_at(const Point<dim> &X, const double t) const;
+
+    /** @p value of each point that it acts on, and Value() for the others. */
+    template <typename Value, typename Function>
+    std::vector<Value>
+    loads(const LoadedPoints<dim> &points, const Function &value) const
+    {
+      std::vector<Value> list;
+      for (const auto &point : points.points)
+        list.push_back(holds(point.X_seed) ? value(point) : Value());
+      return list;
+    }
+
+  private:
+    bool
+    holds(const Point<dim> &X) const;
+
+    const SurfaceCondition kind_;
+    const Expression       where;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/placed_condition.h>
+
+namespace Morula
+{
+  template <int dim>
+  PlacedCondition<dim>::PlacedCondition(const SurfaceCondition kind,
+                                        const ConditionKeys   &keys)
+    : kind_(kind)
+    , where(keys.where.expression(dim))
+  {}
+
+
+  template <int dim>
+  SurfaceCondition
+  PlacedCondition<dim>::kind() const
+  {
+    return kind_;
+  }
+
+
+  template <int dim>
+  bool
+  PlacedCondition<dim>::acts_on(const Point<dim> &X,
+                                const Tensor<1, dim> &) const
+  {
+    return holds(X);
+  }
+
+
+  template <int dim>
+  void
+  PlacedCondition<dim>::check(const Preview<dim> &scene) const
+  {
+    for (const Point<dim> &X : scene.boundary_points)
+      if (holds(X))
+        for (const double t : {0., scene.end_time})
+          check_at(X, t);
+  }
+
+
+  template <int dim>
+  void
+  PlacedCondition<dim>::check_at(const Point<dim> &, const double) const
+  {}
+
+
+  template <int dim>
+  bool
+  PlacedCondition<dim>::holds(const Point<dim> &X) const
+  {
+    return where.value(X, 0.) > 0.;
+  }
+
+
+  template class PlacedCondition<2>;
+  template class PlacedCondition<3>;
+} // namespace Morula

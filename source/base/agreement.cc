@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/step_failed.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,14 +13,26 @@ namespace Morula
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** What an action has thrown. */
+    enum class Thrown
+    {
+      nothing,
+      input_error,
+      step_failed,
+      other
+    };
+  } // namespace
+
+
   void
   everywhere(const MPI_Comm comm, const std::function<void()> &action)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
 
-    bool        failed   = false;
-    bool        by_input = false;
+    Thrown      thrown = Thrown::nothing;
     std::string message;
     try
       {
@@ -27,25 +40,31 @@ namespace Morula
       }
     catch (const InputError &error)
       {
-        failed   = true;
-        by_input = true;
-        message  = error.what();
+        thrown  = Thrown::input_error;
+        message = error.what();
+      }
+    catch (const StepFailed &failure)
+      {
+        thrown  = Thrown::step_failed;
+        message = failure.what();
       }
     catch (const std::exception &error)
       {
-        failed  = true;
+        thrown  = Thrown::other;
         message = error.what();
       }
 
     const unsigned int first =
-      Utilities::MPI::min(failed ? rank : n_ranks, comm);
+      Utilities::MPI::min(thrown == Thrown::nothing ? n_ranks : rank, comm);
     if (first == n_ranks)
       return;
 
-    message  = Utilities::MPI::broadcast(comm, message, first);
-    by_input = Utilities::MPI::broadcast(comm, by_input, first);
-    if (by_input)
+    message = Utilities::MPI::broadcast(comm, message, first);
+    thrown  = Utilities::MPI::broadcast(comm, thrown, first);
+    if (thrown == Thrown::input_error)
       throw InputError(message);
+    if (thrown == Thrown::step_failed)
+      throw StepFailed(message);
     throw std::runtime_error(message);
   }
 

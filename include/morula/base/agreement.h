@@ -14,7 +14,7 @@ namespace Morula
    * Runs @p action on every rank. If it throws on any rank, every rank throws
    * with the message of the lowest rank that failed. So no rank waits for one
    * that is gone. The action must not communicate. Collective.
-   * @throws InputError if the lowest failing rank threw one
+   * @throws InputError, StepFailed if the lowest failing rank threw one
    * @throws std::runtime_error for every other exception
    */
   void

@@ -4,6 +4,7 @@
 #ifndef morula_mechanics_equilibrium_h
 #define morula_mechanics_equilibrium_h
 
+#include <morula/base/step_failed.h>
 #include <morula/mechanics/term.h>
 
 #include <deal.II/base/index_set.h>
@@ -11,22 +12,10 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <stdexcept>
 #include <vector>
 
 namespace Morula
 {
-  /**
-   * The step cannot be done with this dt: no convergence, linear solver
-   * failure, or inversion. It means "retry smaller" and is thrown on all ranks
-   * together; every other exception ends the run.
-   */
-  class StepFailed : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
-
   /**
    * A nonlinear equilibrium problem as Newton's method sees it, in terms of
    * the increment u of one step (µm): energy, residual and tangent. All

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+// ranks: 1 2 3
+
+#include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
+#include <morula/base/step_failed.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+using namespace Morula;
+
+namespace
+{
+  using namespace dealii;
+
+  const MPI_Comm comm = MPI_COMM_WORLD;
+
+  unsigned int
+  rank()
+  {
+    return Utilities::MPI::this_mpi_process(comm);
+  }
+
+  bool
+  is_last()
+  {
+    return rank() + 1 == Utilities::MPI::n_mpi_processes(comm);
+  }
+
+  /** Where the action fails on the last rank, all fail with its exception. */
+  template <typename Exception>
+  void
+  check_all_throw()
+  {
+    try
+      {
+        everywhere(comm, []() {
+          if (is_last())
+            throw Exception("on rank " + std::to_string(rank()));
+        });
+        ADD_FAILURE() << "rank " << rank() << " threw nothing";
+      }
+    catch (const std::exception &error)
+      {
+        EXPECT_EQ(typeid(error), typeid(Exception));
+        EXPECT_EQ(error.what(),
+                  "on rank " +
+                    std::to_string(Utilities::MPI::n_mpi_processes(comm) - 1));
+      }
+  }
+} // namespace
+
+
+TEST(Everywhere, RunsOnAllRanks)
+{
+  unsigned int runs = 0;
+  everywhere(comm, [&runs]() { ++runs; });
+  EXPECT_EQ(runs, 1u);
+}
+
+
+TEST(Everywhere, AllRanksThrowWhatOneThrew)
+{
+  check_all_throw<InputError>();
+  check_all_throw<StepFailed>();
+  check_all_throw<std::runtime_error>();
+}
+
+
+TEST(Everywhere, TheLowestRankCounts)
+{
+  EXPECT_THROW(everywhere(comm,
+                          []() {
+                            if (rank() == 0)
+                              throw StepFailed("of the first");
+                            throw InputError("of the others");
+                          }),
+               StepFailed);
+}

@@ -127,7 +127,7 @@ namespace Morula
   {
     if (time_steps.finished())
       return true;
-    if (scene.time.stop_at_cells == 0 && !scene.has_death())
+    if (scene.time.stop_at_cells == 0 && development.death() == nullptr)
       return false;
     const auto n_cells =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
@@ -261,7 +261,7 @@ namespace Morula
   void
   Simulation<dim>::remove_the_dead()
   {
-    if (!scene.has_death())
+    if (development.death() == nullptr)
       return;
     const TimerOutput::Scope section(timer, "removal");
     const std::uint64_t      n_deaths =

@@ -9,8 +9,6 @@
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_points.h>
 
-#include <deal.II/base/mpi.h>
-
 namespace Morula
 {
   template <int dim>
@@ -141,40 +139,37 @@ namespace Morula
   {
     if (!boundary_conditions.has(SurfaceCondition::loaded))
       return;
-    std::string too_long;
+    std::optional<LoadedPoints<dim>> points;
     for (const auto &named : boundary_conditions.list())
       if (named.condition->kind() == SurfaceCondition::loaded)
         {
           const TimerOutput::Scope section(timer, named.name);
           everywhere(comm, [&]() {
-            LoadedPoints<dim> points = loaded_points(tissue, space);
-            points.time              = time_steps.time();
-            points.youngs_modulus    = typical_stiffness;
-            try
+            if (!points)
               {
-                list.push_back(
-                  named.condition->term(points, time_steps.next()));
+                points                 = loaded_points(tissue, space);
+                points->time           = time_steps.time();
+                points->youngs_modulus = typical_stiffness;
               }
-            catch (const StepFailed &failure)
-              {
-                too_long = failure.what();
-              }
+            list.push_back(named.condition->term(*points, time_steps.next()));
           });
         }
-    for (const std::string &reason : Utilities::MPI::all_gather(comm, too_long))
-      if (!reason.empty())
-        throw StepFailed(reason);
-    if (boundary_conditions.push())
-      {
-        std::vector<double> volumes;
-        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-          volumes.push_back(tissue.cells().initial_volume(p));
-        list.push_back(std::make_unique<Drag<dim>>(
-          cell_positions(tissue, space),
-          std::move(volumes),
-          Drag<dim>::relative * typical_stiffness /
-            (scene.grid.spacing * scene.grid.spacing)));
-      }
+    if (boundary_conditions.has_pushing())
+      list.push_back(drag(space));
+  }
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  Simulation<dim>::drag(const SplineSpace<dim> &space) const
+  {
+    std::vector<double> volumes;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      volumes.push_back(tissue.cells().initial_volume(p));
+    return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
+                                       std::move(volumes),
+                                       Drag<dim>::relative * typical_stiffness /
+                                         (scene.grid.spacing *
+                                          scene.grid.spacing));
   }
 
   template <int dim>
@@ -206,7 +201,7 @@ namespace Morula
   Simulation<dim>::inertia(const SplineSpace<dim> &space,
                            const RigidModes<dim>  &modes)
   {
-    if (!modes.any() || boundary_conditions.push())
+    if (!modes.any() || boundary_conditions.has_pushing())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return modes.inertia(masses(space));

@@ -326,7 +326,7 @@ namespace Morula
     state.tissue  = sums.totals(comm);
     state.lengths = longest.over_all_ranks(comm);
     state.held_at_checkpoint = Utilities::MPI::sum(held, comm);
-    if (scene.has_death())
+    if (development.death() != nullptr)
       state.death =
         DeathCounts{Utilities::MPI::sum(dying, comm), 0, 0, n_pieces};
     Utilities::MPI::sum(of_types, comm, of_types);

@@ -62,7 +62,7 @@ namespace Morula
   void
   Simulation<dim>::count_pieces(const SplineSpace<dim> &space)
   {
-    if (!scene.has_death())
+    if (development.death() == nullptr)
       return;
     const unsigned int n = pieces_with_cells(space);
     if (n_pieces > 0 && n > n_pieces && !pieces_have_parted)

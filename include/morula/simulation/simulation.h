@@ -169,6 +169,9 @@ namespace Morula
     void
     add_loads(const SplineSpace<dim>                  &space,
               typename MomentumBalance<dim>::TermList &list);
+    /** For pieces that loads only push. */
+    std::unique_ptr<Term<dim>>
+    drag(const SplineSpace<dim> &space) const;
 
     typename MomentumBalance<dim>::TermList
     terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);

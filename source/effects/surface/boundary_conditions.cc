@@ -99,7 +99,7 @@ namespace Morula
 
   template <int dim>
   bool
-  BoundaryConditions<dim>::push() const
+  BoundaryConditions<dim>::has_pushing() const
   {
     return std::any_of(list_.begin(), list_.end(), [](const Named &named) {
       return named.condition->only_pushes();

@@ -68,7 +68,7 @@ namespace Morula
 
     /** Whether a condition only pushes. */
     bool
-    push() const;
+    has_pushing() const;
 
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &

@@ -56,7 +56,8 @@ namespace Morula
                                             parameters.radius,
                                             parameters.size->at(2));
         if (shape == "mesh")
-          return std::make_unique<MeshShape>(parameters.surface_mesh);
+          return std::make_unique<MeshShape>(parameters.surface_mesh.path(),
+                                             parameters.surface_mesh);
       }
     parameters.shape.refuse(dim == 3 ?
                               "sphere, box, ellipsoid, cylinder or mesh" :

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/seeding/surface_mesh.h>
+#include <morula/base/surface_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ namespace
   refusal(const std::string &content, const std::string &ending)
   {
     const TemporaryFile file(ending, content);
-    return complaint_of([&] { SurfaceMesh mesh(file.path); });
+    return complaint_of(
+      [&] { SurfaceMesh mesh("Tissue/Surface mesh", file.path); });
   }
 
   bool

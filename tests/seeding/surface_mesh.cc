@@ -3,9 +3,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/surface_mesh.h>
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/seeding.h>
-#include <morula/seeding/surface_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,118 +17,19 @@
 #include <sstream>
 
 #include "common/complaint.h"
+#include "common/polygons.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
 
 namespace
 {
-  /** Polygons to be written as an OFF file. */
-  struct Polygons
-  {
-    std::vector<Point<3>>                  points;
-    std::vector<std::vector<unsigned int>> faces;
-
-    std::string
-    off() const
-    {
-      std::ostringstream out;
-      out.precision(17);
-      out << "OFF\n" << points.size() << ' ' << faces.size() << " 0\n";
-      for (const Point<3> &p : points)
-        out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-      for (const auto &face : faces)
-        {
-          out << face.size();
-          for (const unsigned int i : face)
-            out << ' ' << i;
-          out << '\n';
-        }
-      return out.str();
-    }
-
-    void
-    append(const Polygons &other)
-    {
-      for (auto face : other.faces)
-        {
-          for (unsigned int &i : face)
-            i += points.size();
-          faces.push_back(face);
-        }
-      points.insert(points.end(), other.points.begin(), other.points.end());
-    }
-  };
-
-  /** A cube with six square faces. */
-  Polygons
-  cube(const Point<3> &corner, const double edge)
-  {
-    Polygons cube;
-    for (unsigned int i = 0; i < 8; ++i)
-      cube.points.push_back(
-        corner + edge * Tensor<1, 3>(
-                          {1. * (i & 1), 1. * ((i >> 1) & 1), 1. * (i >> 2)}));
-    cube.faces = {{0, 2, 3, 1},
-                  {4, 5, 7, 6},
-                  {0, 1, 5, 4},
-                  {2, 6, 7, 3},
-                  {0, 4, 6, 2},
-                  {1, 3, 7, 5}};
-    return cube;
-  }
-
   Polygons
   reversed(Polygons polygons)
   {
     for (auto &face : polygons.faces)
       std::reverse(face.begin(), face.end());
     return polygons;
-  }
-
-  /** An octahedron whose faces are cut in four again and again, on a sphere. */
-  Polygons
-  sphere(const double radius, const unsigned int n_cuts)
-  {
-    Polygons result;
-    result.points = {
-      {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    result.faces = {{0, 2, 4},
-                    {2, 1, 4},
-                    {1, 3, 4},
-                    {3, 0, 4},
-                    {2, 0, 5},
-                    {1, 2, 5},
-                    {3, 1, 5},
-                    {0, 3, 5}};
-    for (unsigned int cut = 0; cut < n_cuts; ++cut)
-      {
-        std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
-        const auto middle = [&](const unsigned int i, const unsigned int j) {
-          const auto [place, is_new] =
-            middles.emplace(std::minmax(i, j), result.points.size());
-          if (is_new)
-            {
-              const Tensor<1, 3> m =
-                result.points[i] + result.points[j] - Point<3>();
-              result.points.push_back(Point<3>(m / m.norm()));
-            }
-          return place->second;
-        };
-        std::vector<std::vector<unsigned int>> finer;
-        for (const auto &f : result.faces)
-          {
-            const unsigned int a = middle(f[0], f[1]);
-            const unsigned int b = middle(f[1], f[2]);
-            const unsigned int c = middle(f[2], f[0]);
-            finer.insert(finer.end(),
-                         {{f[0], a, c}, {a, f[1], b}, {c, b, f[2]}, {a, b, c}});
-          }
-        result.faces = finer;
-      }
-    for (Point<3> &p : result.points)
-      p *= radius;
-    return result;
   }
 
   double
@@ -145,7 +46,8 @@ namespace
   refusal(const std::string &content, const std::string &ending = ".off")
   {
     const TemporaryFile file(ending, content);
-    return complaint_of([&] { SurfaceMesh mesh(file.path); });
+    return complaint_of(
+      [&] { SurfaceMesh mesh("Tissue/Surface mesh", file.path); });
   }
 
   bool
@@ -214,7 +116,7 @@ namespace
 TEST(SurfaceMesh, CubeOfPolygons)
 {
   const TemporaryFile file(".off", cube(Point<3>(-1., 2., 3.), 4.).off());
-  const SurfaceMesh   mesh(file.path);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
   EXPECT_EQ(mesh.triangles().size(), 12u);
   EXPECT_NEAR(volume(mesh.triangles()), 64., 1e-12);
   EXPECT_EQ(mesh.bounding_box(),
@@ -238,12 +140,17 @@ TEST(SurfaceMesh, CubeOfPolygons)
 TEST(SurfaceMesh, OrientationIsMadeOutward)
 {
   const TemporaryFile inward(".off", reversed(cube({}, 2.)).off());
-  EXPECT_NEAR(volume(SurfaceMesh(inward.path).triangles()), 8., 1e-12);
+  EXPECT_NEAR(volume(
+                SurfaceMesh("Tissue/Surface mesh", inward.path).triangles()),
+              8.,
+              1e-12);
 
   Polygons mixed = cube({}, 2.);
   std::reverse(mixed.faces[3].begin(), mixed.faces[3].end());
   const TemporaryFile file(".off", mixed.off());
-  EXPECT_NEAR(volume(SurfaceMesh(file.path).triangles()), 8., 1e-12);
+  EXPECT_NEAR(volume(SurfaceMesh("Tissue/Surface mesh", file.path).triangles()),
+              8.,
+              1e-12);
 }
 
 TEST(SurfaceMesh, CavitiesAndSeveralBodies)
@@ -252,7 +159,7 @@ TEST(SurfaceMesh, CavitiesAndSeveralBodies)
   bodies.append(cube(Point<3>(1., 1., 1.), 2.));
   bodies.append(cube(Point<3>(10., 0., 0.), 1.));
   const TemporaryFile file(".off", bodies.off());
-  const SurfaceMesh   mesh(file.path);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
   EXPECT_NEAR(volume(mesh.triangles()), 64. - 8. + 1., 1e-12);
   EXPECT_TRUE(mesh.contains(Point<3>(0.5, 2., 2.), 1e-9));
   EXPECT_FALSE(mesh.contains(Point<3>(2., 2., 2.), 1e-9));
@@ -294,7 +201,8 @@ TEST(SurfaceMesh, OtherFormats)
   stl << "endsolid body\n";
 
   const TemporaryFile off_file(".off", body.off());
-  const double        expected = volume(SurfaceMesh(off_file.path).triangles());
+  const double        expected =
+    volume(SurfaceMesh("Tissue/Surface mesh", off_file.path).triangles());
   EXPECT_GT(expected, 1000.);
   const std::map<std::string, std::string> contents = {{".obj", obj.str()},
                                                        {".stl", stl.str()},
@@ -303,7 +211,10 @@ TEST(SurfaceMesh, OtherFormats)
   for (const auto &[ending, content] : contents)
     {
       const TemporaryFile file(ending, content);
-      EXPECT_NEAR(volume(SurfaceMesh(file.path).triangles()), expected, 1e-9)
+      EXPECT_NEAR(volume(
+                    SurfaceMesh("Tissue/Surface mesh", file.path).triangles()),
+                  expected,
+                  1e-9)
         << ending;
     }
 }
@@ -381,13 +292,14 @@ TEST(SurfaceMesh, RefusesWhatIsNoMesh)
   EXPECT_NE(refusal("OFF\n8 6 0\n0 0 0\n1 0"), "");
   EXPECT_NE(refusal("solid nothing\nendsolid nothing\n", ".stl"), "");
   EXPECT_TRUE(contains(refusal("x", ".abc"), "cannot be read"));
-  EXPECT_THROW(SurfaceMesh("no/such/file.off"), InputError);
+  EXPECT_THROW(SurfaceMesh("Tissue/Surface mesh", "no/such/file.off"),
+               InputError);
 }
 
 TEST(MeshPatches, LargeTrianglesAreCut)
 {
   const TemporaryFile file(".off", cube({}, 200.).off());
-  const SurfaceMesh   mesh(file.path);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
   for (const unsigned int n : {12u, 13u, 100u, 2904u, 10000u})
     {
       const auto patches = cut_into_patches(mesh.triangles(), n);
@@ -406,7 +318,7 @@ TEST(MeshPatches, LargeTrianglesAreCut)
 TEST(MeshPatches, SmallTrianglesAreMergedButNotAcrossEdges)
 {
   const TemporaryFile file(".off", fine_cube(200., 30).off());
-  const SurfaceMesh   mesh(file.path);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
   EXPECT_NEAR(volume(mesh.triangles()) / 8e6, 1., 1e-12);
   for (const unsigned int n : {6u, 60u, 600u, 2904u})
     {
@@ -434,7 +346,7 @@ TEST(MeshPatches, SmallTrianglesAreMergedButNotAcrossEdges)
 TEST(MeshPatches, SphereIsFollowed)
 {
   const TemporaryFile file(".off", sphere(250., 5).off());
-  const SurfaceMesh   mesh(file.path);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
   const double        exact = volume(mesh.triangles());
   double              area  = 0.;
   for (const SurfaceTriangle &t : mesh.triangles())

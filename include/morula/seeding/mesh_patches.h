@@ -4,8 +4,8 @@
 #ifndef morula_seeding_mesh_patches_h
 #define morula_seeding_mesh_patches_h
 
+#include <morula/base/surface_mesh.h>
 #include <morula/seeding/shape.h>
-#include <morula/seeding/surface_mesh.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/body.h>
 
 #include <cmath>
@@ -118,6 +119,27 @@ namespace Morula
       const Point<dim> center, size;
     };
 
+    /** The inside of a closed surface of triangles. */
+    class MeshBody : public Body<3>
+    {
+    public:
+      MeshBody(const Point<3> &origin, const Key<std::string> &file)
+        : origin(origin)
+        , mesh(file.path(), file)
+      {}
+
+      Distance<3>
+      distance(const Point<3> &x) const override
+      {
+        const NearestPoint nearest = mesh.nearest(Point<3>(x - origin));
+        return {nearest.distance, nearest.direction, nearest.curvature};
+      }
+
+    private:
+      const Point<3>    origin; // of the file's coordinates
+      const SurfaceMesh mesh;
+    };
+
     template <int dim>
     Point<dim>
     place(const Key<std::vector<double>> &key)
@@ -179,8 +201,16 @@ namespace Morula
     if (shape == "box")
       return std::make_unique<Box<dim>>(center, positive_size<dim>(keys));
     if (shape.empty())
-      keys.shape.refuse("plane, sphere, cylinder or box",
+      keys.shape.refuse("plane, sphere, cylinder, box or mesh",
                         "Say what the obstacle is.");
+    if constexpr (dim == 3)
+      if (shape == "mesh")
+        {
+          if (keys.surface_mesh.empty())
+            keys.surface_mesh.refuse("a file, as Shape = mesh",
+                                     "Name the file, or choose another Shape.");
+          return std::make_unique<MeshBody>(center, keys.surface_mesh);
+        }
     if (dim == 2)
       keys.shape.refuse("plane, sphere or box in 2-D",
                         "There a sphere is a disc.");

@@ -10,9 +10,9 @@ namespace Morula
     : name(name)
     , shape("Shape",
             "",
-            "plane, sphere (2-D: a disc), cylinder (without ends) or box (its "
-            "edges along the axes).",
-            {"|plane|sphere|cylinder|box"})
+            "plane, sphere (2-D: a disc), cylinder (without ends), box (its "
+            "edges along the axes) or mesh.",
+            {"|plane|sphere|cylinder|box|mesh"})
     , side("Side",
            "outside",
            "outside: the tissue is outside of the body, in front of the plane; "
@@ -21,13 +21,18 @@ namespace Morula
     , center(
         "Center",
         {0., 0., 0.},
-        "Center of the body, or a point of the plane, at t = 0. Units: um.")
+        "Center of the body, a point of the plane, or where the origin of the "
+        "mesh's file is, at t = 0. Units: um.")
     , radius("Radius", 0., "Of a sphere or cylinder; > 0. Units: um.")
     , normal("Normal",
              "",
              "Of a plane; it points to the tissue if Side = outside.")
     , size("Size", {}, "Full edge lengths of a box. Units: um.")
     , axis("Axis", "", "Of a cylinder.")
+    , surface_mesh("Surface mesh",
+                   "",
+                   "Of a mesh: closed surface in um, as an STL, OFF, PLY or "
+                   "OBJ file.")
     , stiffness("Stiffness",
                 100.,
                 "Pressure on the tissue over its depth in the obstacle; > 0. E "
@@ -56,6 +61,7 @@ namespace Morula
             &normal,
             &size,
             &axis,
+            &surface_mesh,
             &stiffness,
             &velocity};
   }

@@ -8,8 +8,8 @@
 
 namespace Morula
 {
-  MeshShape::MeshShape(const std::string &file)
-    : mesh(file)
+  MeshShape::MeshShape(const std::string &key, const std::string &file)
+    : mesh(key, file)
   {}
 
   BoundingBox<3>

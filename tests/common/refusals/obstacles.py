@@ -4,6 +4,35 @@
 from tests.common.refusals.refusal import Refusal, wrong
 
 WALL = "Obstacles/wall/"
+OPEN = """OFF
+4 3 0
+0 0 0
+64 0 0
+0 64 0
+0 0 64
+3 0 2 1
+3 0 1 3
+3 0 3 2
+"""
+TWO = """OFF
+8 8 0
+0 0 0
+64 0 0
+0 64 0
+0 0 64
+8 8 -8
+72 8 -8
+8 72 -8
+8 8 56
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+3 4 6 5
+3 4 5 7
+3 4 7 6
+3 5 6 7
+"""
 
 
 def wall(name, key, value, limit, remedy, **keys):
@@ -24,6 +53,20 @@ OBSTACLES = [
     wall("an obstacle without radius", WALL + "Radius", "0",
          "a length in um > 0, as Shape = sphere", "Give the radius",
          Shape="sphere"),
+    wall("a mesh without file", WALL + "Surface mesh", "",
+         "a file, as Shape = mesh", "Name the file", Shape="mesh"),
+    wall("a mesh that is not there", WALL + "Surface mesh", "no/such/file.off",
+         "a closed surface", "check that it exists", Shape="mesh"),
+    Refusal("an obstacle's mesh that is open",
+            {"Obstacles/Names": "wall", WALL + "Shape": "mesh",
+             WALL + "Surface mesh": "{files}/open.off"},
+            WALL + "Surface mesh", "{files}/open.off", "a closed surface",
+            "The surface is open", {"open.off": OPEN}),
+    Refusal("an obstacle's mesh that intersects itself",
+            {"Obstacles/Names": "wall", WALL + "Shape": "mesh",
+             WALL + "Surface mesh": "{files}/two.off"},
+            WALL + "Surface mesh", "{files}/two.off", "a closed surface",
+            "intersects or touches itself", {"two.off": TWO}),
     wall("a soft obstacle", WALL + "Stiffness", "0", "> 0, in units of E/h",
          "100 lets tissue"),
     wall("an obstacle that turns", WALL + "Velocity", "Y; 0; 0",

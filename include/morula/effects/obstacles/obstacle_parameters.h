@@ -28,6 +28,7 @@ namespace Morula
     DirectionKey             normal;
     Key<std::vector<double>> size; // µm
     DirectionKey             axis;
+    Key<std::string>         surface_mesh;
     Key<double>              stiffness; // κ h / E
     ExpressionKey            velocity;  // µm/day
 

@@ -4,8 +4,8 @@
 #ifndef morula_seeding_shapes_mesh_h
 #define morula_seeding_shapes_mesh_h
 
+#include <morula/base/surface_mesh.h>
 #include <morula/seeding/shape.h>
-#include <morula/seeding/surface_mesh.h>
 
 #include <string>
 
@@ -17,7 +17,7 @@ namespace Morula
   {
   public:
     /** @throws InputError as SurfaceMesh */
-    explicit MeshShape(const std::string &file);
+    MeshShape(const std::string &key, const std::string &file);
 
     BoundingBox<3>
     bounding_box() const override;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_seeding_surface_mesh_h
-#define morula_seeding_surface_mesh_h
+#ifndef morula_base_surface_mesh_h
+#define morula_base_surface_mesh_h
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <array>
 #include <memory>
@@ -25,6 +26,18 @@ namespace Morula
     std::array<unsigned int, 3> neighbors;
   };
 
+  /** The point of a surface that is nearest to a place. */
+  struct NearestPoint
+  {
+    /** Distance of the place, µm; negative inside. */
+    double distance;
+    /** Unit vector from there away from the surface, towards the outside. */
+    Tensor<1, 3> direction;
+    /** Second derivative of the distance, per µm: 0 beside a triangle, not
+     *  beside an edge or a vertex. */
+    Tensor<2, 3> curvature;
+  };
+
   /**
    * A closed surface of triangles, read from a file, and the space inside it.
    * CGAL is used inside this class only.
@@ -33,14 +46,15 @@ namespace Morula
   {
   public:
     /**
-     * Reads STL, OFF, PLY or OBJ (by the name's ending), in µm. Coinciding
+     * Reads STL, OFF, PLY or OBJ (by the file's ending), in µm. Coinciding
      * vertices are merged, and polygons are cut into triangles. Triangles are
      * turned outward; those of a cavity are turned towards the cavity.
+     * @param key  path of the key that names the file
      * @throws InputError if the file cannot be read or is cut off, or if the
      * surface is empty, open or non-manifold, has a triangle without area, or
      * intersects or touches itself. The message says where.
      */
-    explicit SurfaceMesh(const std::string &file);
+    SurfaceMesh(const std::string &key, const std::string &file);
 
     ~SurfaceMesh();
 
@@ -54,6 +68,10 @@ namespace Morula
      *  surface. */
     bool
     contains(const Point<3> &x, const double clearance) const;
+
+    /** How far @p x (µm) is from the surface. */
+    NearestPoint
+    nearest(const Point<3> &x) const;
 
   private:
     struct Implementation;

@@ -2,8 +2,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/seeding/seeding.h>
-#include <morula/seeding/surface_mesh.h>
+#include <morula/base/surface_mesh.h>
+
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
@@ -23,6 +24,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -53,11 +55,18 @@ namespace Morula
       std::vector<std::vector<std::size_t>> polygons;
     };
 
-    [[noreturn]] void
-    refuse(const std::string &file, const std::string &remedy)
+    /** A file and the path of the key that names it. */
+    struct NamedFile
     {
-      throw InputError(TissueKeys::surface_mesh,
-                       file,
+      const std::string &key;
+      const std::string &name;
+    };
+
+    [[noreturn]] void
+    refuse(const NamedFile &file, const std::string &remedy)
+    {
+      throw InputError(file.key,
+                       file.name,
                        "a closed surface that does not intersect itself, as an "
                        "STL, OFF, PLY or OBJ file",
                        remedy);
@@ -66,11 +75,11 @@ namespace Morula
     /** Refuses an empty file, and an STL file that ends before its last
      *  triangle. A missing file is left to the reader. */
     void
-    check_complete(const std::string &file)
+    check_complete(const NamedFile &file)
     {
       const std::string ending =
-        file.substr(std::min(file.rfind('.'), file.size()));
-      std::ifstream stream(file, std::ios::binary);
+        file.name.substr(std::min(file.name.rfind('.'), file.name.size()));
+      std::ifstream stream(file.name, std::ios::binary);
       if (!stream)
         return;
       if (stream.peek() == std::ifstream::traits_type::eof())
@@ -107,7 +116,7 @@ namespace Morula
     /** Refuses coordinates that are no numbers, or so large that areas and
      *  volumes would overflow. */
     void
-    check_finite(const Soup &soup, const std::string &file)
+    check_finite(const Soup &soup, const NamedFile &file)
     {
       for (std::size_t i = 0; i < soup.points.size(); ++i)
         {
@@ -122,14 +131,15 @@ namespace Morula
     }
 
     Soup
-    read_soup(const std::string &file)
+    read_soup(const NamedFile &file)
     {
       check_complete(file);
       Soup soup;
       bool good = false;
       try
         {
-          good = CGAL::IO::read_polygon_soup(file, soup.points, soup.polygons);
+          good =
+            CGAL::IO::read_polygon_soup(file.name, soup.points, soup.polygons);
         }
       catch (const std::exception &)
         {
@@ -157,7 +167,7 @@ namespace Morula
 
     /** Refuses a surface with an edge that does not have two polygons. */
     void
-    check_edges(const Soup &soup, const std::string &file)
+    check_edges(const Soup &soup, const NamedFile &file)
     {
       std::map<std::pair<std::size_t, std::size_t>, unsigned int> edges;
       for (const std::vector<std::size_t> &polygon : soup.polygons)
@@ -203,7 +213,7 @@ namespace Morula
 
     /** Refuses a triangle so thin that rounding would spoil its normal. */
     void
-    check_areas(const Mesh &mesh, const std::string &file)
+    check_areas(const Mesh &mesh, const NamedFile &file)
     {
       constexpr double smallest = 1e-14; // of the longest edge's square
       for (const Mesh::Face_index face : mesh.faces())
@@ -226,7 +236,7 @@ namespace Morula
     /** Refuses triangles that cross or touch other ones than their neighbours.
      */
     void
-    check_intersections(const Mesh &mesh, const std::string &file)
+    check_intersections(const Mesh &mesh, const NamedFile &file)
     {
       std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
       Processing::self_intersections(mesh, std::back_inserter(pairs));
@@ -242,7 +252,7 @@ namespace Morula
     }
 
     Mesh
-    read_mesh(const std::string &file)
+    read_mesh(const NamedFile &file)
     {
       Soup soup = read_soup(file);
       check_edges(soup, file);
@@ -272,11 +282,53 @@ namespace Morula
     {
       return {p.x(), p.y(), p.z()};
     }
+
+    /** From vertex i to the next one. */
+    Tensor<1, 3>
+    edge(const SurfaceTriangle &triangle, const unsigned int i)
+    {
+      return triangle.vertices[(i + 1) % 3] - triangle.vertices[i];
+    }
+
+    /** Outward unit normal. */
+    Tensor<1, 3>
+    normal(const SurfaceTriangle &triangle)
+    {
+      const Tensor<1, 3> twice_area =
+        cross_product_3d(edge(triangle, 0), edge(triangle, 1));
+      return twice_area / twice_area.norm();
+    }
+
+    /** Projection onto the directions across the edge that @p x lies on; the
+     *  identity if it is a vertex. */
+    Tensor<2, 3>
+    directions_across(const SurfaceTriangle &triangle, const Point<3> &x)
+    {
+      const Tensor<2, 3> identity(unit_symmetric_tensor<3>());
+      unsigned int       nearest = 0;
+      double             least   = std::numeric_limits<double>::infinity();
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const Tensor<1, 3> along = edge(triangle, i);
+          const Tensor<1, 3> way   = x - triangle.vertices[i];
+          if (way.norm() < 1e-9 * along.norm())
+            return identity;
+          const double distance =
+            cross_product_3d(along, way).norm() / along.norm();
+          if (distance < least)
+            {
+              least   = distance;
+              nearest = i;
+            }
+        }
+      const Tensor<1, 3> along = edge(triangle, nearest);
+      return identity - outer_product(along, along) / along.norm_square();
+    }
   } // namespace
 
   struct SurfaceMesh::Implementation
   {
-    explicit Implementation(const std::string &file)
+    explicit Implementation(const NamedFile &file)
       : mesh(read_mesh(file))
       , tree(mesh.faces().begin(), mesh.faces().end(), mesh)
       , inside(tree)
@@ -287,8 +339,8 @@ namespace Morula
     const Inside inside;
   };
 
-  SurfaceMesh::SurfaceMesh(const std::string &file)
-    : implementation(std::make_unique<Implementation>(file))
+  SurfaceMesh::SurfaceMesh(const std::string &key, const std::string &file)
+    : implementation(std::make_unique<Implementation>(NamedFile{key, file}))
   {
     const Mesh &mesh = implementation->mesh;
     all_triangles.reserve(mesh.number_of_faces());
@@ -328,5 +380,29 @@ namespace Morula
     return implementation->inside(p) == CGAL::ON_BOUNDED_SIDE &&
            !implementation->tree.do_intersect(
              Kernel::Sphere_3(p, clearance * clearance));
+  }
+
+  NearestPoint
+  SurfaceMesh::nearest(const Point<3> &x) const
+  {
+    const Kernel::Point_3 p(x[0], x[1], x[2]);
+    const auto [closest, face] =
+      implementation->tree.closest_point_and_primitive(p);
+    const SurfaceTriangle &triangle = all_triangles[face];
+    const Tensor<1, 3>     way      = x - point(closest);
+    const Tensor<1, 3>     n        = normal(triangle);
+    const double           length   = way.norm();
+    // Straight above or below a triangle, or so near to the surface that
+    // rounding decides where.
+    if (length < 1e-7 * edge(triangle, 0).norm() + 1e-9 * x.norm() ||
+        cross_product_3d(way, n).norm() < 1e-6 * length)
+      return {way * n, n, Tensor<2, 3>()};
+    const bool   is_inside = implementation->inside(p) == CGAL::ON_BOUNDED_SIDE;
+    const double distance  = is_inside ? -length : length;
+    const Tensor<1, 3> direction = way / distance;
+    const Tensor<2, 3> across    = directions_across(triangle, point(closest));
+    return {distance,
+            direction,
+            (across - outer_product(direction, direction)) / distance};
   }
 } // namespace Morula

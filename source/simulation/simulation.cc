@@ -150,7 +150,9 @@ namespace Morula
     const SplineSpace<dim> space = splines();
     tell_of_joined_pieces(space);
     count_pieces(space);
-    solve_steady_fields(space);
+    // Those of t = 0 stand in the first row.
+    if (n_steps > 1)
+      set_steady_fields(space);
     const RigidModes<dim> modes = rigid_modes(space);
     Equilibrium::Vector   u;
     solve_step(space, modes, u);

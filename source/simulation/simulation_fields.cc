@@ -6,33 +6,63 @@
 #include <morula/solver/linear_solver.h>
 
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 namespace Morula
 {
+  namespace
+  {
+    /** A linear solver with a timer of its own: the rows of the linear solver
+     *  in timings.csv are those of Newton's method. */
+    struct SilentSolver
+    {
+      SilentSolver(const SolverParameters &parameters,
+                   const LinearProblem    &problem)
+        : timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+        , solver(parameters, problem, timer)
+      {}
+
+      TimerOutput  timer;
+      LinearSolver solver;
+    };
+
+    MakeLinearSolver
+    make_solver_of(const SolverParameters &parameters)
+    {
+      return [&parameters](const LinearProblem &problem) -> SolveLinear {
+        // Functions are copied; a preconditioner is not.
+        const auto own = std::make_shared<SilentSolver>(parameters, problem);
+        return [own](const Equilibrium::Matrix &A,
+                     Equilibrium::Vector       &x,
+                     const Equilibrium::Vector &b,
+                     const double               tolerance) {
+          unsigned int iterations = 0;
+          own->solver.solve(A, x, b, tolerance, iterations);
+        };
+      };
+    }
+  } // namespace
+
+
   template <int dim>
   FieldsOfStep<dim>
-  Simulation<dim>::solve_fields(
-    const std::function<FieldsOfStep<dim>(const SolveLinear &)> &find)
+  Simulation<dim>::find_fields(const SplineSpace<dim> &space,
+                               const FieldKind         kind,
+                               const double            t1)
   {
+    if (!fields.any(kind))
+      return {};
     const TimerOutput::Scope section(timer, "fields");
-    // The rows of the linear solver in timings.csv are those of Newton's
-    // method.
-    TimerOutput       own_timer(std::cout,
-                          TimerOutput::never,
-                          TimerOutput::wall_times);
+    if (!field_solver)
+      field_solver.emplace(tissue,
+                           space,
+                           development.reader(time_steps.time()),
+                           make_solver_of(scene.solver));
     FieldsOfStep<dim> found;
     try
       {
-        found = find([&](const LinearProblem       &problem,
-                         const Equilibrium::Matrix &A,
-                         Equilibrium::Vector       &x,
-                         const Equilibrium::Vector &b,
-                         const double               tolerance) {
-          unsigned int iterations = 0;
-          LinearSolver(scene.solver, problem, own_timer)
-            .solve(A, x, b, tolerance, iterations);
-        });
+        found = fields.find(kind, *field_solver, time_steps.time(), t1);
       }
     catch (const InputError &error)
       {
@@ -49,6 +79,15 @@ namespace Morula
           throw std::runtime_error(reason);
         give_up(reason);
       }
+    tell_of_fields(found);
+    return found;
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::tell_of_fields(const FieldsOfStep<dim> &found)
+  {
     clipped.resize(scene.fields.fields.size(), 0);
     for (const FieldSolution<dim> &field : found)
       {
@@ -66,21 +105,18 @@ namespace Morula
                 "converge better. Later ones are not told of.";
         files->message(text.str());
       }
-    return found;
   }
 
 
   template <int dim>
   void
-  Simulation<dim>::solve_steady_fields(const SplineSpace<dim> &space)
+  Simulation<dim>::set_steady_fields(const SplineSpace<dim> &space)
   {
-    if (!fields.any_steady())
-      return;
-    const CellReader<dim> reader = development.reader(time_steps.time());
-    fields.set(tissue, solve_fields([&](const SolveLinear &solve) {
-                 return fields.steady(
-                   tissue, space, reader, time_steps.time(), solve);
-               }));
+    fields.set(tissue,
+               find_fields(space, FieldKind::steady, time_steps.time()));
+    // What it has made serves the others in the same configuration.
+    if (!fields.any(FieldKind::transient))
+      field_solver.reset();
   }
 
 
@@ -88,13 +124,10 @@ namespace Morula
   FieldsOfStep<dim>
   Simulation<dim>::transient_fields(const SplineSpace<dim> &space)
   {
-    if (!fields.any_transient())
-      return {};
-    const CellReader<dim> reader = development.reader(time_steps.time());
-    return solve_fields([&](const SolveLinear &solve) {
-      return fields.transient(
-        tissue, space, reader, time_steps.time(), time_steps.next(), solve);
-    });
+    FieldsOfStep<dim> found =
+      find_fields(space, FieldKind::transient, time_steps.next());
+    field_solver.reset();
+    return found;
   }
 
 

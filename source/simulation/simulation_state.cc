@@ -342,7 +342,8 @@ namespace Morula
   Simulation<dim>::begin_rows()
   {
     first_splines.emplace(splines());
-    solve_steady_fields(*first_splines);
+    set_steady_fields(*first_splines);
+    field_solver.reset(); // the splines will stand elsewhere
     count_pieces(*first_splines);
     row = statistics();
     count_splines(*first_splines, row);

@@ -102,6 +102,11 @@ class Fields(ProgramTest):
         self.assertIn("The field oxygen", shown)
         rows, cells = run.statistics, run.cells(-1)
         self.assertGreaterEqual(rows["oxygen_min"].min(), 0)
+        # Once in each configuration: that of t = 0 is that of the first step.
+        sections = (self.work / "output/timings.csv").read_text().split()
+        calls = [line.split(",")[1] for line in sections
+                 if line.startswith("fields,")]
+        self.assertEqual(calls, [str(len(rows) - 1)])
         r = numpy.linalg.norm(cells[["x", "y", "z"]], axis=1)
         means = [r[cells["type"] == i].mean() for i in range(3)]
         print("mean radii of the types, um:", means)

@@ -129,14 +129,17 @@ namespace Morula
     commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
     /** Gives cells the steady fields of the present configuration. */
     void
-    solve_steady_fields(const SplineSpace<dim> &space);
+    set_steady_fields(const SplineSpace<dim> &space);
     /** The other fields at the end of the step. */
     FieldsOfStep<dim>
     transient_fields(const SplineSpace<dim> &space);
-    /** Finds fields by @p find; notes what is worth telling of them. */
+    /** Those of a kind, at @p t1. */
     FieldsOfStep<dim>
-    solve_fields(
-      const std::function<FieldsOfStep<dim>(const SolveLinear &)> &find);
+    find_fields(const SplineSpace<dim> &space,
+                const FieldKind         kind,
+                const double            t1);
+    void
+    tell_of_fields(const FieldsOfStep<dim> &found);
     /** What statistics.csv says of the fields. */
     std::vector<FieldStatistics>
     field_statistics() const;
@@ -251,6 +254,7 @@ namespace Morula
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step
+    std::optional<FieldSolver<dim>>  field_solver;  // of the configuration
     std::optional<SnapshotData<dim>> resumed_from;  // until run()
     std::optional<RunFiles<dim>>     files;         // from run() on
   };

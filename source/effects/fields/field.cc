@@ -4,7 +4,6 @@
 #include <morula/effects/fields/field.h>
 
 #include <algorithm>
-#include <vector>
 
 namespace Morula
 {
@@ -35,10 +34,10 @@ namespace Morula
                     const EffectSetting<dim> &setting)
     : name_(keys.name)
     , number(number)
-    , steady(keys.is_steady())
+    , kind_(keys.is_steady() ? FieldKind::steady : FieldKind::transient)
     , diluted(keys.dilution)
     , diffusion_(setting.state.use(keys.diffusion))
-    , production(setting.state.use(keys.production))
+    , production_(setting.state.use(keys.production))
     , consumption(setting.state.use(keys.consumption))
     , initial_(keys.initial.expression(dim))
     , value_(keys.value.expression(dim))
@@ -56,10 +55,10 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Field<dim>::is_steady() const
+  FieldKind
+  Field<dim>::kind() const
   {
-    return steady;
+    return kind_;
   }
 
 
@@ -67,7 +66,7 @@ namespace Morula
   bool
   Field<dim>::is_diluted() const
   {
-    return diluted && !steady;
+    return diluted && kind_ == FieldKind::transient;
   }
 
 
@@ -83,9 +82,16 @@ namespace Morula
   bool
   Field<dim>::is_nonlinear() const
   {
+    return has_nonlinear_source() || consumption.uses(field_variable(number));
+  }
+
+
+  template <int dim>
+  bool
+  Field<dim>::has_nonlinear_source() const
+  {
     const Variable own = field_variable(number);
-    return diffusion_.uses(own) || production.uses(own) ||
-           consumption.uses(own);
+    return diffusion_.uses(own) || production_.uses(own);
   }
 
 
@@ -107,40 +113,38 @@ namespace Morula
 
 
   template <int dim>
-  FieldAtCell
-  Field<dim>::at_cell(const PresentCell<dim> &cell,
-                      const double            t,
-                      const double            c,
-                      const double            known,
-                      const double            scale) const
+  double
+  Field<dim>::diffusion(const PresentCell<dim> &cell, const double t) const
   {
-    double k     = cell.value(consumption, t);
-    double slope = k;
-    if (consumption.uses(field_variable(number)))
-      {
-        const double more =
-          c + std::max(difference * c, smallest_difference * scale);
-        const CellView<dim, const double> &view = cell.cell();
-        std::vector<double>         row(view.row().begin(), view.row().end());
-        const CellView<dim, double> other(make_array_view(row), view.columns());
-        other.set(cell.reader().columns.fields[number], more);
-        const double k_more =
-          PresentCell<dim>(other, cell.id(), cell.position(), cell.reader())
-            .value(consumption, t);
-        slope = std::max(0., (k_more * more - k * c) / (more - c));
-      }
-    return {cell.cell().volume(),
-            diffusion(cell, t),
-            slope,
-            cell.value(production, t) - k * c + slope * (c - known)};
+    return cell.value(diffusion_, t);
   }
 
 
   template <int dim>
   double
-  Field<dim>::diffusion(const PresentCell<dim> &cell, const double t) const
+  Field<dim>::production(const PresentCell<dim> &cell, const double t) const
   {
-    return cell.value(diffusion_, t);
+    return cell.value(production_, t);
+  }
+
+
+  template <int dim>
+  Uptake
+  Field<dim>::uptake(PresentCell<dim> &cell,
+                     const double      t,
+                     const double      c,
+                     const double      scale) const
+  {
+    cell.set_field(number, c);
+    const double k = cell.value(consumption, t);
+    if (!consumption.uses(field_variable(number)))
+      return {k * c, k};
+    const double more =
+      c + std::max(difference * c, smallest_difference * scale);
+    cell.set_field(number, more);
+    const double k_more = cell.value(consumption, t);
+    cell.set_field(number, c);
+    return {k * c, std::max(0., (k_more * more - k * c) / (more - c))};
   }
 
 

@@ -2,60 +2,14 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fields/field_equation.h>
+#include <morula/effects/fields/spline_moments.h>
+
+#include <algorithm>
 
 namespace Morula
 {
   namespace
   {
-    /** Adds V (D ∇N_a·∇N_b + k N_a N_b), or with the last term lumped. */
-    template <int dim>
-    void
-    add_matrix(const FieldAtCell       &cell,
-               const SplineValues<dim> &splines,
-               const bool               lumped,
-               std::vector<double>     &matrix)
-    {
-      constexpr unsigned int n    = BSpline<dim>::n;
-      const double           rate = cell.volume * cell.rate;
-      const double           D    = cell.volume * cell.diffusion;
-      // The gradients, and last the values where they are not lumped: each row
-      // is read and written once.
-      const double *factors[dim + 1];
-      for (unsigned int d = 0; d < dim; ++d)
-        factors[d] = splines.gradient[d];
-      factors[dim]           = splines.value;
-      const double of_values = lumped ? 0. : rate;
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          double *const row = &matrix[a * n];
-          double        of[dim + 1];
-          for (unsigned int d = 0; d < dim; ++d)
-            of[d] = D * factors[d][a];
-          of[dim] = of_values * factors[dim][a];
-          // Symmetric: complete() fills the rest.
-          for (unsigned int b = 0; b <= a; ++b)
-            {
-              double sum = 0.;
-              for (unsigned int d = 0; d <= dim; ++d)
-                sum += of[d] * factors[d][b];
-              row[b] += sum;
-            }
-          if (lumped)
-            row[a] += rate * splines.value[a];
-        }
-    }
-
-    /** The upper triangle of the cells' symmetric matrix from the lower one. */
-    template <int dim>
-    void
-    complete(std::vector<double> &matrix)
-    {
-      constexpr unsigned int n = BSpline<dim>::n;
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < a; ++b)
-          matrix[b * n + a] = matrix[a * n + b];
-    }
-
     /** g·∇N_a of all splines. */
     template <int dim>
     std::array<double, BSpline<dim>::n>
@@ -84,19 +38,18 @@ namespace Morula
             point.weight * N[a] * N[b] - slope[a] * N[b] - N[a] * slope[b];
     }
 
+    /** Takes what a cell loses by the diffusion of the known field. */
     template <int dim>
     void
-    add_load(const FieldAtCell        &cell,
-             const SplineValues<dim>  &splines,
-             const LocalField<dim, 1> &known,
-             LocalEquations<dim, 1>   &local)
+    add_diffusion(const FieldAtCell        &cell,
+                  const SplineValues<dim>  &splines,
+                  const LocalField<dim, 1> &known,
+                  LocalEquations<dim, 1>   &local)
     {
       const Tensor<1, dim> gradient = known.gradients(splines)[0];
       const auto flux = along(cell.volume * cell.diffusion * gradient, splines);
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-        local.add_force(0,
-                        a,
-                        cell.volume * cell.load * splines.value[a] - flux[a]);
+        local.add_force(0, a, -flux[a]);
     }
 
     template <int dim>
@@ -125,18 +78,10 @@ namespace Morula
                                  Local             &local) const
   {
     const bool is_matrix = local.wanted == Local::tangent;
-    for (unsigned int p = cell_places.offsets[c];
-         p < cell_places.offsets[c + 1];
-         ++p)
-      {
-        const SplineValues<dim> splines(cell_places.xi[p], cell_places.h);
-        if (is_matrix)
-          add_matrix(cells[p], splines, lumped[c], local.matrix);
-        else
-          add_load(cells[p], splines, known, local);
-      }
     if (is_matrix)
-      complete<dim>(local.matrix);
+      add_cells_matrix(c, local);
+    else
+      add_cells_load(c, known, local);
     if (surface.empty())
       return true;
     for (unsigned int p = surface_places.offsets[c];
@@ -150,6 +95,49 @@ namespace Morula
           add_load(surface[p], splines, known, local);
       }
     return true;
+  }
+
+
+  template <int dim>
+  void
+  FieldEquation<dim>::add_cells_matrix(const unsigned int c, Local &local) const
+  {
+    MatrixMoments<dim> moments;
+    for (unsigned int p = cell_places.offsets[c];
+         p < cell_places.offsets[c + 1];
+         ++p)
+      moments.add(cell_places.xi[p],
+                  {{cells[p].volume * cells[p].diffusion,
+                    cells[p].volume * cells[p].rate}});
+    add_matrix(moments, cell_places.h, lumped[c], local.matrix);
+  }
+
+
+  template <int dim>
+  void
+  FieldEquation<dim>::add_cells_load(const unsigned int c,
+                                     const Known       &known,
+                                     Local             &local) const
+  {
+    const auto      &coefficients = known.coefficient[0];
+    const bool       is_zero      = std::all_of(std::begin(coefficients),
+                                     std::end(coefficients),
+                                     [](const double u) { return u == 0.; });
+    LoadMoments<dim> moments;
+    for (unsigned int p = cell_places.offsets[c];
+         p < cell_places.offsets[c + 1];
+         ++p)
+      {
+        moments.add(cell_places.xi[p], {{cells[p].volume * cells[p].load}});
+        if (!is_zero)
+          add_diffusion(cells[p],
+                        SplineValues<dim>(cell_places.xi[p], cell_places.h),
+                        known,
+                        local);
+      }
+    const auto loads = spline_sums(moments);
+    for (unsigned int a = 0; a < loads.size(); ++a)
+      local.add_force(0, a, loads[a]);
   }
 
 

@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/fields/field_solve.h>
+#include <morula/effects/fields/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
@@ -25,6 +26,19 @@ namespace Morula
     constexpr double       small_change    = 1e-6;
     constexpr unsigned int most_iterations = 25;
 
+    /** Where a solution serves the next iteration: as little is left as that
+     *  will leave. The last one is far more exact. */
+    constexpr double tolerance_of_iterations = 1e-12,
+                     reduction_of_iterations = 1e-4;
+
+    /** After a change of the field that is so large the next matrix gets a
+     *  preconditioner of its own. */
+    constexpr double matrices_differ = 0.01;
+
+    /** A first change that is so large shows that the field began far from its
+     *  solution. */
+    constexpr double far_off = 0.1;
+
     /** Of the residual of the linear equations. Amounts are kept as well as
      *  this says. */
     constexpr double tolerance_of_steady = 1e-10, tolerance_of_amounts = 1e-13;
@@ -44,19 +58,22 @@ namespace Morula
   FieldSolver<dim>::FieldSolver(const Tissue<dim>      &tissue,
                                 const SplineSpace<dim> &space,
                                 const CellReader<dim>  &reader,
-                                const SolveLinear      &solve)
+                                const MakeLinearSolver &make_solver)
     : tissue(tissue)
     , space(space)
     , reader(reader)
-    , solve(solve)
+    , make_solver(make_solver)
     , assembly(space, tissue.communicator())
-    , strongly_coupled(assembly.unknowns().of_extended_splines())
     , values(reader.columns.fields.size())
   {
     assembly.make_pattern();
-    groups =
-      group_points(tissue.cells(), space, [](const auto &) { return true; });
-    equation.cell_places = grouped_places(tissue.cells(), space, groups);
+    problem.strongly_coupled = assembly.unknowns().of_extended_splines();
+    equation.cell_places =
+      grouped_places(tissue.cells(),
+                     space,
+                     group_points(tissue.cells(), space, [](const auto &) {
+                       return true;
+                     }));
   }
 
 
@@ -71,23 +88,34 @@ namespace Morula
 
 
   template <int dim>
-  template <typename Action>
-  void
-  FieldSolver<dim>::with_cell(const unsigned int p, const Action &action) const
+  PresentCell<dim>
+  FieldSolver<dim>::present_cell(const unsigned int p) const
   {
     const Cells<dim> &cells = tissue.cells();
-    const auto        view  = cells[p];
-    if (!has_found)
-      {
-        action(PresentCell<dim>(view, cells.id(p), cells.position(p), reader));
-        return;
-      }
-    std::vector<double>         row(view.row().begin(), view.row().end());
-    const CellView<dim, double> now(make_array_view(row), view.columns());
+    PresentCell<dim>  cell(cells[p], cells.id(p), cells.position(p), reader);
     for (unsigned int k = 0; k < values.size(); ++k)
       if (!values[k].empty())
-        now.set(reader.columns.fields[k], values[k][p]);
-    action(PresentCell<dim>(now, cells.id(p), cells.position(p), reader));
+        cell.set_field(k, values[k][p]);
+    return cell;
+  }
+
+
+  template <int dim>
+  void
+  FieldSolver<dim>::begin_cells(const Field<dim> &field, const double t)
+  {
+    const unsigned int n_cells = tissue.cells().size();
+    equation.cells.resize(n_cells);
+    productions.resize(n_cells);
+    everywhere(tissue.communicator(), [&]() {
+      for (unsigned int p = 0; p < n_cells; ++p)
+        {
+          const PresentCell<dim> cell = present_cell(p);
+          equation.cells[p].volume    = cell.cell().volume();
+          equation.cells[p].diffusion = field.diffusion(cell, t);
+          productions[p]              = field.production(cell, t);
+        }
+    });
   }
 
 
@@ -96,18 +124,23 @@ namespace Morula
   FieldSolver<dim>::evaluate_cells(const Field<dim>          &field,
                                    const unsigned int         number,
                                    const double               t,
+                                   const double               dt,
                                    const std::vector<double> &known)
   {
     const double most =
       Utilities::MPI::max(largest(values[number]), tissue.communicator());
-    equation.cells.clear();
     everywhere(tissue.communicator(), [&]() {
-      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-        with_cell(p, [&](const PresentCell<dim> &cell) {
-          equation.cells.push_back(field.at_cell(
-            cell, t, values[number][p], known[p], most > 0. ? most : 1.));
-        });
+      for (unsigned int p = 0; p < equation.cells.size(); ++p)
+        {
+          const double     c    = values[number][p];
+          PresentCell<dim> cell = present_cell(p);
+          const Uptake uptake = field.uptake(cell, t, c, most > 0. ? most : 1.);
+          equation.cells[p].rate = uptake.slope;
+          equation.cells[p].load =
+            productions[p] - uptake.used + uptake.slope * (c - known[p]);
+        }
     });
+    mark_lumped(equation, dt);
   }
 
 
@@ -139,9 +172,7 @@ namespace Morula
       {
         everywhere(tissue.communicator(), [&]() {
           for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-            with_cell(p, [&](const PresentCell<dim> &cell) {
-              of_cells.push_back(field.diffusion(cell, t));
-            });
+            of_cells.push_back(field.diffusion(present_cell(p), t));
         });
         diffusion = nearest_values(
           places,
@@ -204,30 +235,40 @@ namespace Morula
     equation.surface.clear();
     for (unsigned int p = 0; p < cells.size(); ++p)
       equation.cells[p] = {cells[p].volume, 0., 1., cell_values[p]};
-    const Vector result =
-      solve_equation(assembly.unknowns().zero(), tolerance_of_steady);
-    equation.cells   = std::move(cells);
-    equation.surface = std::move(surface);
+    const Vector zero   = assembly.unknowns().zero();
+    const Vector result = solve_equation(zero, zero, tolerance_of_steady);
+    linear              = nullptr; // another matrix
+    equation.cells      = std::move(cells);
+    equation.surface    = std::move(surface);
     return result;
   }
 
 
   template <int dim>
   typename FieldSolver<dim>::Vector
-  FieldSolver<dim>::solve_equation(const Vector &known, const double tolerance)
+  FieldSolver<dim>::solve_equation(const Vector &known,
+                                   const Vector &start,
+                                   const double  tolerance,
+                                   const double  reduction)
   {
     using Local = LocalEquations<dim, 1>;
     Local        matrix(Local::tangent), load(Local::energy_and_residual);
     const auto  &A = assembly.matrix(known, matrix, equation);
     const Vector b =
       assembly.unknowns().sum(assembly.residual(known, load, equation));
-    Vector x = assembly.unknowns().zero();
-    if (!(b.l2_norm() > 0.))
+    if (!linear)
+      {
+        problem.typical_entry = A.linfty_norm();
+        linear                = make_solver(problem);
+      }
+    Vector       x     = start, missing(b), change(b);
+    const double small = tolerance * b.l2_norm();
+    A.residual(missing, x, b);
+    const double size = missing.l2_norm();
+    if (!(size > small))
       return x;
-    LinearProblem problem;
-    problem.strongly_coupled = strongly_coupled;
-    problem.typical_entry    = A.linfty_norm();
-    solve(problem, A, x, b, tolerance);
+    linear(A, change, missing, std::max(small / size, reduction));
+    x += change;
     return x;
   }
 
@@ -237,87 +278,138 @@ namespace Morula
   FieldSolver<dim>::field(const Field<dim>  &field,
                           const unsigned int number,
                           const double       t,
-                          const double       t1,
-                          const double       dt)
+                          const double       t1)
   {
-    const MPI_Comm      comm    = tissue.communicator();
     const unsigned int  n_cells = tissue.cells().size();
-    std::vector<double> now;
+    std::vector<double> now(n_cells);
     for (unsigned int p = 0; p < n_cells; ++p)
-      now.push_back(value(number, p));
+      now[p] = value(number, p);
     // Of a steady field all is sought, of others what is added.
     const std::vector<double> known =
-      dt > 0. ? now : std::vector<double>(n_cells, 0.);
-    values[number] = now;
-    equation.lumped.assign(space.grid_cells().size(), false);
+      t1 > t ? now : std::vector<double>(n_cells, 0.);
+    values[number] = std::move(now);
     evaluate_surface(field, t, t1);
 
     FieldSolution<dim> result;
-    result.number      = number;
-    result.converged   = false;
-    Vector known_field = assembly.unknowns().zero();
-    while (!result.converged && result.iterations < most_iterations)
-      {
-        evaluate_cells(field, number, t, known);
-        mark_lumped(equation, dt);
-        if (result.iterations == 0 && dt > 0.)
-          known_field = projection(known);
-        if (result.iterations == 0 && !(dt > 0.))
-          check_sink(field);
-        if (dt > 0.)
-          for (FieldAtCell &cell : equation.cells)
-            cell.rate += 1. / dt;
-        const Vector sought =
-          solve_equation(known_field,
-                         dt > 0. ? tolerance_of_amounts : tolerance_of_steady);
-        ++result.iterations;
-        take(known_field, sought, known, result);
-        has_found     = true;
-        double change = 0.;
-        for (unsigned int p = 0; p < n_cells; ++p)
-          change =
-            std::max(change, std::abs(result.values[p] - values[number][p]));
-        const double most = Utilities::MPI::max(largest(result.values), comm);
-        change            = Utilities::MPI::max(change, comm);
-        result.change     = most > 0. ? change / most : 0.;
-        values[number]    = result.values;
-        result.converged =
-          !field.is_nonlinear() || result.change <= small_change;
-      }
+    result.number     = number;
+    const double step = iterate(field, t, t1 - t, known, result);
+    // Where the first values were far off, so was what they had lumped.
+    if (!(t1 > t) && field.is_nonlinear() && result.converged && step > far_off)
+      iterate(field, t, t1 - t, known, result);
     return result;
   }
 
 
   template <int dim>
+  double
+  FieldSolver<dim>::iterate(const Field<dim>          &field,
+                            const double               t,
+                            const double               dt,
+                            const std::vector<double> &known,
+                            FieldSolution<dim>        &result)
+  {
+    const bool           steady = !(dt > 0.);
+    std::vector<double> &now    = values[result.number];
+    linear                      = nullptr;
+    equation.lumped.assign(space.grid_cells().size(), false);
+    Vector known_field = assembly.unknowns().zero(), sought = known_field;
+    double first_step = 0.;
+    result.converged  = false;
+    for (unsigned int i = 0; i < most_iterations && !result.converged; ++i)
+      {
+        if (i == 0 || field.has_nonlinear_source())
+          begin_cells(field, t);
+        evaluate_cells(field, result.number, t, dt, known);
+        if (i == 0 && steady)
+          check_sink(field);
+        if (i == 0 && !steady)
+          known_field = projection(known);
+        if (!steady)
+          for (FieldAtCell &cell : equation.cells)
+            cell.rate += 1. / dt;
+        if (!steady)
+          sought = solve_equation(known_field, sought, tolerance_of_amounts);
+        else if (!field.is_nonlinear())
+          sought = solve_equation(known_field, sought, tolerance_of_steady);
+        else
+          sought = solve_equation(known_field,
+                                  sought,
+                                  tolerance_of_iterations,
+                                  reduction_of_iterations);
+        ++result.iterations;
+        take(sought, known, result);
+        result.change = relative_change(now, result.values);
+        if (i == 0)
+          first_step = result.change;
+        if (result.change > matrices_differ)
+          linear = nullptr;
+        now = result.values;
+        result.converged =
+          !field.is_nonlinear() || result.change <= small_change;
+      }
+    if (reader.columns.gradients[result.number].exists())
+      {
+        sought += known_field;
+        result.gradients = gradients(sought);
+      }
+    return first_step;
+  }
+
+
+  template <int dim>
+  double
+  FieldSolver<dim>::relative_change(const std::vector<double> &before,
+                                    const std::vector<double> &after) const
+  {
+    double change = 0.;
+    for (unsigned int p = 0; p < after.size(); ++p)
+      change = std::max(change, std::abs(after[p] - before[p]));
+    const double most =
+      Utilities::MPI::max(largest(after), tissue.communicator());
+    change = Utilities::MPI::max(change, tissue.communicator());
+    return most > 0. ? change / most : 0.;
+  }
+
+
+  template <int dim>
   void
-  FieldSolver<dim>::take(const Vector              &known_field,
-                         const Vector              &sought,
+  FieldSolver<dim>::take(const Vector              &sought,
                          const std::vector<double> &known,
                          FieldSolution<dim>        &result) const
   {
-    Vector total(known_field);
-    total += sought;
     const SplineField<dim, 1> added(space, sought, tissue.communicator());
-    const SplineField<dim, 1> all(space, total, tissue.communicator());
-    result.values.assign(known.size(), 0.);
-    result.gradients.assign(known.size(), Tensor<1, dim>());
+    result.values.resize(known.size());
     std::uint64_t clipped = 0;
     const auto   &places  = equation.cell_places;
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
         if (!places.any(c))
           continue;
-        const auto here = added.on_grid_cell(c), field = all.on_grid_cell(c);
+        const auto here = added.on_grid_cell(c);
         for (unsigned int p = places.offsets[c]; p < places.offsets[c + 1]; ++p)
           {
-            const SplineValues<dim> splines(places.xi[p], places.h);
-            const double            value = known[p] + here.value(splines)[0];
+            const double value = known[p] + value_at(here, places.xi[p]);
             clipped += value < 0.;
-            result.values[p]    = std::max(0., value);
-            result.gradients[p] = field.gradients(splines)[0];
+            result.values[p] = std::max(0., value);
           }
       }
     result.clipped = Utilities::MPI::sum(clipped, tissue.communicator());
+  }
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  FieldSolver<dim>::gradients(const Vector &field) const
+  {
+    std::vector<Tensor<1, dim>> result(tissue.cells().size());
+    const SplineField<dim, 1>   all(space, field, tissue.communicator());
+    all.at_points(tissue.cells(),
+                  [&](const unsigned int        p,
+                      const LocalField<dim, 1> &here,
+                      const SplineValues<dim>  &splines) {
+                    result[p] = here.gradients(splines)[0];
+                  });
+    return result;
   }
 
 

@@ -33,24 +33,12 @@ namespace Morula
 
   template <int dim>
   bool
-  Fields<dim>::any_steady() const
+  Fields<dim>::any(const FieldKind kind) const
   {
     return std::any_of(fields.begin(),
                        fields.end(),
-                       [](const Field<dim> &field) {
-                         return field.is_steady();
-                       });
-  }
-
-
-  template <int dim>
-  bool
-  Fields<dim>::any_transient() const
-  {
-    return std::any_of(fields.begin(),
-                       fields.end(),
-                       [](const Field<dim> &field) {
-                         return !field.is_steady();
+                       [kind](const Field<dim> &field) {
+                         return field.kind() == kind;
                        });
   }
 
@@ -69,7 +57,12 @@ namespace Morula
   Fields<dim>::check_cell(const PresentCell<dim> &founder) const
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
-      fields[k].at_cell(founder, 0., founder.cell().get(columns[k]), 0., 1.);
+      {
+        PresentCell<dim> cell(founder);
+        fields[k].diffusion(cell, 0.);
+        fields[k].production(cell, 0.);
+        fields[k].uptake(cell, 0., founder.cell().get(columns[k]), 1.);
+      }
   }
 
 
@@ -103,35 +96,15 @@ namespace Morula
 
   template <int dim>
   FieldsOfStep<dim>
-  Fields<dim>::steady(const Tissue<dim>      &tissue,
-                      const SplineSpace<dim> &space,
-                      const CellReader<dim>  &reader,
-                      const double            t,
-                      const SolveLinear      &solve) const
+  Fields<dim>::find(const FieldKind   kind,
+                    FieldSolver<dim> &solver,
+                    const double      t0,
+                    const double      t1) const
   {
     FieldsOfStep<dim> found;
-    FieldSolver<dim>  solver(tissue, space, reader, solve);
     for (unsigned int k = 0; k < fields.size(); ++k)
-      if (fields[k].is_steady())
-        found.push_back(solver.field(fields[k], k, t, t, 0.));
-    return found;
-  }
-
-
-  template <int dim>
-  FieldsOfStep<dim>
-  Fields<dim>::transient(const Tissue<dim>      &tissue,
-                         const SplineSpace<dim> &space,
-                         const CellReader<dim>  &reader,
-                         const double            t0,
-                         const double            t1,
-                         const SolveLinear      &solve) const
-  {
-    FieldsOfStep<dim> found;
-    FieldSolver<dim>  solver(tissue, space, reader, solve);
-    for (unsigned int k = 0; k < fields.size(); ++k)
-      if (!fields[k].is_steady())
-        found.push_back(solver.field(fields[k], k, t0, t1, t1 - t0));
+      if (fields[k].kind() == kind)
+        found.push_back(solver.field(fields[k], k, t0, t1));
     return found;
   }
 

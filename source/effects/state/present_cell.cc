@@ -114,6 +114,17 @@ namespace Morula
 
 
   template <int dim>
+  void
+  PresentCell<dim>::set_field(const unsigned int field, const double value)
+  {
+    // No other variable depends on fields.
+    const auto variable = static_cast<unsigned int>(field_variable(field));
+    values[variable]    = value;
+    known |= std::uint64_t(1) << variable;
+  }
+
+
+  template <int dim>
   Tensor<2, dim>
   PresentCell<dim>::elastic() const
   {

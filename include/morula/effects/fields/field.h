@@ -15,6 +15,22 @@
 
 namespace Morula
 {
+  /** When a field has its values. */
+  enum class FieldKind
+  {
+    steady,   // its steady state in every configuration
+    transient // it changes with time
+  };
+
+  /** What a cell uses up of a field at a value c. */
+  struct Uptake
+  {
+    /** k c, in the field's unit per day. */
+    double used;
+    /** d(kc)/dc, or 0 where that is negative, 1/day. */
+    double slope;
+  };
+
   /** What cells and the surface do to one field: its expressions. */
   template <int dim>
   class Field
@@ -30,9 +46,9 @@ namespace Morula
     const std::string &
     name() const;
 
-    /** Whether it has its steady state in every configuration. */
-    bool
-    is_steady() const;
+    /** As in Time. */
+    FieldKind
+    kind() const;
 
     /** Whether its amount stays where cells grow. */
     bool
@@ -46,6 +62,10 @@ namespace Morula
     bool
     is_nonlinear() const;
 
+    /** Whether its diffusion or production does. */
+    bool
+    has_nonlinear_source() const;
+
     /** D, if it is a plain number. */
     std::optional<double>
     uniform_diffusion() const;
@@ -54,23 +74,25 @@ namespace Morula
     double
     initial(const Point<dim> &X) const;
 
+    /** D of a cell, µm²/day. @throws InputError */
+    double
+    diffusion(const PresentCell<dim> &cell, const double t) const;
+
+    /** s of a cell, in the field's unit per day. @throws InputError */
+    double
+    production(const PresentCell<dim> &cell, const double t) const;
+
     /**
-     * What a cell does to it, linearised at the value @p c that the cell has:
-     * doc/theory.md (11.4).
-     * @param known what is not sought of c
+     * What a cell uses up at the value @p c: doc/theory.md (11.4).
+     * @param cell has the value, and others in between
      * @param scale of the field's values
      * @throws InputError
      */
-    FieldAtCell
-    at_cell(const PresentCell<dim> &cell,
-            const double            t,
-            const double            c,
-            const double            known,
-            const double            scale) const;
-
-    /** D of a cell. @throws InputError */
-    double
-    diffusion(const PresentCell<dim> &cell, const double t) const;
+    Uptake
+    uptake(PresentCell<dim> &cell,
+           const double      t,
+           const double      c,
+           const double      scale) const;
 
     /** Whether something is done to it at a boundary point that was at @p X at
      *  t = 0. */
@@ -92,8 +114,9 @@ namespace Morula
   private:
     std::string               name_;
     unsigned int              number;
-    bool                      steady, diluted;
-    Expression                diffusion_, production, consumption;
+    FieldKind                 kind_;
+    bool                      diluted;
+    Expression                diffusion_, production_, consumption;
     Expression                initial_, value_;
     std::optional<Expression> fixed_where, transfer_;
   };

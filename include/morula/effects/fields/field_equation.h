@@ -65,6 +65,15 @@ namespace Morula
     /** By grid cell: whether N_a N_b is lumped, as the field varies within less
      *  than a grid cell. */
     std::vector<bool> lumped;
+
+  private:
+    /** What the cells of a grid cell add. */
+    void
+    add_cells_matrix(const unsigned int grid_cell, Local &local) const;
+    void
+    add_cells_load(const unsigned int grid_cell,
+                   const Known       &known,
+                   Local             &local) const;
   };
 
   /** Marks the grid cells in which (k + 1/dt) h² > 6 D, with the means of their

@@ -11,26 +11,28 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace Morula
 {
-  /** Solves A x = b for a positive A, to a residual of @p tolerance |b|.
-   *  Collective. @throws StepFailed */
-  using SolveLinear = std::function<void(const LinearProblem       &problem,
-                                         const Equilibrium::Matrix &A,
+  /** Solves A x = b for a positive A, to a residual of @p tolerance |b|; may
+   *  keep a preconditioner for the next call. Collective. @throws StepFailed */
+  using SolveLinear = std::function<void(const Equilibrium::Matrix &A,
                                          Equilibrium::Vector       &x,
                                          const Equilibrium::Vector &b,
                                          const double               tolerance)>;
+
+  /** Makes a solver for the matrices of a problem, which outlives it. */
+  using MakeLinearSolver = std::function<SolveLinear(const LinearProblem &)>;
 
   /** What was found for one field at the cells of this rank, in their order. */
   template <int dim>
   struct FieldSolution
   {
-    unsigned int                number; // of the field
-    std::vector<double>         values;
-    std::vector<Tensor<1, dim>> gradients; // per µm
+    unsigned int        number; // of the field
+    std::vector<double> values;
+    /** Per µm; empty where cells have no column for it. */
+    std::vector<Tensor<1, dim>> gradients;
     /** Cells, on all ranks, whose value came out negative and was set to 0. */
     std::uint64_t clipped = 0;
     /** Solutions of linear equations that it took. */
@@ -47,8 +49,9 @@ namespace Morula
 
   /**
    * Solves for one field after the other in one configuration, on the splines
-   * of the displacement: doc/theory.md, section 11. Keeps references to all
-   * that it is given.
+   * of the displacement: doc/theory.md, section 11. What the fields and their
+   * iterations share is made once. Keeps references to the tissue, the splines
+   * and what the reader refers to.
    */
   template <int dim>
   class FieldSolver
@@ -58,21 +61,20 @@ namespace Morula
     FieldSolver(const Tissue<dim>      &tissue,
                 const SplineSpace<dim> &space,
                 const CellReader<dim>  &reader,
-                const SolveLinear      &solve);
+                const MakeLinearSolver &make_solver);
 
     /**
      * The field number @p number. Later fields see it. Collective.
      * @param t  of the expressions of cells, day
-     * @param t1 of the values at the surface, day
-     * @param dt 0 for the steady state, day
+     * @param t1 of the values at the surface, day: t for the steady state, else
+     *        the end of the step that begins at t
      * @throws InputError, StepFailed
      */
     FieldSolution<dim>
     field(const Field<dim>  &field,
           const unsigned int number,
           const double       t,
-          const double       t1,
-          const double       dt);
+          const double       t1);
 
   private:
     using Vector = Equilibrium::Vector;
@@ -81,17 +83,22 @@ namespace Morula
     double
     value(const unsigned int field, const unsigned int p) const;
 
-    /** Cells with the values of now. @throws InputError */
+    /** Cell number @p p with the values of now. */
+    PresentCell<dim>
+    present_cell(const unsigned int p) const;
+
+    /** What cells do, before the first iteration: all but their uptake. @throws
+     *  InputError */
+    void
+    begin_cells(const Field<dim> &field, const double t);
+
+    /** Linearises at the values of now. @throws InputError */
     void
     evaluate_cells(const Field<dim>          &field,
                    const unsigned int         number,
                    const double               t,
+                   const double               dt,
                    const std::vector<double> &known);
-
-    /** Does something with cell number @p p that has the values of now. */
-    template <typename Action>
-    void
-    with_cell(const unsigned int p, const Action &action) const;
 
     void
     evaluate_surface(const Field<dim> &field, const double t, const double t1);
@@ -104,27 +111,59 @@ namespace Morula
     Vector
     projection(const std::vector<double> &values);
 
+    /**
+     * @param start where conjugate gradients begin
+     * @param tolerance of the residual, relative to the right-hand side
+     * @param reduction of the residual that is enough, too
+     */
     Vector
-    solve_equation(const Vector &known, const double tolerance);
+    solve_equation(const Vector &known,
+                   const Vector &start,
+                   const double  tolerance,
+                   const double  reduction = 0.);
 
-    /** Evaluates what was found at the cells. */
+    /**
+     * Iterates from the values of now, with no grid cell lumped at first.
+     * @param dt    0 for the steady state, day
+     * @param known what is not sought of the values
+     * @return the first change, as relative_change()
+     */
+    double
+    iterate(const Field<dim>          &field,
+            const double               t,
+            const double               dt,
+            const std::vector<double> &known,
+            FieldSolution<dim>        &result);
+
+    /** The largest change, relative to the largest value after it. */
+    double
+    relative_change(const std::vector<double> &before,
+                    const std::vector<double> &after) const;
+
+    /** Values at the cells from what was found. */
     void
-    take(const Vector              &known_field,
-         const Vector              &sought,
+    take(const Vector              &sought,
          const std::vector<double> &known,
          FieldSolution<dim>        &result) const;
 
+    /** Gradients at the cells. */
+    std::vector<Tensor<1, dim>>
+    gradients(const Vector &field) const;
+
     const Tissue<dim>      &tissue;
     const SplineSpace<dim> &space;
-    const CellReader<dim>  &reader;
-    const SolveLinear      &solve;
+    const CellReader<dim>   reader;
+    const MakeLinearSolver  make_solver;
     Assembly<dim, 1>        assembly;
-    IndexSet                strongly_coupled;
-    PointGroups             groups;
     FieldEquation<dim>      equation;
+    /** Of one field's matrices: the preconditioner of one serves the next ones
+     *  while they are much like it. */
+    LinearProblem problem;
+    SolveLinear   linear; // empty: none yet
+    /** By cell, in the field's unit per day. */
+    std::vector<double> productions;
     /** By field and cell: those of now; empty: as the cells have them. */
     std::vector<std::vector<double>> values;
-    bool has_found = false; // then some differ from those that cells have
   };
 } // namespace Morula
 

@@ -40,13 +40,9 @@ namespace Morula
     bool
     present() const;
 
-    /** Whether some have their steady state in every configuration. */
+    /** Whether some are of this kind. */
     bool
-    any_steady() const;
-
-    /** Whether some change with time. */
-    bool
-    any_transient() const;
+    any(const FieldKind kind) const;
 
     /** Gives a founder the initial values. @throws InputError */
     void
@@ -69,27 +65,17 @@ namespace Morula
                   const MPI_Comm                 comm) const;
 
     /**
-     * The steady fields where the tissue is now, at time @p t (day), one after
-     * the other. Collective.
+     * Finds the fields of one kind, one after the other, at the end @p t1 of a
+     * step that begins at @p t0 with the tissue as the solver has it, in days;
+     * steady ones at t1 = t0. Collective.
      * @throws InputError  for expressions without a value
      * @throws StepFailed where there is no solution
      */
     FieldsOfStep<dim>
-    steady(const Tissue<dim>      &tissue,
-           const SplineSpace<dim> &space,
-           const CellReader<dim>  &reader,
-           const double            t,
-           const SolveLinear      &solve) const;
-
-    /** The other fields at the end @p t1 of a step that begins with the tissue
-     *  as it is, at @p t0. As steady(). */
-    FieldsOfStep<dim>
-    transient(const Tissue<dim>      &tissue,
-              const SplineSpace<dim> &space,
-              const CellReader<dim>  &reader,
-              const double            t0,
-              const double            t1,
-              const SolveLinear      &solve) const;
+    find(const FieldKind   kind,
+         FieldSolver<dim> &solver,
+         const double      t0,
+         const double      t1) const;
 
     /** Gives cells the values that were found. */
     void

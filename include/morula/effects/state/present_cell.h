@@ -93,6 +93,10 @@ namespace Morula
     Tensor<1, dim>
     gradient(const unsigned int field) const;
 
+    /** Takes this value for that of a field, by its number, from now on. */
+    void
+    set_field(const unsigned int field, const double value);
+
     /** F_e, equation (1.3). */
     Tensor<2, dim>
     elastic() const;

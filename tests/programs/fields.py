@@ -44,6 +44,20 @@ class Fields(ProgramTest):
         self.assertGreater(numpy.ptp(cells["oxygen"]), 10)
         self.assertGreater(numpy.ptp(cells["signal"]), 0.05)
 
+    def test_all_cells_die(self):
+        """The fields of no cells are 0, as all else of them."""
+        said = self.execute(SCENE, *FIELDS, *overrides({
+            "Death/When": "t > 0.3", "Death/Shrinking time": "0"})).text
+        self.assertIn("Finished: all cells are dead", said)
+        rows = read_csv(self.work / "output/statistics.csv")
+        self.assertEqual(rows["cells"][-1], 0)
+        for field in ("oxygen", "signal"):
+            for what in ("min", "mean", "max"):
+                values = rows[f"{field}_{what}"]
+                self.assertTrue(numpy.isfinite(values).all(), values)
+                self.assertEqual(values[-1], 0)
+            self.assertGreater(rows[f"{field}_mean"][-2], 0)
+
     def test_ranks_agree(self):
         for ranks in (1, 2, 4):
             self.execute(SCENE, *FIELDS, ranks=ranks,

@@ -154,11 +154,15 @@ namespace Morula
             volume += cells.volume(p);
           }
         const MPI_Comm comm = tissue.communicator();
-        list.push_back({fields[k].name(),
-                        Utilities::MPI::min(least, comm),
-                        Utilities::MPI::sum(amount, comm) /
-                          Utilities::MPI::sum(volume, comm),
-                        Utilities::MPI::max(most, comm)});
+        least               = Utilities::MPI::min(least, comm);
+        most                = Utilities::MPI::max(most, comm);
+        amount              = Utilities::MPI::sum(amount, comm);
+        volume              = Utilities::MPI::sum(volume, comm);
+        // As of all quantities of no cells.
+        if (volume > 0.)
+          list.push_back({fields[k].name(), least, amount / volume, most});
+        else
+          list.push_back({fields[k].name(), 0., 0., 0.});
       }
     return list;
   }

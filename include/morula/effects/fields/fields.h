@@ -86,7 +86,7 @@ namespace Morula
     void
     dilute(const CellView<dim, double> &cell, const double ratio) const;
 
-    /** Collective. */
+    /** All 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;
 

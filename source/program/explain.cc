@@ -90,6 +90,10 @@ namespace Morula
           if (!field.transfer.empty())
             out << ", transfer " << field.transfer.text() << " um/day to "
                 << field.value.text();
+          if (!field.flux_where.empty())
+            out << ", flux " << field.flux.text()
+                << " um/day in at boundary points where "
+                << field.flux_where.text();
           out << '\n';
         }
     }

@@ -250,8 +250,8 @@ namespace Morula
         scene.fields.names.refuse(
           "fields that nothing is done to at the surface, as " +
             scene.tissue.points_surface.path() + " = none",
-          "Remove their Fixed where and Transfer, or set Points surface = "
-          "automatic.");
+          "Remove their Fixed where, Transfer and Flux where, or set Points "
+          "surface = automatic.");
       try
         {
           CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);

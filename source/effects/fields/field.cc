@@ -43,6 +43,8 @@ namespace Morula
     , value_(keys.value.expression(dim))
     , fixed_where(keys.fixed_where.optional(dim))
     , transfer_(keys.transfer.optional(dim))
+    , flux_(keys.flux.optional(dim))
+    , flux_where(keys.flux_where.optional(dim))
   {}
 
 
@@ -74,7 +76,7 @@ namespace Morula
   bool
   Field<dim>::has_surface() const
   {
-    return fixed_where || transfer_;
+    return fixed_where || transfer_ || flux_where;
   }
 
 
@@ -152,7 +154,7 @@ namespace Morula
   bool
   Field<dim>::acts_on(const Point<dim> &X) const
   {
-    return transfer_ || is_fixed(X);
+    return transfer_ || is_fixed(X) || takes_flux(X);
   }
 
 
@@ -177,6 +179,22 @@ namespace Morula
   Field<dim>::transfer(const Point<dim> &X, const double t) const
   {
     return transfer_ ? at_place(*transfer_, X, t) : 0.;
+  }
+
+
+  template <int dim>
+  bool
+  Field<dim>::takes_flux(const Point<dim> &X) const
+  {
+    return flux_where && at_place(*flux_where, X, 0.) > 0. && !is_fixed(X);
+  }
+
+
+  template <int dim>
+  double
+  Field<dim>::flux(const Point<dim> &X, const double t) const
+  {
+    return takes_flux(X) ? at_place(*flux_, X, t) : 0.;
   }
 
 

@@ -66,7 +66,7 @@ namespace Morula
         local.add_force(0,
                         a,
                         (point.weight * splines.value[a] - slope[a]) * gap +
-                          flux * splines.value[a]);
+                          (flux + point.inflow) * splines.value[a]);
     }
   } // namespace
 

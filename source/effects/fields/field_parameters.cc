@@ -76,6 +76,20 @@ namespace Morula
                "Value); not negative; empty: nothing passes there. An "
                "expression of X, Y, Z (um), t (day). Units: um/day.",
                Evaluated::place)
+    , flux(
+        "Flux",
+        "",
+        "What comes in through the surface per time and area, D dc/dn, where "
+        "Flux where holds; not negative. An expression of X, Y, Z (um), t "
+        "(day). In the field's unit times um/day.",
+        Evaluated::place)
+    , flux_where(
+        "Flux where",
+        "",
+        "At boundary points at which this is > 0 and that are not fixed "
+        "the Flux comes in, besides what a Transfer lets pass; empty: "
+        "nowhere. An expression of X, Y, Z (um).",
+        Evaluated::founder)
     , dilution("Dilution",
                true,
                "Whether a transient field becomes less where cells grow, so "
@@ -88,6 +102,8 @@ namespace Morula
     for (ExpressionKey *key : {&initial, &value})
       key->not_negative("(a concentration)", "0 is none at all.");
     transfer.not_negative("um/day", "0 lets nothing pass.");
+    flux.not_negative("um/day (times a concentration)",
+                      "What leaves the tissue does so by a Transfer.");
   }
 
 
@@ -99,9 +115,16 @@ namespace Morula
 
 
   bool
-  FieldKeys::has_surface() const
+  FieldKeys::has_value() const
   {
     return !fixed_where.empty() || !transfer.empty();
+  }
+
+
+  bool
+  FieldKeys::has_surface() const
+  {
+    return has_value() || !flux_where.empty();
   }
 
 
@@ -112,11 +135,18 @@ namespace Morula
       diffusion.refuse("an expression > 0 um^2/day",
                        "Each field needs one; oxygen has about 1.7e8.");
     check_each(dim);
-    if (!value.is_default() && !has_surface())
+    if (flux.empty() != flux_where.empty())
+      {
+        const ExpressionKey &lone = flux.empty() ? flux_where : flux;
+        const ExpressionKey &none = flux.empty() ? flux : flux_where;
+        lone.refuse("nothing, as " + none.path() + " is empty",
+                    "Set both of them, or none.");
+      }
+    if (!value.is_default() && !has_value())
       value.refuse("its default, as neither " + fixed_where.path() + " nor " +
                      transfer.path() + " is set",
                    "Set one of them, or remove this key.");
-    if (is_steady() && !has_surface() &&
+    if (is_steady() && !has_value() &&
         consumption.largest_number(dim).value_or(1.) == 0.)
       consumption.refuse(
         "a rate > 0 1/day for a steady field that nothing holds at the surface",
@@ -138,6 +168,8 @@ namespace Morula
             &fixed_where,
             &value,
             &transfer,
+            &flux,
+            &flux_where,
             &dilution};
   }
 

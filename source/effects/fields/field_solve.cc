@@ -191,7 +191,8 @@ namespace Morula
             diffusion.empty() ? *field.uniform_diffusion() : diffusion[k];
           FieldAtSurface<dim> here{Tensor<1, dim>(),
                                    area.norm() * field.transfer(X, t1),
-                                   field.value(X, t1)};
+                                   field.value(X, t1),
+                                   area.norm() * field.flux(X, t1)};
           if (field.is_fixed(X))
             {
               // doc/theory.md (11.3). Off the tissue the flux would be

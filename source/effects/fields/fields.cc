@@ -11,6 +11,24 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** Refuses a condition that holds at @p n boundary points of this rank, and
+     *  at none of others. Collective. */
+    void
+    check_holds(const ExpressionKey         &where,
+                const types::particle_index &n,
+                const MPI_Comm               comm)
+    {
+      if (!where.empty() && Utilities::MPI::sum(n, comm) == 0)
+        where.refuse("a condition that holds at some boundary point",
+                     "It is positive at none: correct it, or leave it empty. "
+                     "Boundary points sit at centers of surface patches, not "
+                     "on edges or corners.");
+    }
+  } // namespace
+
+
   template <int dim>
   Fields<dim>::Fields(const FieldsParameters   &parameters,
                       const EffectSetting<dim> &setting)
@@ -74,22 +92,20 @@ namespace Morula
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
-        types::particle_index n_fixed = 0;
+        types::particle_index n_fixed = 0, n_of_flux = 0;
         everywhere(comm, [&]() {
           for (const Point<dim> &place : X)
             if (fields[k].acts_on(place))
               {
                 n_fixed += fields[k].is_fixed(place);
+                n_of_flux += fields[k].takes_flux(place);
                 fields[k].value(place, 0.);
                 fields[k].transfer(place, 0.);
+                fields[k].flux(place, 0.);
               }
         });
-        const ExpressionKey &where = parameters.fields[k].fixed_where;
-        if (!where.empty() && Utilities::MPI::sum(n_fixed, comm) == 0)
-          where.refuse("a condition that holds at some boundary point",
-                       "It is positive at none: correct it, or leave it empty. "
-                       "Boundary points sit at centers of surface patches, not "
-                       "on edges or corners.");
+        check_holds(parameters.fields[k].fixed_where, n_fixed, comm);
+        check_holds(parameters.fields[k].flux_where, n_of_flux, comm);
       }
   }
 

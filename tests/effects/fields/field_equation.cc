@@ -35,7 +35,7 @@ namespace
         if (p > 2)
           continue;
         equation.surface_places.xi.push_back(xi);
-        equation.surface.push_back({flux, 7. + p, 2.});
+        equation.surface.push_back({flux, 7. + p, 2., 3. - p});
       }
     equation.cell_places.offsets    = {0, 5};
     equation.surface_places.offsets = {0, 3};

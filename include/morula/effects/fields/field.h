@@ -111,6 +111,15 @@ namespace Morula
     double
     transfer(const Point<dim> &X, const double t) const;
 
+    /** Whether the Flux comes in at a boundary point. */
+    bool
+    takes_flux(const Point<dim> &X) const;
+
+    /** The Flux there, 0 where none comes in, in the field's unit times µm/day.
+     *  @throws InputError */
+    double
+    flux(const Point<dim> &X, const double t) const;
+
   private:
     std::string               name_;
     unsigned int              number;
@@ -118,7 +127,7 @@ namespace Morula
     bool                      diluted;
     Expression                diffusion_, production_, consumption;
     Expression                initial_, value_;
-    std::optional<Expression> fixed_where, transfer_;
+    std::optional<Expression> fixed_where, transfer_, flux_, flux_where;
   };
 } // namespace Morula
 

@@ -37,6 +37,9 @@ namespace Morula
     double weight;
     /** The field that is prescribed or outside. */
     double value;
+    /** a times the flux that is prescribed, in the field's unit times
+     *  µm^dim/day. */
+    double inflow;
   };
 
   /**

@@ -27,11 +27,17 @@ namespace Morula
     ExpressionKey    fixed_where;
     ExpressionKey    value;
     ExpressionKey    transfer;
+    ExpressionKey    flux;
+    ExpressionKey    flux_where;
     Key<bool>        dilution;
 
     /** Whether the field has its steady state in every configuration. */
     bool
     is_steady() const;
+
+    /** Whether there is a value that it has at the surface, or outside. */
+    bool
+    has_value() const;
 
     /** Whether something is done to it at the surface. */
     bool

@@ -36,8 +36,9 @@ WARNED = {f"hard/{name}.prm": ["Grid/Spacing"] for name in (
 WARNED["step-6.prm"] = ["Grid/Spacing"]
 # The growing layer is to be many grid cells thick, in seconds.
 WARNED["examples/folding-by-tangential-growth.prm"] = ["Grid/Spacing"]
-# Its tension is to smooth the outline, be it somewhat late.
+# Their tension is to smooth the outline, be it somewhat late.
 WARNED["showcase/spheroid.prm"] = ["Time/Step"]
+WARNED["examples/turnover.prm"] = ["Time/Step"]
 
 # Only its own program knows its growth law: tests/steps runs it.
 OTHERS = {"step-7.prm"}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Greenspan's spheroid (1972), as Browning et al. (2021) write it: a ball whose
-cells use up oxygen at one rate wherever they live.
+"""Greenspan's spheroid (1972): a ball whose cells use up oxygen at one rate
+wherever they live.
 
     R² dR/dt = s/3 (R³ - max(R_n, R_i)³) - λ R_n³
 

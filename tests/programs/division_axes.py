@@ -41,30 +41,6 @@ subsection Grid
 end
 """
 
-FREE_BALL = """
-subsection Time
-  set End time = 4.5
-  set Step     = 0.5
-end
-subsection Tissue
-  set Radius       = 60
-  set Cell spacing = 10
-end
-subsection Grid
-  set Spacing = 50
-end
-subsection Proliferation
-  set Law = cell cycle
-  subsection Cell cycle
-    set Start = together
-  end
-end
-subsection Output
-  set Formats  = csv
-  set Interval = 4.5
-end
-"""
-
 BALL = TOGETHER + """
 subsection Tissue
   set Radius       = 60
@@ -290,7 +266,9 @@ class DivisionAxes(ProgramTest):
         cells: how far they stand outside the tangent planes of its surface."""
         beyond = []
         for inside in ("false", "true"):
-            run = self.run_scene(f"inside {inside}", FREE_BALL, {
+            run = self.run_scene(f"inside {inside}", BALL, {
+                "Boundary conditions/Fixed where": "", "Time/End time": "4.5",
+                "Output/Interval": "4.5",
                 CYCLE + "Stay inside surface": inside})
             surface, cells = run.last_surface(), run.last_cells()
             places = positions(surface)

@@ -4,6 +4,7 @@
 #include <morula/scene/estimates.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/grid_warnings.h>
+#include <morula/seeding/near_bodies.h>
 #include <morula/seeding/unit_warnings.h>
 
 #include <utility>
@@ -70,6 +71,7 @@ namespace Morula
                         scene.has_proliferation());
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
+    review_bodies(scene.grid, scene.tissue, founders, comm, review);
 
     const Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);

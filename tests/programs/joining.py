@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Bodies that grow until they share splines: the run says so, once."""
+"""Bodies that share splines, from the start or as they grow: the run says so,
+once."""
 import re
 
 from program import ProgramTest, main, overrides
@@ -36,11 +37,14 @@ MESSAGE = re.compile(
     r"Warning: at t = ([0-9.]+) day two parts of the tissue have come within a "
     r"grid spacing of each other near \(([-0-9.e]+) ([-0-9.e]+)\) um\.")
 
+AT_START = re.compile(r"the tissue is (\d+) bodies, and the grid makes (\d+) "
+                      r"pieces? of them")
+
 
 class Joining(ProgramTest):
-    def said(self, gaps, rate, *arguments, ranks=1):
-        """The warnings of a run of bodies of 10 x 10 cells of 10 µm, with these
-        gaps (µm) between them along x."""
+    def bodies(self, gaps, rate):
+        """A scene of bodies of 10 x 10 cells of 10 µm, with these gaps (µm)
+        between them along x."""
         rows, left = ["x,y"], 0.0
         for gap in (0.0, *gaps):
             left += gap
@@ -48,8 +52,11 @@ class Joining(ProgramTest):
                      for i in range(10) for j in range(10)]
             left += 100.0
         points = self.write("cells.csv", "\n".join(rows) + "\n")
-        scene = self.write("bodies.prm",
-                           SCENE.format(points=points, rate=rate))
+        return self.write("bodies.prm", SCENE.format(points=points, rate=rate))
+
+    def said(self, gaps, rate, *arguments, ranks=1):
+        """The warnings of a run of such bodies."""
+        scene = self.bodies(gaps, rate)
         text = self.execute(scene, *arguments, ranks=ranks).stdout
         found = MESSAGE.findall(text)
         log = (self.work / "output/log.txt").read_text()
@@ -72,6 +79,19 @@ class Joining(ProgramTest):
 
     def test_not_of_bodies_that_stay_apart(self):
         self.assertEqual(self.said((60.0,), 0.05), [])
+
+    def test_from_the_start(self):
+        """Bodies that share a piece before anything has moved: of three one
+        stands alone. A gap of a cell is no gap, and makes no body."""
+        for gaps, counts in (((20.0, 70.0), [("3", "2")]), ((20.0,), [("2", "1")]),
+                             ((60.0,), []), ((10.0,), [])):
+            for ranks in (1, 2):
+                with self.subTest(gaps=gaps, ranks=ranks):
+                    text = self.execute(self.bodies(gaps, 0.0), "--explain",
+                                        *overrides({"Grid/Spacing": 30}),
+                                        ranks=ranks)
+                    found = AT_START.findall(text.stdout + text.stderr)
+                    self.assertEqual(found, counts)
 
     def test_resumed(self):
         """The first step after --resume has nothing to compare with."""

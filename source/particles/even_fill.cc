@@ -12,20 +12,17 @@ namespace Morula
     /** Least fill of grid cells inside the tissue. */
     constexpr double nearly_full = 0.6;
 
-    /** Whether the grid cell and all its neighbours are nearly full. */
+    /** Whether the grid cell and all its neighbours are nearly full: the
+     *  neighbours of GridBox are with the grid cell itself. */
     template <int dim>
     bool
     is_inside(const Occupancy<dim> &occupancy, const GridIndex<dim> &index)
     {
-      const GridBox<dim> &box    = occupancy.box();
-      unsigned int        n_full = 0;
-      const auto          count  = [&](const unsigned int number) {
-        n_full += occupancy.fill(number) >= nearly_full;
-      };
-      count(box.number(index));
-      box.for_neighbors(index, 1, [&](const unsigned int number, const auto &) {
-        count(number);
-      });
+      unsigned int n_full = 0;
+      occupancy.box().for_neighbors(
+        index, 1, [&](const unsigned int number, const auto &) {
+          n_full += occupancy.fill(number) >= nearly_full;
+        });
       // at the edge of the box there are fewer
       return n_full == Utilities::fixed_power<dim>(3u);
     }

@@ -244,9 +244,13 @@ namespace Morula
   template <int dim>
   LinearProblem
   MomentumBalance<dim>::linear_problem(const double        youngs_modulus,
-                                       std::vector<Vector> null_space) const
+                                       std::vector<Vector> null_space,
+                                       const unsigned int  n_points) const
   {
-    LinearProblem result;
+    // In 2-D a tangent of fewer points a spline costs less than the residual
+    // and the linear system of a further iteration: doc/performance.md.
+    constexpr double least_points_a_spline = 20.;
+    LinearProblem    result;
     result.symmetric =
       std::all_of(terms.begin(), terms.end(), [](const auto &term) {
         return term->is_conservative();
@@ -255,6 +259,8 @@ namespace Morula
     result.strongly_coupled = assembly.unknowns().of_extended_splines();
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
+    result.costly = dim == 3 || Utilities::MPI::sum(1. * n_points, comm) >=
+                                  least_points_a_spline * space.n_unknowns();
     return result;
   }
 

@@ -52,7 +52,9 @@ namespace Morula
     const auto           list = terms(points, space);
     MomentumBalance<dim> balance(space, list, timer, comm);
     const LinearProblem  linear =
-      balance.linear_problem(typical_stiffness, inertia(space, rigid_modes));
+      balance.linear_problem(typical_stiffness,
+                             inertia(space, rigid_modes),
+                             points.xi.size());
     estimate_condition(balance, linear);
     u = start_of_step(space, rigid_modes).value_or(balance.rest());
     Equilibrium::Evaluation evaluation;

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/solver/conjugate_gradients.h>
-#include <morula/solver/direct_solver.h>
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/shifts.h>
 
@@ -39,11 +38,12 @@ namespace Morula
   LinearSolver::LinearSolver(const SolverParameters &parameters,
                              const LinearProblem    &problem,
                              TimerOutput            &timer)
-    : direct(parameters.linear_solver == "direct")
+    : is_direct(parameters.linear_solver == "direct")
     , automatic(parameters.linear_solver == "automatic")
     , problem(problem)
     , timer(timer)
     , preconditioner(problem)
+    , direct(problem)
   {}
 
   double
@@ -52,14 +52,23 @@ namespace Morula
     return largest_shift_;
   }
 
+  bool
+  LinearSolver::has_shifted() const
+  {
+    return has_shifted_;
+  }
+
   void
   LinearSolver::solve(const Matrix &K,
                       Vector       &x,
                       const Vector &b,
                       const double  tolerance,
-                      unsigned int &iterations)
+                      unsigned int &iterations,
+                      const bool    as_before)
   {
-    if (!direct && !prepared)
+    if (!as_before)
+      direct.forget();
+    if (!is_direct && !prepared)
       {
         const TimerOutput::Scope section(timer, "preconditioner");
         preconditioner.make_next(K);
@@ -68,8 +77,8 @@ namespace Morula
     const TimerOutput::Scope section(timer, "linear solver");
     try
       {
-        if (direct)
-          solve_direct(K, problem, x, b, iterations, largest_shift_);
+        if (is_direct)
+          solve_directly(K, x, b, iterations);
         else if (problem.symmetric)
           solve_symmetric(K, x, b, tolerance, iterations);
         else
@@ -79,8 +88,18 @@ namespace Morula
       {
         if (!automatic)
           throw;
-        solve_direct(K, problem, x, b, iterations, largest_shift_);
+        solve_directly(K, x, b, iterations);
       }
+  }
+
+  void
+  LinearSolver::solve_directly(const Matrix &K,
+                               Vector       &x,
+                               const Vector &b,
+                               unsigned int &iterations)
+  {
+    direct.solve(K, x, b, iterations, largest_shift_);
+    has_shifted_ = has_shifted_ || direct.has_shifted();
   }
 
   void
@@ -106,6 +125,7 @@ namespace Morula
             iterate(*factorisation) :
             iterate(jacobi_preconditioner(magnitude, shift));
         largest_shift_ = std::max(largest_shift_, shift);
+        has_shifted_   = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)
           return;
         if (outcome == CgOutcome::negative_curvature)

@@ -56,8 +56,9 @@ namespace Morula
         double displacement; // µm
       };
 
-      explicit ConvergenceTest(const Bounds &bounds)
+      ConvergenceTest(const Bounds &bounds, const Tangents &tangents)
         : bounds(bounds)
+        , tangents(tangents)
       {}
 
       NOX::StatusTest::StatusType
@@ -69,7 +70,9 @@ namespace Morula
         status                 = NOX::StatusTest::Failed;
         if (norm <= bounds.rounding ||
             (norm <= bounds.residual &&
-             (iteration == 0 || left_over(solver) <= bounds.displacement)))
+             (iteration == 0 ||
+              left_over(solver) <=
+                (tangents.kept() ? part_of_kept : 1.) * bounds.displacement)))
           status = NOX::StatusTest::Converged;
         else if (!std::isfinite(norm))
           reason = "the unbalanced forces are infinite";
@@ -114,8 +117,13 @@ namespace Morula
                before.getNormF();
       }
 
-      const Bounds bounds;
-      std::string  reason = "no part of Newton's step has a lower energy";
+      /** Of the bound of displacements. An iteration with a tangent of its own
+       *  ends far below the bounds, one with a kept tangent anywhere below. */
+      static constexpr double part_of_kept = 0.1;
+
+      const Bounds    bounds;
+      const Tangents &tangents;
+      std::string     reason = "no part of Newton's step has a lower energy";
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
     };
 
@@ -165,9 +173,10 @@ namespace Morula
         Equilibrium::Vector    &u,
         NewtonReport           &report)
   {
+    Tangents     tangents(problem, linear_problem.costly);
     LinearSolver linear_solver(parameters, linear_problem, timer);
-    const auto   group = Teuchos::rcp(
-      new NoxGroup(problem, linear_problem, linear_solver, report, u));
+    const auto   group = Teuchos::rcp(new NoxGroup(
+      problem, linear_problem, tangents, linear_solver, report, u));
     group->computeF();
     if (!std::isfinite(group->evaluation().energy))
       throw StepFailed("there is no state to start from");
@@ -184,7 +193,7 @@ namespace Morula
     bounds.residual     = bound;
     bounds.rounding     = rounding;
     bounds.displacement = parameters.newton_tolerance * scales.length;
-    const auto  test    = Teuchos::rcp(new ConvergenceTest(bounds));
+    const auto  test    = Teuchos::rcp(new ConvergenceTest(bounds, tangents));
     std::string reason  = "Newton's method has not converged: ";
     try
       {

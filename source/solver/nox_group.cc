@@ -27,11 +27,13 @@ namespace Morula
 
   NoxGroup::NoxGroup(Equilibrium               &problem,
                      const LinearProblem       &linear_problem,
+                     Tangents                  &tangents,
                      LinearSolver              &linear_solver,
                      NewtonReport              &report,
                      const Equilibrium::Vector &u)
     : problem(problem)
     , linear_problem(linear_problem)
+    , tangents(tangents)
     , linear_solver(linear_solver)
     , report(report)
     , u(u)
@@ -63,7 +65,7 @@ namespace Morula
     K                 = other.K;
     has_residual      = other.has_residual;
     has_direction     = other.has_direction;
-    first_tangent     = other.first_tangent;
+    shortened         = other.shortened;
     return *this;
   }
 
@@ -80,7 +82,7 @@ namespace Morula
                      const double                 step)
   {
     u.update(1., group.getX(), step, d, 0.);
-    first_tangent = dynamic_cast<const NoxGroup &>(group).first_tangent;
+    shortened = step < 1.;
     invalidate();
   }
 
@@ -102,11 +104,11 @@ namespace Morula
   NOX::Abstract::Group::ReturnType
   NoxGroup::computeJacobian()
   {
+    computeF();
     if (K == nullptr)
-      K = &problem.tangent(u.values,
-                           first_tangent ? GrowthAt::previous :
-                                           GrowthAt::current);
-    first_tangent = false;
+      K = &tangents.at(u.values,
+                       getNormF(),
+                       !shortened && !linear_solver.has_shifted());
     return Ok;
   }
 
@@ -130,7 +132,8 @@ namespace Morula
                         direction.values,
                         b,
                         parameters.get("Tolerance", 1e-6),
-                        report.linear_iterations);
+                        report.linear_iterations,
+                        tangents.kept());
     has_direction = true;
     return Ok;
   }
@@ -226,8 +229,8 @@ namespace Morula
   Teuchos::RCP<NOX::Abstract::Group>
   NoxGroup::clone(const NOX::CopyType type) const
   {
-    const auto copy = Teuchos::rcp(
-      new NoxGroup(problem, linear_problem, linear_solver, report, u.values));
+    const auto copy = Teuchos::rcp(new NoxGroup(
+      problem, linear_problem, tangents, linear_solver, report, u.values));
     if (type == NOX::DeepCopy)
       *copy = static_cast<const NOX::Abstract::Group &>(*this);
     return copy;

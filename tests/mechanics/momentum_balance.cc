@@ -211,7 +211,7 @@ namespace
         SCOPED_TRACE(pressure ? "with pressure" : "");
         Ball<dim> ball(MPI_COMM_WORLD, pressure);
         auto     &balance = *ball.balance;
-        EXPECT_EQ(balance.linear_problem(1., {}).symmetric, !pressure);
+        EXPECT_EQ(balance.linear_problem(1., {}, 0).symmetric, !pressure);
         Equilibrium::Vector R, after, before;
         ASSERT_TRUE(std::isfinite(balance.residual(ball.u, R).energy));
         const auto &K = balance.tangent(ball.u, GrowthAt::current);
@@ -420,7 +420,8 @@ namespace
     MomentumBalance<dim> balance(*body.space, terms, timer, MPI_COMM_WORLD);
     const LinearProblem  linear = balance.linear_problem(
       1.,
-      RigidModes<dim>(*body.space, masses, {}, MPI_COMM_WORLD).null_space());
+      RigidModes<dim>(*body.space, masses, {}, MPI_COMM_WORLD).null_space(),
+      points.xi.size());
     Equilibrium::Vector R;
     const auto         &K = balance.tangent(balance.rest(), GrowthAt::current);
     ASSERT_EQ(linear.null_space.size(), dim == 2 ? 3u : 6u);
@@ -446,6 +447,16 @@ namespace
                 1e-15);
     EXPECT_EQ(balance.scales(1.).length, h);
     EXPECT_NEAR(linear.typical_entry, std::pow(h, dim - 2), 1e-15);
+
+    // In 3-D all tangents are costly, in 2-D those of many points.
+    const unsigned int n_splines = body.space->n_unknowns();
+    const bool on_first = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    EXPECT_EQ(
+      balance.linear_problem(1., {}, on_first ? 20 * n_splines : 0).costly,
+      true);
+    EXPECT_EQ(
+      balance.linear_problem(1., {}, on_first ? 20 * n_splines - 1 : 0).costly,
+      dim == 3);
   }
 } // namespace
 

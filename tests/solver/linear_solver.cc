@@ -88,6 +88,15 @@ namespace
     x -= solution;
     EXPECT_LE(x.l2_norm(), 1e-7 * solution.l2_norm());
 
+    // Of the same matrix the direct solver has a factor.
+    Equilibrium::Vector again  = zero;
+    unsigned int        n_kept = 0;
+    linear_solver.solve(K, again, b, 1e-10, n_kept, true);
+    EXPECT_EQ(n_kept, solver == "direct" ? 0 : n_iterations);
+    again -= solution;
+    again -= x; // less the solution, too
+    EXPECT_LE(again.l2_norm(), 1e-14 * solution.l2_norm());
+
     // A loose tolerance is no more work, and the preconditioner serves for
     // another matrix.
     x                    = zero;
@@ -133,6 +142,9 @@ namespace
         linear_solver.solve(K, x, b, 1e-6, ignored);
         EXPECT_TRUE(std::isfinite(x.l2_norm()));
         EXPECT_GT(x * b, 0.); // b = -R: downhill
+        EXPECT_TRUE(linear_solver.has_shifted());
+        linear_solver.solve(K, x, b, 1e-6, ignored, true);
+        EXPECT_GT(x * b, 0.);
       }
   }
 
@@ -155,6 +167,11 @@ namespace
                  problem.linear.null_space[0]);
     linear_solver.solve(K, x, b, 1e-9, ignored);
     EXPECT_NEAR(x * problem.linear.null_space[0], 0., 1e-9 * x.l2_norm());
+    EXPECT_FALSE(linear_solver.has_shifted());
+    Equilibrium::Vector again = problem.zero();
+    linear_solver.solve(K, again, b, 1e-9, ignored, true);
+    again -= x;
+    EXPECT_EQ(again.l2_norm(), 0.);
     // The direct solver shifts the diagonal a little.
     EXPECT_LE(defect(K, x, balanced), solver == "direct" ? 1e-3 : 1e-8);
   }

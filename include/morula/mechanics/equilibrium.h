@@ -87,6 +87,9 @@ namespace Morula
     IndexSet strongly_coupled;
     /** Typical entry of a matrix; of a tangent in kPa µm^(dim-2). */
     double typical_entry = 1.;
+    /** Whether making a matrix costs more than an iteration or two of Newton's
+     *  method: then one serves several of them. */
+    bool costly = true;
   };
 
   /** What Newton's method compares with. */

@@ -6,23 +6,68 @@
 
 #include <morula/mechanics/equilibrium.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <memory>
+#include <vector>
+
 namespace Morula
 {
   /**
    * Solves (K + σ |diag K|) x = b with MUMPS, or KLU where Trilinos lacks it,
-   * with the smallest tried σ that gives a direction of descent.
-   * @param iterations in/out: the factorisations are added
-   * @param largest_shift in/out: raised to the largest σ at which the tangent
-   *                      was still indefinite
-   * @throws StepFailed on all ranks together
+   * with the smallest tried σ that gives a direction of descent. The factor is
+   * kept until it is forgotten.
    */
-  void
-  solve_direct(const Equilibrium::Matrix &K,
-               const LinearProblem       &problem,
-               Equilibrium::Vector       &x,
-               const Equilibrium::Vector &b,
-               unsigned int              &iterations,
-               double                    &largest_shift);
+  class DirectSolver
+  {
+  public:
+    using Vector = Equilibrium::Vector;
+    using Matrix = Equilibrium::Matrix;
+
+    /** @param problem kept as a reference */
+    explicit DirectSolver(const LinearProblem &problem);
+
+    /** The next matrix is another one. */
+    void
+    forget();
+
+    /**
+     * @param K the matrix of the last call, unless forget() was called since
+     * @param iterations in/out: the factorisations are added
+     * @param largest_shift in/out: raised to the largest σ at which the tangent
+     *                      was still indefinite
+     * @throws StepFailed on all ranks together
+     */
+    void
+    solve(const Matrix &K,
+          Vector       &x,
+          const Vector &b,
+          unsigned int &iterations,
+          double       &largest_shift);
+
+    /** Whether the factor is that of a raised diagonal, but for what supports
+     *  unsupported motions. */
+    bool
+    has_shifted() const;
+
+  private:
+    void
+    factorize(const Matrix &K);
+
+    void
+    solve_bordered(const Matrix &K, Vector &x, const Vector &b);
+
+    const LinearProblem                            &problem;
+    const double                                    least_shift;
+    double                                          shift; // the factor's
+    Matrix                                          shifted;
+    SolverControl                                   control{1, 0.};
+    std::unique_ptr<TrilinosWrappers::SolverDirect> factor; // none: null
+    std::vector<Vector>                             solutions_of_null_space;
+    LAPACKFullMatrix<double>                        schur;
+  };
 } // namespace Morula
 
 #endif

@@ -5,6 +5,7 @@
 #define morula_solver_linear_solver_h
 
 #include <morula/mechanics/equilibrium.h>
+#include <morula/solver/direct_solver.h>
 #include <morula/solver/preconditioner.h>
 #include <morula/solver/solver_parameters.h>
 
@@ -43,6 +44,7 @@ namespace Morula
      * solves (K + σ |diag K|) x = b with the smallest tried σ that has none.
      * @param iterations in/out: this solve's are added (direct: its
      *                   factorisations), also when it fails
+     * @param as_before  K has not changed since the last call
      * @throws StepFailed on all ranks together
      */
     void
@@ -50,13 +52,24 @@ namespace Morula
           Vector       &x,
           const Vector &b,
           const double  tolerance,
-          unsigned int &iterations);
+          unsigned int &iterations,
+          const bool    as_before = false);
 
     /** The largest σ that was needed; 0 where no tangent was indefinite. */
     double
     largest_shift() const;
 
+    /** Whether any tangent was, so that a diagonal has been raised. */
+    bool
+    has_shifted() const;
+
   private:
+    void
+    solve_directly(const Matrix &K,
+                   Vector       &x,
+                   const Vector &b,
+                   unsigned int &iterations);
+
     void
     solve_symmetric(const Matrix &K,
                     Vector       &x,
@@ -71,12 +84,14 @@ namespace Morula
                       const double  tolerance,
                       unsigned int &iterations);
 
-    const bool           direct;
+    const bool           is_direct;
     const bool           automatic;
     const LinearProblem &problem;
     TimerOutput         &timer;
     Preconditioner       preconditioner;
+    DirectSolver         direct;
     double               largest_shift_ = 0.;
+    bool                 has_shifted_   = false;
     bool                 prepared       = false; // one was asked for
   };
 } // namespace Morula

@@ -23,7 +23,8 @@ namespace Morula
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
    * NOX; doc/theory.md, section 5):
-   * - the first tangent is taken at the growth of the step's beginning;
+   * - the first tangent is taken at the growth of the step's beginning; a
+   *   costly one is kept while the residual falls fivefold;
    * - symmetric tangents: backtracking on the energy with Armijo's rule, which
    *   rejects inversion (infinite energy) and tolerates rounding; others:
    *   backtracking on |R|;

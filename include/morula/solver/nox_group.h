@@ -8,6 +8,7 @@
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/newton.h>
 #include <morula/solver/nox_vector.h>
+#include <morula/solver/tangents.h>
 
 #include <NOX_Abstract_Group.H>
 #include <NOX_LineSearch_Generic.H>
@@ -16,14 +17,15 @@ namespace Morula
 {
   /**
    * An increment u together with what has been computed for it, as NOX sees
-   * it. Copies share the problem, what is known of its matrices, the linear
-   * solver and the report, which must outlive them.
+   * it. Copies share the problem, what is known of its matrices, the tangents,
+   * the linear solver and the report, which must outlive them.
    */
   class NoxGroup : public NOX::Abstract::Group
   {
   public:
     NoxGroup(Equilibrium               &problem,
              const LinearProblem       &linear_problem,
+             Tangents                  &tangents,
              LinearSolver              &linear_solver,
              NewtonReport              &report,
              const Equilibrium::Vector &u);
@@ -86,13 +88,14 @@ namespace Morula
 
     Equilibrium               &problem;
     const LinearProblem       &linear_problem;
+    Tangents                  &tangents;
     LinearSolver              &linear_solver;
     NewtonReport              &report;
     NoxVector                  u, R, direction;
     Equilibrium::Evaluation    evaluation_;
     const Equilibrium::Matrix *K            = nullptr;
     bool                       has_residual = false, has_direction = false;
-    bool                       first_tangent = true;
+    bool                       shortened = false; // by the line search
   };
 
   /**

@@ -8,6 +8,7 @@
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/surface_tension.h>
@@ -47,6 +48,7 @@ namespace Morula
     add<Traction>(boundary_conditions, "traction");
     add<Pressure>(boundary_conditions, "pressure");
     add<SurfaceTension>(boundary_conditions, "surface tension");
+    add<Lumen>(boundary_conditions, "lumen");
     add<Obstacles>(boundary_conditions, "obstacles");
   }
 

@@ -64,12 +64,14 @@ namespace Morula
   MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim> &space,
                                         const TermList         &terms,
                                         TimerOutput            &timer,
-                                        const MPI_Comm          comm)
+                                        const MPI_Comm          comm,
+                                        const Enclosure<dim>   *enclosure)
     : space(space)
     , terms(terms)
     , timer(timer)
     , comm(comm)
     , assembly(space, comm)
+    , enclosure(enclosure)
   {}
 
   template <int dim>
@@ -117,7 +119,60 @@ namespace Morula
   Equilibrium::Evaluation
   MomentumBalance<dim>::residual(const Vector &u, Vector &R) const
   {
-    return sum_up(u, LocalSystem<dim>::energy_and_residual, R);
+    Evaluation evaluation = sum_up(u, LocalSystem<dim>::energy_and_residual, R);
+    if (enclosure != nullptr && std::isfinite(evaluation.energy))
+      add_content(u, evaluation, R);
+    return evaluation;
+  }
+
+  template <int dim>
+  std::pair<double, double>
+  MomentumBalance<dim>::gain(const Vector                           &u,
+                             const typename LocalSystem<dim>::Wanted wanted,
+                             Vector &derivative) const
+  {
+    const TimerOutput::Scope section(timer, "residual");
+    LocalSystem<dim>         system(wanted);
+    double                   volumes[2] = {0., 0.};
+    const auto               add        = [&](const unsigned int     c,
+                         const LocalField<dim> &field,
+                         LocalSystem<dim>      &local) {
+      enclosure->gain.add(c, field, GrowthAt::current, local);
+      volumes[0] += local.energy;
+      volumes[1] += local.energy_magnitude;
+      return true;
+    };
+    derivative = assembly.unknowns().sum(assembly.residual(u, system, add));
+    double totals[2];
+    Utilities::MPI::sum(volumes, comm, totals);
+    return {totals[0], totals[1]};
+  }
+
+  template <int dim>
+  double
+  MomentumBalance<dim>::enclosed_volume(const Vector &u) const
+  {
+    Vector ignored;
+    return enclosure->volume +
+           gain(u, LocalSystem<dim>::energy_and_residual, ignored).first;
+  }
+
+  template <int dim>
+  void
+  MomentumBalance<dim>::add_content(const Vector &u,
+                                    Evaluation   &evaluation,
+                                    Vector       &R) const
+  {
+    Vector b;
+    const auto [gained, magnitude] =
+      gain(u, LocalSystem<dim>::energy_and_residual, b);
+    const double V        = enclosure->volume + gained;
+    const double pressure = enclosure->content.pressure(V);
+    evaluation.energy += enclosure->content.energy(V, enclosure->volume);
+    if (!std::isfinite(evaluation.energy))
+      return;
+    evaluation.energy_magnitude += std::abs(pressure) * magnitude;
+    R.add(-pressure, b);
   }
 
   template <int dim>
@@ -208,7 +263,16 @@ namespace Morula
   {
     Vector sum;
     sum_up(u, LocalSystem<dim>::rounding, sum);
-    return sum.size() == 0 ? 0. : sum.l2_norm();
+    if (sum.size() == 0)
+      return 0.;
+    if (enclosure != nullptr)
+      {
+        Vector       magnitudes;
+        const double V = enclosure->volume +
+                         gain(u, LocalSystem<dim>::rounding, magnitudes).first;
+        sum.add(std::abs(enclosure->content.pressure(V)), magnitudes);
+      }
+    return sum.l2_norm();
   }
 
   template <int dim>
@@ -220,17 +284,37 @@ namespace Morula
         const TimerOutput::Scope section(timer, "sparsity pattern");
         assembly.make_pattern();
       }
+    const GrowthAt at       = goes_on ? GrowthAt::current : growth;
+    double         pressure = 0.;
+    if (enclosure != nullptr)
+      {
+        Vector       b;
+        const double V =
+          enclosure->volume +
+          gain(u, LocalSystem<dim>::energy_and_residual, b).first;
+        pressure = enclosure->content.pressure(V);
+        of_content.emplace(
+          RankOne{std::move(b), enclosure->content.stiffness(V)});
+      }
     const TimerOutput::Scope section(timer, "tangent");
     if (growth == GrowthAt::previous)
       linearisations.clear();
-    const auto add = [&](const unsigned int     c,
+    LocalSystem<dim> of_gain(LocalSystem<dim>::tangent);
+    const auto       add = [&](const unsigned int     c,
                          const LocalField<dim> &field,
                          LocalSystem<dim>      &local) {
       local.last = !linearisations.empty() && linearisations[c] ?
-                     &*linearisations[c] :
-                     nullptr;
+                           &*linearisations[c] :
+                           nullptr;
       for (const auto &term : terms)
-        term->add(c, field, growth, local);
+        term->add(c, field, at, local);
+      if (pressure != 0.)
+        {
+          of_gain.clear();
+          enclosure->gain.add(c, field, at, of_gain);
+          for (std::size_t k = 0; k < local.matrix.size(); ++k)
+            local.matrix[k] -= pressure * of_gain.matrix[k];
+        }
       if (local.linearisation)
         {
           linearisations.resize(space.grid_cells().size());
@@ -239,6 +323,20 @@ namespace Morula
     };
     LocalSystem<dim> system(LocalSystem<dim>::tangent);
     return assembly.matrix(u, system, add);
+  }
+
+  template <int dim>
+  const Equilibrium::RankOne *
+  MomentumBalance<dim>::rank_one() const
+  {
+    return of_content ? &*of_content : nullptr;
+  }
+
+  template <int dim>
+  void
+  MomentumBalance<dim>::go_on()
+  {
+    goes_on = true;
   }
 
   template <int dim>

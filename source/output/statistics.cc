@@ -51,6 +51,11 @@ namespace Morula
         list.emplace_back("removed", number(death->removed));
         list.emplace_back("pieces", number(death->pieces));
       }
+    if (lumen)
+      {
+        list.emplace_back("lumen_volume", lumen->volume);
+        list.emplace_back("lumen_pressure", lumen->pressure);
+      }
     for (const FieldStatistics &field : fields)
       {
         list.emplace_back(field.name + "_min", field.min);

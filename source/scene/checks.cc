@@ -190,6 +190,16 @@ namespace Morula
     everywhere(comm,
                [&] { acting = check_points(conditions, scene.material, at); });
 
+    if (const Lumen<dim> *lumen = conditions.lumen())
+      {
+        std::vector<LumenPatch<dim>> patches;
+        for (std::size_t i = 0; i < surface.positions.size(); ++i)
+          if (lumen->acts_on(surface.positions[i], surface.normals[i]))
+            patches.push_back(
+              {surface.positions[i], surface.areas[i] * surface.normals[i]});
+        lumen->check_surface(patches, comm);
+      }
+
     effects_of<dim>(scene).fields.check_surface(scene.fields,
                                                 surface.positions,
                                                 comm);

@@ -56,7 +56,8 @@ namespace Morula
       if (tissue.shape == "cylinder")
         return std::min(smallest, tissue.size[2]);
       if (tissue.shape == "sphere")
-        return smallest;
+        return tissue.inner_radius > 0. ? tissue.radius - tissue.inner_radius :
+                                          smallest;
       if (tissue.shape == "box" || tissue.shape == "ellipsoid")
         return *std::min_element(tissue.size.begin(),
                                  tissue.size.begin() + dim);

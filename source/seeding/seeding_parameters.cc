@@ -28,6 +28,10 @@ namespace Morula
              "file has it; only the lattice of cells moves with Center. "
              "Without effect on points. Units: um.")
     , radius("Tissue/Radius", 250., "Of a sphere or cylinder. Units: um.")
+    , inner_radius("Tissue/Inner radius",
+                   0.,
+                   "Of a sphere: of the cavity around its center; 0: there is "
+                   "none. Units: um.")
     , size("Tissue/Size",
            {200., 200., 200.},
            "Full edge lengths of a box, full axes of an ellipsoid; the "
@@ -110,6 +114,7 @@ namespace Morula
     return {&shape,
             &center,
             &radius,
+            &inner_radius,
             &size,
             &surface_mesh,
             &points_file,
@@ -233,6 +238,9 @@ namespace Morula
 
     if (shape == "sphere" || shape == "cylinder")
       require_positive(radius, radius);
+    if (shape == "sphere" && !(inner_radius >= 0. && inner_radius < radius))
+      inner_radius.refuse("a length >= 0 um and less than " + radius.path(),
+                          "The tissue is what lies between the two.");
     if (shape == "box" || shape == "ellipsoid" || shape == "cylinder")
       check_vector(size, dim);
     if (shape == "box" || shape == "ellipsoid")

@@ -42,7 +42,9 @@ namespace Morula
     const Point<dim>   center = leading_components<dim>(parameters.center);
 
     if (shape == "sphere")
-      return std::make_unique<Sphere<dim>>(center, parameters.radius);
+      return std::make_unique<Sphere<dim>>(center,
+                                           parameters.radius,
+                                           parameters.inner_radius);
     if (shape == "box")
       return std::make_unique<Box<dim>>(
         center, leading_components<dim>(parameters.size));

@@ -185,6 +185,7 @@ namespace Morula
       "sphere", "box", "ellipsoid", "cylinder", "mesh"};
     const std::vector<std::pair<const AnyKey *, std::vector<std::string>>>
       shapes_of = {{&tissue.radius, {"sphere", "cylinder"}},
+                   {&tissue.inner_radius, {"sphere"}},
                    {&tissue.size, {"box", "ellipsoid", "cylinder"}},
                    {&tissue.center, solid},
                    {&tissue.lattice_offset, solid},

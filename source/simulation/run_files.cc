@@ -53,6 +53,8 @@ namespace Morula
         row.fields.push_back({name});
       if (scene.has_death())
         row.death.emplace();
+      if (scene.keys<LumenParameters>().is_on())
+        row.lumen.emplace();
       return row;
     }
 

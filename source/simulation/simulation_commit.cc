@@ -122,6 +122,7 @@ namespace Morula
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.deformations[p].norm() <= limit.f)
         tissue.boundary_point(p).deform(surface.deformations[p]);
+    lumen_pressure = lumen_pressure_of_step;
     events         = std::move(growth_of_step.events);
     growth_of_step = {};
     tissue.move(cells.positions, surface.positions);

@@ -49,24 +49,40 @@ namespace Morula
                                  const MaterialPoints<dim> &points,
                                  Equilibrium::Vector       &u)
   {
-    const auto           list = terms(points, space);
-    MomentumBalance<dim> balance(space, list, timer, comm);
-    const LinearProblem  linear =
+    const auto                    list = terms(points, space);
+    std::optional<Enclosure<dim>> lumen;
+    if (boundary_conditions.lumen() != nullptr)
+      {
+        const TimerOutput::Scope section(timer, "lumen");
+        lumen.emplace(
+          enclosure(*boundary_conditions.lumen(), tissue, space, comm));
+        everywhere(comm,
+                   [&]() { lumen->content = lumen_content(lumen->volume); });
+      }
+    MomentumBalance<dim> balance(
+      space, list, timer, comm, lumen ? &*lumen : nullptr);
+    const LinearProblem linear =
       balance.linear_problem(typical_stiffness,
                              inertia(space, rigid_modes),
                              points.xi.size());
     estimate_condition(balance, linear);
     u = start_of_step(space, rigid_modes).value_or(balance.rest());
     Equilibrium::Evaluation evaluation;
+    const auto              solve_once = [&]() {
+      return solve(balance,
+                   linear,
+                   balance.scales(typical_stiffness),
+                   scene.solver,
+                   timer,
+                   u,
+                   newton_report);
+    };
     try
       {
-        evaluation = solve(balance,
-                           linear,
-                           balance.scales(typical_stiffness),
-                           scene.solver,
-                           timer,
-                           u,
-                           newton_report);
+        evaluation =
+          lumen ?
+            keep_lumen_volume(space, solve_once, balance, lumen->content, u) :
+            solve_once();
       }
     catch (const StepFailed &failure)
       {
@@ -153,7 +169,8 @@ namespace Morula
                 points->time           = time_steps.time();
                 points->youngs_modulus = typical_stiffness;
               }
-            list.push_back(named.condition->term(*points, time_steps.next()));
+            if (auto term = named.condition->term(*points, time_steps.next()))
+              list.push_back(std::move(term));
           });
         }
     if (boundary_conditions.has_pushing())

@@ -115,12 +115,25 @@ namespace Morula
       }
   }
 
+  // With K + σ b bᵀ: the formula of Sherman and Morrison.
   void
-  DirectSolver::solve(const Matrix &K,
-                      Vector       &x,
-                      const Vector &b,
-                      unsigned int &iterations,
-                      double       &largest_shift)
+  DirectSolver::add_correction(const Matrix               &K,
+                               const Equilibrium::RankOne &part,
+                               Vector                     &x)
+  {
+    Vector b(part.b), w(part.b);
+    remove_parts(b, problem.null_space);
+    solve_bordered(K, w, b);
+    x.add(-part.factor * (b * x) / (1. + part.factor * (b * w)), w);
+  }
+
+  void
+  DirectSolver::solve(const Matrix               &K,
+                      Vector                     &x,
+                      const Vector               &b,
+                      unsigned int               &iterations,
+                      double                     &largest_shift,
+                      const Equilibrium::RankOne *rank_one)
   {
     Vector balanced(b);
     remove_parts(balanced, problem.null_space);
@@ -135,6 +148,8 @@ namespace Morula
                 factorize(K);
               }
             solve_bordered(K, x, balanced);
+            if (rank_one != nullptr)
+              add_correction(K, *rank_one, x);
           }
         catch (const ExceptionBase &)
           {

@@ -19,6 +19,20 @@ namespace Morula
 
     constexpr unsigned int max_iterations = 2000;
 
+    /** A matrix and what it lacks. */
+    struct Sum
+    {
+      const Matrix               &K;
+      const Equilibrium::RankOne *rank_one;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        K.vmult(y, x);
+        add_rank_one(y, rank_one, x);
+      }
+    };
+
     /** An operator, and then the removal of the null space. */
     template <typename Operator>
     struct Projected
@@ -59,12 +73,13 @@ namespace Morula
   }
 
   void
-  LinearSolver::solve(const Matrix &K,
-                      Vector       &x,
-                      const Vector &b,
-                      const double  tolerance,
-                      unsigned int &iterations,
-                      const bool    as_before)
+  LinearSolver::solve(const Matrix               &K,
+                      Vector                     &x,
+                      const Vector               &b,
+                      const double                tolerance,
+                      unsigned int               &iterations,
+                      const bool                  as_before,
+                      const Equilibrium::RankOne *rank_one)
   {
     if (!as_before)
       direct.forget();
@@ -78,43 +93,46 @@ namespace Morula
     try
       {
         if (is_direct)
-          solve_directly(K, x, b, iterations);
+          solve_directly(K, x, b, iterations, rank_one);
         else if (problem.symmetric)
-          solve_symmetric(K, x, b, tolerance, iterations);
+          solve_symmetric(K, x, b, tolerance, iterations, rank_one);
         else
-          solve_unsymmetric(K, x, b, tolerance, iterations);
+          solve_unsymmetric(K, x, b, tolerance, iterations, rank_one);
       }
     catch (const StepFailed &)
       {
         if (!automatic)
           throw;
-        solve_directly(K, x, b, iterations);
+        solve_directly(K, x, b, iterations, rank_one);
       }
   }
 
   void
-  LinearSolver::solve_directly(const Matrix &K,
-                               Vector       &x,
-                               const Vector &b,
-                               unsigned int &iterations)
+  LinearSolver::solve_directly(const Matrix               &K,
+                               Vector                     &x,
+                               const Vector               &b,
+                               unsigned int               &iterations,
+                               const Equilibrium::RankOne *rank_one)
   {
-    direct.solve(K, x, b, iterations, largest_shift_);
+    direct.solve(K, x, b, iterations, largest_shift_, rank_one);
     has_shifted_ = has_shifted_ || direct.has_shifted();
   }
 
   void
-  LinearSolver::solve_symmetric(const Matrix &K,
-                                Vector       &x,
-                                const Vector &b,
-                                const double  tolerance,
-                                unsigned int &iterations)
+  LinearSolver::solve_symmetric(const Matrix               &K,
+                                Vector                     &x,
+                                const Vector               &b,
+                                const double                tolerance,
+                                unsigned int               &iterations,
+                                const Equilibrium::RankOne *rank_one)
   {
     const Vector magnitude = diagonal_magnitude(K, b);
     double       shift = 0., needed = 0.;
     while (shift < Shifts::last)
       {
-        const ShiftedSystem system{K, magnitude, problem.null_space, shift};
-        const auto          iterate = [&](const auto &P) {
+        const ShiftedSystem system{
+          K, magnitude, problem.null_space, shift, rank_one};
+        const auto iterate = [&](const auto &P) {
           return conjugate_gradients(
             system, P, x, b, tolerance, max_iterations, iterations, needed);
         };
@@ -141,11 +159,12 @@ namespace Morula
   }
 
   void
-  LinearSolver::solve_unsymmetric(const Matrix &K,
-                                  Vector       &x,
-                                  const Vector &b,
-                                  const double  tolerance,
-                                  unsigned int &iterations)
+  LinearSolver::solve_unsymmetric(const Matrix               &K,
+                                  Vector                     &x,
+                                  const Vector               &b,
+                                  const double                tolerance,
+                                  unsigned int               &iterations,
+                                  const Equilibrium::RankOne *rank_one)
   {
     Vector balanced(b);
     remove_parts(balanced, problem.null_space);
@@ -157,8 +176,9 @@ namespace Morula
     x = 0.;
     try
       {
-        const Projected<Matrix> A{K, problem.null_space};
-        const auto              iterate = [&](const auto &P) {
+        const Sum            sum{K, rank_one};
+        const Projected<Sum> A{sum, problem.null_space};
+        const auto           iterate = [&](const auto &P) {
           const Projected<std::decay_t<decltype(P)>> projected{
             P, problem.null_space};
           gmres.solve(A, x, balanced, projected);

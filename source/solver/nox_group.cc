@@ -133,7 +133,8 @@ namespace Morula
                         b,
                         parameters.get("Tolerance", 1e-6),
                         report.linear_iterations,
-                        tangents.kept());
+                        tangents.kept(),
+                        problem.rank_one());
     has_direction = true;
     return Ok;
   }
@@ -144,7 +145,9 @@ namespace Morula
   {
     if (K == nullptr)
       return BadDependency;
-    K->vmult(dynamic_cast<NoxVector &>(result).values, values_of(input));
+    auto &values = dynamic_cast<NoxVector &>(result).values;
+    K->vmult(values, values_of(input));
+    add_rank_one(values, problem.rank_one(), values_of(input));
     return Ok;
   }
 

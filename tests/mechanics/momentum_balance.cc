@@ -12,7 +12,9 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "common/body_on_grid.h"
@@ -77,14 +79,14 @@ namespace
 
   /**
    * A stressed ball with Nitsche's term (no gap at the displacement u) on a
-   * part of its surface, and a following pressure, if asked for.
+   * part of its surface, and a following pressure or a lumen, if asked for.
    */
   template <int dim>
   class Ball
   {
   public:
-    Ball(const MPI_Comm comm, const bool pressure)
-      : Ball(comm, pressure, normals<dim>(30))
+    Ball(const MPI_Comm comm, const bool pressure, const bool lumen = false)
+      : Ball(comm, pressure, lumen, normals<dim>(30))
     {}
 
     BodyOnGrid<dim>     body;
@@ -94,6 +96,7 @@ namespace
     MaterialPoints<dim>                     points;
     typename MomentumBalance<dim>::TermList terms;
     QuietTimer                              timer;
+    std::optional<Enclosure<dim>>           enclosure;
 
   public:
     std::unique_ptr<MomentumBalance<dim>> balance;
@@ -119,6 +122,7 @@ namespace
 
     Ball(const MPI_Comm                     comm,
          const bool                         pressure,
+         const bool                         lumen,
          const std::vector<Tensor<1, dim>> &N)
       : body(ball_points(center(), 90., spacing()),
              std::pow(spacing(), dim),
@@ -149,8 +153,27 @@ namespace
           terms.push_back(std::make_unique<FollowingPressure<dim>>(
             body.grouped(body.boundary, on_boundary), loads));
         }
-      balance =
-        std::make_unique<MomentumBalance<dim>>(*body.space, terms, timer, comm);
+      if (lumen)
+        add_lumen(N, on_boundary);
+      balance = std::make_unique<MomentumBalance<dim>>(
+        *body.space, terms, timer, comm, lumen ? &*enclosure : nullptr);
+    }
+
+    void
+    add_lumen(const std::vector<Tensor<1, dim>> &N, const PointGroups &groups)
+    {
+      std::vector<Tensor<1, dim>> areas;
+      for (const unsigned int i : groups.points)
+        areas.push_back(-100. * N[i]);
+      EnclosedContent content;
+      content.gas                 = 2e4;
+      content.pressure_at_target  = 0.1;
+      content.stiffness_at_target = 1e-5;
+      content.target              = 4e4;
+      enclosure.emplace(Enclosure<dim>{
+        SweptVolume<dim>(body.grouped(body.boundary, groups), std::move(areas)),
+        5e4,
+        content});
     }
 
     static double
@@ -206,11 +229,12 @@ namespace
   check_derivatives()
   {
     const double eps = 1e-4;
-    for (const bool pressure : {false, true})
+    for (const std::string with : {"", "pressure", "lumen"})
       {
-        SCOPED_TRACE(pressure ? "with pressure" : "");
-        Ball<dim> ball(MPI_COMM_WORLD, pressure);
-        auto     &balance = *ball.balance;
+        SCOPED_TRACE("with " + with);
+        const bool pressure = with == "pressure";
+        Ball<dim>  ball(MPI_COMM_WORLD, pressure, with == "lumen");
+        auto      &balance = *ball.balance;
         EXPECT_EQ(balance.linear_problem(1., {}, 0).symmetric, !pressure);
         Equilibrium::Vector R, after, before;
         ASSERT_TRUE(std::isfinite(balance.residual(ball.u, R).energy));
@@ -234,6 +258,8 @@ namespace
                 EXPECT_NEAR(rate, R * v, 1e-6 * R.l2_norm() * v.l2_norm());
               }
             K.vmult(Kv, v);
+            if (const auto *part = balance.rank_one())
+              Kv.add(part->factor * (part->b * v), part->b);
             after -= before;
             after /= 2. * eps;
             after -= Kv;
@@ -300,6 +326,7 @@ namespace
             Equilibrium::Vector Kv(v);
             K.vmult(Kv, v);
             values.push_back(Kv * w);
+            values.push_back(balance.rank_one()->b * v);
           }
       }
     return values;
@@ -309,7 +336,8 @@ namespace
   void
   check_ranks()
   {
-    Ball<dim>  shared(MPI_COMM_WORLD, true), alone(MPI_COMM_SELF, true);
+    Ball<dim>  shared(MPI_COMM_WORLD, true, true);
+    Ball<dim>  alone(MPI_COMM_SELF, true, true);
     const auto found = invariants(shared), expected = invariants(alone);
     for (std::size_t i = 0; i < expected.size(); ++i)
       EXPECT_NEAR(found[i],

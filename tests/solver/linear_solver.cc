@@ -114,6 +114,27 @@ namespace
     EXPECT_LE(defect(other, x, b), 1e-7);
   }
 
+  /** With a part that fills the matrix, far stiffer than the rest. */
+  void
+  check_rank_one(const std::string &solver, const double skew)
+  {
+    SCOPED_TRACE(solver);
+    unsigned int ignored = 0;
+    QuietTimer   timer;
+    ChainProblem problem = chain(0.5, skew);
+    LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+    Equilibrium::Vector        x        = problem.zero();
+    const auto                &K        = problem.tangent(x, GrowthAt::current);
+    const auto                 solution = problem.vector_of(random_values(1));
+    const Equilibrium::RankOne part{problem.vector_of(random_values(6)), 1e3};
+    Equilibrium::Vector        b(solution);
+    K.vmult(b, solution);
+    b.add(part.factor * (part.b * solution), part.b);
+    linear_solver.solve(K, x, b, 1e-11, ignored, false, &part);
+    x -= solution;
+    EXPECT_LE(x.l2_norm(), 1e-5 * solution.l2_norm());
+  }
+
   /** A diagonal of both signs; a shift turns all of it positive. */
   void
   check_indefinite(const std::string &solver)
@@ -191,6 +212,14 @@ TEST(LinearSolver, SolvesUnsymmetricSystems)
   check_solution("automatic", 3.);
   check_solution("iterative", 3.);
   check_solution("direct", 3.);
+}
+
+
+TEST(LinearSolver, AddsAPartOfRankOne)
+{
+  for (const std::string solver : {"automatic", "iterative", "direct"})
+    for (const double skew : {0., 3.})
+      check_rank_one(solver, skew);
 }
 
 

@@ -64,10 +64,24 @@ namespace Morula
     virtual double
     residual_magnitude(const Vector &u) const = 0;
 
-    /** The tangent K(u). The matrix belongs to the problem, and is overwritten
-     *  by the next call. */
+    /** A part σ b bᵀ of a tangent, σ >= 0, which would fill a sparse matrix. */
+    struct RankOne
+    {
+      Vector b;
+      double factor; // σ
+    };
+
+    /** The tangent K(u), but for rank_one(). The matrix belongs to the problem,
+     *  and is overwritten by the next call. */
     virtual const Matrix &
     tangent(const Vector &u, const GrowthAt growth) = 0;
+
+    /** What the last tangent() lacks; null: nothing. */
+    virtual const RankOne *
+    rank_one() const
+    {
+      return nullptr;
+    }
   };
 
   /** What a linear solver should know of the matrices of a problem. */

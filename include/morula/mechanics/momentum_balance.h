@@ -6,6 +6,7 @@
 
 #include <morula/grid/spline_space.h>
 #include <morula/mechanics/assembly.h>
+#include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
@@ -14,6 +15,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -43,11 +45,14 @@ namespace Morula
   public:
     using TermList = std::vector<std::unique_ptr<Term<dim>>>;
 
-    /** Keeps references to the space, the terms and the timer. */
+    /** Keeps references to the space, the terms and the timer.
+     *  @param enclosure that the tissue surrounds, or null; it stays where it
+     *         is as long as this object, its content may change */
     MomentumBalance(const SplineSpace<dim> &space,
                     const TermList         &terms,
                     TimerOutput            &timer,
-                    const MPI_Comm          comm);
+                    const MPI_Comm          comm,
+                    const Enclosure<dim>   *enclosure = nullptr);
 
     /** u = 0. Collective. */
     Vector
@@ -73,6 +78,18 @@ namespace Morula
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
 
+    const RankOne *
+    rank_one() const override;
+
+    /** Volume of the enclosure at u, µm^dim. Collective. */
+    double
+    enclosed_volume(const Vector &u) const;
+
+    /** From now on all tangents are taken at the growth at t + dt: the step has
+     *  been solved once, with another content of the enclosure. */
+    void
+    go_on();
+
     /**
      * What a linear solver should know of the tangents. Collective.
      * @param youngs_modulus a typical one, kPa
@@ -95,6 +112,17 @@ namespace Morula
            const typename LocalSystem<dim>::Wanted wanted,
            Vector                                 &sum) const;
 
+    /** The volume that the enclosure gains, Σ|contributions| to it, and its
+     *  derivative or, if @p wanted, that one's magnitudes. */
+    std::pair<double, double>
+    gain(const Vector                           &u,
+         const typename LocalSystem<dim>::Wanted wanted,
+         Vector                                 &derivative) const;
+
+    /** Adds energy and forces of the enclosure's content. */
+    void
+    add_content(const Vector &u, Evaluation &evaluation, Vector &R) const;
+
     /** Takes a grid cell's extremes into account. */
     void
     update_extremes(const LocalSystem<dim> &system,
@@ -110,6 +138,9 @@ namespace Morula
     TimerOutput            &timer;
     const MPI_Comm          comm;
     Assembly<dim>           assembly;
+    const Enclosure<dim>   *enclosure;
+    bool                    goes_on = false;
+    std::optional<RankOne>  of_content; // of the last tangent
 
     // The last tangent's, by active grid cell; empty if no term has any.
     std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;

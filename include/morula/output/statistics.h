@@ -24,6 +24,13 @@ namespace Morula
     std::uint64_t pieces  = 0; // that hold cells, on the grid of the step
   };
 
+  /** What statistics.csv says of a lumen. */
+  struct LumenState
+  {
+    double volume   = 0.; // µm^dim
+    double pressure = 0.; // kPa, above that around the tissue
+  };
+
   /** What statistics.csv says of a field. */
   struct FieldStatistics
   {
@@ -56,6 +63,8 @@ namespace Morula
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
     /** Only where cells die. */
     std::optional<DeathCounts> death = {};
+    /** Only with a lumen. */
+    std::optional<LumenState> lumen = {};
     /** By the fields' numbers; empty without fields. */
     std::vector<FieldStatistics> fields = {};
 

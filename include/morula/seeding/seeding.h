@@ -38,6 +38,7 @@ namespace Morula
     Key<std::string>         shape;
     Key<std::vector<double>> center;
     Key<double>              radius;
+    Key<double>              inner_radius;
     Key<std::vector<double>> size;
     Key<std::string>         surface_mesh;
     Key<std::string>         points_file;

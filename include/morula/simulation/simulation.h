@@ -80,6 +80,8 @@ namespace Morula
     void
     seed(const SeededTissue<dim> &seeded);
     void
+    begin_lumen();
+    void
     restore();
     void
     find_typical_stiffness();
@@ -116,6 +118,17 @@ namespace Morula
                   const RigidModes<dim>     &rigid_modes,
                   const MaterialPoints<dim> &points,
                   Equilibrium::Vector       &u);
+    /** What fills the lumen before the step's own pressure is known. */
+    EnclosedContent
+    lumen_content(const double volume) const;
+    /** Solves the step again with other pressures until the lumen has its
+     *  volume. @throws StepFailed if it does not get it */
+    Equilibrium::Evaluation
+    keep_lumen_volume(const SplineSpace<dim>                         &space,
+                      const std::function<Equilibrium::Evaluation()> &solve,
+                      MomentumBalance<dim>                           &balance,
+                      EnclosedContent                                &content,
+                      const Equilibrium::Vector                      &u);
     std::optional<Equilibrium::Vector>
     start_of_step(const SplineSpace<dim> &space,
                   const RigidModes<dim>  &modes) const;
@@ -235,7 +248,12 @@ namespace Morula
     unsigned int          n_steps          = 0;
     unsigned int          n_rejected       = 0;
 
+    // Of a lumen.
+    double lumen_at_start = 0.; // µm^dim, at t = 0
+    double lumen_pressure = 0.; // kPa
+
     // Of the present step.
+    double                           lumen_pressure_of_step = 0.; // kPa
     GrowthOfStep<dim>                growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise

@@ -25,6 +25,8 @@ namespace Morula
     const Equilibrium::Vector              &diagonal; // |diag K|
     const std::vector<Equilibrium::Vector> &null_space;
     double                                  shift; // σ
+    /** What K lacks, or null. */
+    const Equilibrium::RankOne *rank_one = nullptr;
   };
 
   /**
@@ -62,6 +64,7 @@ namespace Morula
         if (!(rz > 0.))
           return CgOutcome::indefinite_preconditioner;
         system.K.vmult(Kp, p);
+        add_rank_one(Kp, system.rank_one, p);
         if (system.shift > 0.)
           {
             shifted = p;

@@ -38,14 +38,16 @@ namespace Morula
      * @param iterations in/out: the factorisations are added
      * @param largest_shift in/out: raised to the largest σ at which the tangent
      *                      was still indefinite
+     * @param rank_one what K lacks, or null
      * @throws StepFailed on all ranks together
      */
     void
-    solve(const Matrix &K,
-          Vector       &x,
-          const Vector &b,
-          unsigned int &iterations,
-          double       &largest_shift);
+    solve(const Matrix               &K,
+          Vector                     &x,
+          const Vector               &b,
+          unsigned int               &iterations,
+          double                     &largest_shift,
+          const Equilibrium::RankOne *rank_one = nullptr);
 
     /** Whether the factor is that of a raised diagonal, but for what supports
      *  unsupported motions. */
@@ -58,6 +60,13 @@ namespace Morula
 
     void
     solve_bordered(const Matrix &K, Vector &x, const Vector &b);
+
+    /** Makes of @p x, the solution with the factor, the one with what K lacks.
+     */
+    void
+    add_correction(const Matrix               &K,
+                   const Equilibrium::RankOne &part,
+                   Vector                     &x);
 
     const LinearProblem                            &problem;
     const double                                    least_shift;

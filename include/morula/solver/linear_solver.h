@@ -45,15 +45,17 @@ namespace Morula
      * @param iterations in/out: this solve's are added (direct: its
      *                   factorisations), also when it fails
      * @param as_before  K has not changed since the last call
+     * @param rank_one   what K lacks, or null
      * @throws StepFailed on all ranks together
      */
     void
-    solve(const Matrix &K,
-          Vector       &x,
-          const Vector &b,
-          const double  tolerance,
-          unsigned int &iterations,
-          const bool    as_before = false);
+    solve(const Matrix               &K,
+          Vector                     &x,
+          const Vector               &b,
+          const double                tolerance,
+          unsigned int               &iterations,
+          const bool                  as_before = false,
+          const Equilibrium::RankOne *rank_one  = nullptr);
 
     /** The largest σ that was needed; 0 where no tangent was indefinite. */
     double
@@ -65,24 +67,27 @@ namespace Morula
 
   private:
     void
-    solve_directly(const Matrix &K,
-                   Vector       &x,
-                   const Vector &b,
-                   unsigned int &iterations);
+    solve_directly(const Matrix               &K,
+                   Vector                     &x,
+                   const Vector               &b,
+                   unsigned int               &iterations,
+                   const Equilibrium::RankOne *rank_one);
 
     void
-    solve_symmetric(const Matrix &K,
-                    Vector       &x,
-                    const Vector &b,
-                    const double  tolerance,
-                    unsigned int &iterations);
+    solve_symmetric(const Matrix               &K,
+                    Vector                     &x,
+                    const Vector               &b,
+                    const double                tolerance,
+                    unsigned int               &iterations,
+                    const Equilibrium::RankOne *rank_one);
 
     void
-    solve_unsymmetric(const Matrix &K,
-                      Vector       &x,
-                      const Vector &b,
-                      const double  tolerance,
-                      unsigned int &iterations);
+    solve_unsymmetric(const Matrix               &K,
+                      Vector                     &x,
+                      const Vector               &b,
+                      const double                tolerance,
+                      unsigned int               &iterations,
+                      const Equilibrium::RankOne *rank_one);
 
     const bool           is_direct;
     const bool           automatic;

@@ -18,6 +18,16 @@ namespace Morula
     for (const Equilibrium::Vector &direction : directions)
       x.add(-(x * direction), direction);
   }
+
+  /** Adds what the rank-one part of a tangent (null: none) makes of @p x. */
+  inline void
+  add_rank_one(Equilibrium::Vector        &y,
+               const Equilibrium::RankOne *part,
+               const Equilibrium::Vector  &x)
+  {
+    if (part != nullptr)
+      y.add(part->factor * (part->b * x), part->b);
+  }
 } // namespace Morula
 
 #endif

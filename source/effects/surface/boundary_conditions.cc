@@ -108,6 +108,18 @@ namespace Morula
 
 
   template <int dim>
+  const Lumen<dim> *
+  BoundaryConditions<dim>::lumen() const
+  {
+    for (const Named &named : list_)
+      if (const auto *found =
+            dynamic_cast<const Lumen<dim> *>(named.condition.get()))
+        return found;
+    return nullptr;
+  }
+
+
+  template <int dim>
   const std::vector<typename BoundaryConditions<dim>::Named> &
   BoundaryConditions<dim>::list() const
   {

@@ -18,6 +18,7 @@ SWITCHES = (
     ("traction", "Boundary conditions/Traction where", ""),
     ("pressure", "Boundary conditions/Pressure where", ""),
     ("surface tension", "Boundary conditions/Surface tension", "0"),
+    ("lumen", "Boundary conditions/Lumen where", ""),
     ("obstacles", "Obstacles/Names", ""),
     ("body force", "Body force/Force density", "0;0;0"))
 

@@ -72,7 +72,7 @@ namespace Morula
     displacement(const Point<dim> &X, const double t) const;
 
     /** The term of a condition that loads, at the end @p t (day) of a step, on
-     *  those of the points that it acts on. Not collective.
+     *  those of the points that it acts on; null: it has none. Not collective.
      *  @throws StepFailed where the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const;

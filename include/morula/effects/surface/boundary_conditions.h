@@ -5,6 +5,7 @@
 #define morula_effects_surface_boundary_conditions_h
 
 #include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/nitsche_penalty.h>
 #include <morula/particles/boundary_state.h>
 
@@ -69,6 +70,10 @@ namespace Morula
     /** Whether a condition only pushes. */
     bool
     has_pushing() const;
+
+    /** The lumen, or null. */
+    const Lumen<dim> *
+    lumen() const;
 
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &

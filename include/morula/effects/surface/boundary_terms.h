@@ -9,6 +9,7 @@
 #include <morula/mechanics/held_motion.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
@@ -35,6 +36,23 @@ namespace Morula
   template <int dim>
   LoadedPoints<dim>
   loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
+
+  /** The boundary points of this rank around the lumen, held ones as well, at
+   *  the beginning of a step, and its volume then (µm^dim). Collective. */
+  template <int dim>
+  Enclosure<dim>
+  enclosure(const Lumen<dim>       &lumen,
+            const Tissue<dim>      &tissue,
+            const SplineSpace<dim> &space,
+            const MPI_Comm          comm);
+
+  /** The patches of this rank around the lumen; after the step with this
+   *  displacement if there is one. */
+  template <int dim>
+  std::vector<LumenPatch<dim>>
+  lumen_patches(const Lumen<dim>             &lumen,
+                const Tissue<dim>            &tissue,
+                const DisplacementField<dim> *displacement = nullptr);
 
   /** The fixed and slip points of this rank. */
   template <int dim>

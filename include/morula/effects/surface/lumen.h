@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_lumen_h
+#define morula_effects_surface_lumen_h
+
+#include <morula/effects/surface/placed_condition.h>
+#include <morula/mechanics/enclosure.h>
+
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+namespace Morula
+{
+  /** The keys of the lumen, in section "Boundary conditions". */
+  struct LumenParameters : public ConditionKeys
+  {
+    LumenParameters();
+
+    ExpressionKey volume;   // relative to that at t = 0
+    ExpressionKey pressure; // kPa, at the volume of t = 0
+
+    using Keys::list;
+    KeyList
+    list() override;
+    std::string
+    details() const override;
+  };
+
+  /** A piece of the surface around a lumen. */
+  template <int dim>
+  struct LumenPatch
+  {
+    /** Position, µm. */
+    Point<dim> x;
+    /** Area times normal, out of the tissue and so into the lumen;
+     *  µm^(dim-1). */
+    Tensor<1, dim> area;
+  };
+
+  /**
+   * The volume that patches enclose, µm^dim: doc/theory.md (4.8g). It does not
+   * change where all of them move together. Collective.
+   */
+  template <int dim>
+  double
+  enclosed_volume(const std::vector<LumenPatch<dim>> &patches,
+                  const MPI_Comm                      comm);
+
+  /**
+   * A lumen that the tissue encloses: its volume is given, and its pressure
+   * follows; or it is filled with a gas. doc/theory.md (4.8g) to (4.8j).
+   */
+  template <int dim>
+  class Lumen : public PlacedCondition<dim>
+  {
+  public:
+    using Parameters = LumenParameters;
+
+    /** @throws InputError for expressions that cannot be parsed or speak of
+     *  places, and unless just one of volume and pressure is given */
+    explicit Lumen(const Parameters &parameters);
+
+    /** Whether the volume is given. */
+    bool
+    keeps_volume() const;
+
+    /** V*, µm^dim, at @p t (day), where it was @p at_start at t = 0.
+     *  @throws InputError where the key has no value or is not positive */
+    double
+    volume(const double t, const double at_start) const;
+
+    /** Pressure at the volume of t = 0, kPa. @throws InputError */
+    double
+    pressure(const double t) const;
+
+    /**
+     * Refuses a surface that does not enclose anything. Collective.
+     * @param patches of this rank, at t = 0
+     * @throws InputError on all ranks together
+     */
+    void
+    check_surface(const std::vector<LumenPatch<dim>> &patches,
+                  const MPI_Comm                      comm) const;
+
+    /** None: the momentum balance has the content of the lumen as a whole. */
+    std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const override;
+
+    void
+    check(const Preview<dim> &scene) const override;
+
+  private:
+    const ExpressionKey             where;
+    const std::optional<Expression> volume_;
+    const std::optional<Expression> pressure_;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_mechanics_enclosure_h
+#define morula_mechanics_enclosure_h
+
+#include <morula/mechanics/swept_volume.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Morula
+{
+  /**
+   * The pressure of what fills an enclosed space at its volume V:
+   * p = C/V + p_0 - κ (V - V*), a gas, or a content of given volume whose
+   * pressure p_0 is being found: doc/theory.md (4.8i).
+   */
+  struct EnclosedContent
+  {
+    /** C, the pressure of a gas times its volume; kPa µm^dim. */
+    double gas = 0.;
+    /** p_0, kPa. */
+    double pressure_at_target = 0.;
+    /** κ, kPa/µm^dim. */
+    double stiffness_at_target = 0.;
+    /** V*, µm^dim. */
+    double target = 0.;
+
+    /** p, kPa. */
+    double
+    pressure(const double V) const
+    {
+      return (gas != 0. ? gas / V : 0.) + pressure_at_target -
+             stiffness_at_target * (V - target);
+    }
+
+    /** -dp/dV, kPa/µm^dim. */
+    double
+    stiffness(const double V) const
+    {
+      return (gas != 0. ? gas / (V * V) : 0.) + stiffness_at_target;
+    }
+
+    /** The energy -∫ p dV from the volume @p before on, kPa µm^dim; infinite
+     *  where no volume is left. */
+    double
+    energy(const double V, const double before) const
+    {
+      if (!(V > 0.))
+        return std::numeric_limits<double>::infinity();
+      const double mean = 0.5 * (V + before);
+      return (gas != 0. ? -gas * std::log(V / before) : 0.) -
+             (pressure_at_target - stiffness_at_target * (mean - target)) *
+               (V - before);
+    }
+  };
+
+  /** A space that boundary points enclose, and what fills it. */
+  template <int dim>
+  struct Enclosure
+  {
+    /** What it gains in the step. */
+    SweptVolume<dim> gain;
+    /** Its volume at the beginning of the step, µm^dim. */
+    double volume;
+    /** What fills it. */
+    EnclosedContent content;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/surface/lumen.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
+     *  patches' vectors do not quite add up to nothing. */
+    constexpr double largest_gap = 0.02;
+
+    /** An expression of a lumen, which may depend on the time alone.
+     *  @throws InputError */
+    std::optional<Expression>
+    of_time(const ExpressionKey &key, const unsigned int dim)
+    {
+      std::optional<Expression> expression = key.optional(dim);
+      if (expression)
+        for (const Variable place : {Variable::X, Variable::Y, Variable::Z})
+          if (expression->uses(place))
+            key.refuse("a function of t",
+                       "A lumen is the same everywhere: remove X, Y and Z.");
+      return expression;
+    }
+
+    /** Sums of a surface's patches. */
+    template <int dim>
+    struct SurfaceSums
+    {
+      double         area = 0.;   // µm^(dim-1)
+      Tensor<1, dim> area_vector; // likewise
+      Point<dim>     center;      // µm, the mean by area
+    };
+
+    template <int dim>
+    SurfaceSums<dim>
+    sums_of(const std::vector<LumenPatch<dim>> &patches, const MPI_Comm comm)
+    {
+      std::vector<double> mine(2 * dim + 1, 0.);
+      for (const LumenPatch<dim> &patch : patches)
+        {
+          const double a = patch.area.norm();
+          mine[2 * dim] += a;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              mine[d] += patch.area[d];
+              mine[dim + d] += a * patch.x[d];
+            }
+        }
+      std::vector<double> all(2 * dim + 1);
+      Utilities::MPI::sum(mine, comm, all);
+      SurfaceSums<dim> result;
+      result.area = all[2 * dim];
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result.area_vector[d] = all[d];
+          result.center[d] = result.area > 0. ? all[dim + d] / result.area : 0.;
+        }
+      return result;
+    }
+  } // namespace
+
+
+  LumenParameters::LumenParameters()
+    : ConditionKeys("Boundary conditions/Lumen where",
+                    "Expression of X, Y, Z: the boundary points for which it "
+                    "is > 0 enclose a lumen; empty: there is none.")
+    , volume("Boundary conditions/Lumen volume",
+             "",
+             "Volume of the lumen relative to that at t = 0, a function of t; "
+             "> 0. The pressure that it takes is found, and stands in "
+             "statistics.csv. Empty: what fills the lumen is a gas.",
+             Evaluated::place)
+    , pressure(
+        "Boundary conditions/Lumen pressure",
+        "",
+        "Pressure of a gas in the lumen at the volume that this has at "
+        "t = 0, V0, a function of t; at the volume V the pressure is V0/V "
+        "times it. Empty: the volume is given. Units: kPa.",
+        Evaluated::place)
+  {
+    volume.positive("times the volume at t = 0", "1 keeps the volume.");
+  }
+
+
+  KeyList
+  LumenParameters::list()
+  {
+    return {&where, &volume, &pressure};
+  }
+
+
+  std::string
+  LumenParameters::details() const
+  {
+    return volume.empty() ?
+             "; gas, " + pressure.text() + " kPa at the volume of t = 0" :
+             "; volume " + volume.text() + " times that at t = 0";
+  }
+
+
+  template <int dim>
+  double
+  enclosed_volume(const std::vector<LumenPatch<dim>> &patches,
+                  const MPI_Comm                      comm)
+  {
+    const Point<dim> center = sums_of(patches, comm).center;
+    double           volume = 0.;
+    for (const LumenPatch<dim> &patch : patches)
+      volume -= (patch.x - center) * patch.area / dim;
+    return Utilities::MPI::sum(volume, comm);
+  }
+
+
+  template <int dim>
+  Lumen<dim>::Lumen(const Parameters &parameters)
+    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
+    , where(parameters.where)
+    , volume_(of_time(parameters.volume, dim))
+    , pressure_(of_time(parameters.pressure, dim))
+  {
+    if (volume_ && pressure_)
+      parameters.pressure.refuse("nothing where " + parameters.volume.path() +
+                                   " is set",
+                                 "Of a lumen whose volume is given the "
+                                 "pressure is found: leave one of them empty.");
+    if (!volume_ && !pressure_)
+      parameters.volume.refuse("a function of t where " +
+                                 parameters.where.path() + " is set",
+                               "1 keeps the volume; or set " +
+                                 parameters.pressure.path() + ".");
+  }
+
+
+  template <int dim>
+  bool
+  Lumen<dim>::keeps_volume() const
+  {
+    return volume_.has_value();
+  }
+
+
+  template <int dim>
+  double
+  Lumen<dim>::volume(const double t, const double at_start) const
+  {
+    const double factor = volume_->value(Point<dim>(), t);
+    if (factor > 0.)
+      return factor * at_start;
+    std::ostringstream place;
+    place << "It is " << factor << " at t = " << t << " day.";
+    throw InputError(volume_->key(),
+                     volume_->text(),
+                     "a value > 0 times the volume at t = 0",
+                     place.str());
+  }
+
+
+  template <int dim>
+  double
+  Lumen<dim>::pressure(const double t) const
+  {
+    return pressure_->value(Point<dim>(), t);
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::check_surface(const std::vector<LumenPatch<dim>> &patches,
+                            const MPI_Comm                      comm) const
+  {
+    const SurfaceSums<dim> sums = sums_of(patches, comm);
+    if (sums.area == 0.)
+      return; // which is refused for all conditions
+    std::ostringstream text;
+    if (const double gap = sums.area_vector.norm() / sums.area;
+        gap > largest_gap)
+      {
+        text << "It is open: as vectors, the areas of its patches add up to "
+             << 100. * gap
+             << " % of their sum. Choose all boundary points of the inner "
+                "surface.";
+        where.refuse("a condition that chooses a closed surface", text.str());
+      }
+    if (const double volume = enclosed_volume(patches, comm); !(volume > 0.))
+      {
+        text << "It encloses " << volume << (dim == 3 ? " um^3" : " um^2")
+             << ": the normals point away from it. Choose the boundary points "
+                "of an inner surface, whose normals point into the lumen.";
+        where.refuse("a condition that chooses the surface of a lumen",
+                     text.str());
+      }
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  Lumen<dim>::term(const LoadedPoints<dim> &, const double) const
+  {
+    return nullptr;
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::check(const Preview<dim> &scene) const
+  {
+    for (const double t : {0., scene.end_time})
+      if (keeps_volume())
+        volume(t, 1.);
+      else
+        pressure(t);
+  }
+
+
+#define INSTANTIATE(dim)                                                \
+  template class Lumen<dim>;                                            \
+  template double enclosed_volume(const std::vector<LumenPatch<dim>> &, \
+                                  const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -23,6 +23,17 @@ SHEET = overrides({"Proliferation/Cell cycle/Size checkpoint": "0.9",
 REFINED = overrides({"Tissue/Refine surface": "true", "Grid/Spacing": "32",
                      "Tissue/Boundary points": "96",
                      "Solver/Newton tolerance": "1e-10"})
+SHELL = overrides({"Tissue/Shape": "sphere", "Tissue/Radius": "60",
+                   "Tissue/Inner radius": "30", "Grid/Spacing": "20",
+                   "Tissue/Cell spacing": "7",
+                   "Proliferation/Cell cycle/G0 exit rate": "0",
+                   "Growth/Law": "isotropic",
+                   "Growth/Isotropic/Stretch": "1 + 0.1*t",
+                   "Boundary conditions/Slip where": "",
+                   "Boundary conditions/Slip normal": "",
+                   "Boundary conditions/Lumen where":
+                   "X^2 + Y^2 + (Z - 30)^2 < 45^2",
+                   "Boundary conditions/Lumen volume": "1 + t/4"})
 
 
 class Resume(ProgramTest):
@@ -102,6 +113,17 @@ class Resume(ProgramTest):
         points = [len(read_csv(whole / f"surface-000{i}.csv"))
                   for i in range(3)]
         self.assertEqual(points, sorted(set(points)))
+
+    def test_lumen(self):
+        """Its volume at t = 0 and its pressure are in the snapshot."""
+        whole, _ = pair = self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}), *SHELL, ranks=2)
+        self.assert_same_run(*pair)
+        rows = read_csv(whole / "statistics.csv")
+        volume = rows["lumen_volume"] / rows["lumen_volume"][0]
+        self.assertLess(abs(volume / (1 + rows["time"] / 4) - 1).max(), 1e-6)
+        self.assertGreater(rows["lumen_pressure"].min(), -0.1)
+        self.assertNotEqual(rows["lumen_pressure"][-1], 0)
 
     def test_snapshot_without_names_of_columns(self):
         """As an older program wrote it."""

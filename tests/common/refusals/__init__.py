@@ -7,10 +7,12 @@ from tests.common.refusals.expressions import (EXPRESSIONS, GROWTH_BY_RATES,
                                                IN_2D)
 from tests.common.refusals.fields import FIELDS
 from tests.common.refusals.files import FILES
+from tests.common.refusals.lumen import LUMENS
 from tests.common.refusals.obstacles import OBSTACLES
 from tests.common.refusals.outliers import OUTLIERS
 from tests.common.refusals.scenes import SCENES
 from tests.common.refusals.values import CHOICES, NUMBERS
 
 KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + GROWTH_BY_RATES + \
-    CONTRADICTIONS + FIELDS + FILES + OUTLIERS + OBSTACLES
+    CONTRADICTIONS + FIELDS + FILES + OUTLIERS + LUMENS + \
+    OBSTACLES

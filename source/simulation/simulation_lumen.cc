@@ -36,6 +36,40 @@ namespace Morula
 
 
   template <int dim>
+  void
+  Simulation<dim>::restore_lumen()
+  {
+    if (boundary_conditions.lumen() == nullptr)
+      return;
+    lumen_at_start = resumed_from->number("lumen_at_start");
+    lumen_pressure = resumed_from->number("lumen_pressure");
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::save_lumen(SnapshotData<dim> &data) const
+  {
+    if (boundary_conditions.lumen() == nullptr)
+      return;
+    data.numbers["lumen_at_start"] = lumen_at_start;
+    data.numbers["lumen_pressure"] = lumen_pressure;
+  }
+
+
+  template <int dim>
+  std::optional<LumenState>
+  Simulation<dim>::lumen_state() const
+  {
+    const Lumen<dim> *lumen = boundary_conditions.lumen();
+    if (lumen == nullptr)
+      return {};
+    return LumenState{enclosed_volume(lumen_patches(*lumen, tissue), comm),
+                      lumen_pressure};
+  }
+
+
+  template <int dim>
   EnclosedContent
   Simulation<dim>::lumen_content(const double volume) const
   {

@@ -196,11 +196,7 @@ namespace Morula
     next_id = number("next_id");
     if (scene.tissue.refine_surface)
       next_boundary_id = number("next_boundary_id");
-    if (boundary_conditions.lumen() != nullptr)
-      {
-        lumen_at_start = number("lumen_at_start");
-        lumen_pressure = number("lumen_pressure");
-      }
+    restore_lumen();
     n_steps    = number("steps");
     n_rejected = number("rejected_steps");
     time_steps.restore({resumed_from->time,
@@ -250,11 +246,7 @@ namespace Morula
                                   {"step_level", double(now.level)}};
     if (scene.tissue.refine_surface)
       data.numbers["next_boundary_id"] = next_boundary_id;
-    if (boundary_conditions.lumen() != nullptr)
-      {
-        data.numbers["lumen_at_start"] = lumen_at_start;
-        data.numbers["lumen_pressure"] = lumen_pressure;
-      }
+    save_lumen(data);
     const GridBox<dim> &box = tissue.grid().box();
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
@@ -344,10 +336,7 @@ namespace Morula
     for (std::size_t type = 0; type < of_types.size(); ++type)
       state.cells_of_types.emplace_back(development.state().type_names()[type],
                                         of_types[type]);
-    if (const Lumen<dim> *lumen = boundary_conditions.lumen())
-      state.lumen =
-        LumenState{enclosed_volume(lumen_patches(*lumen, tissue), comm),
-                   lumen_pressure};
+    state.lumen  = lumen_state();
     state.fields = field_statistics();
     return state;
   }

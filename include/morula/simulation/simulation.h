@@ -82,6 +82,13 @@ namespace Morula
     void
     begin_lumen();
     void
+    restore_lumen();
+    void
+    save_lumen(SnapshotData<dim> &data) const;
+    /** What statistics.csv says of the lumen, if there is one. */
+    std::optional<LumenState>
+    lumen_state() const;
+    void
     restore();
     void
     find_typical_stiffness();

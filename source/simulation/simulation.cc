@@ -1,140 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/even_fill.h>
+#include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <iostream>
-#include <new>
-#include <sstream>
+
+// One step.
 
 namespace Morula
 {
-  template <int dim>
-  void
-  Simulation<dim>::run(const std::function<void()> &observe)
-  {
-    if (resumed_from && must_stop())
-      {
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          std::cout << "Already finished at t = " << time_steps.time()
-                    << " day: nothing to resume.\n";
-        if (observe)
-          observe();
-        return;
-      }
-    begin();
-    const StopSignals signals(comm);
-    record_failure([&]() {
-      if (observe)
-        observe();
-      while (!must_stop())
-        {
-          stop_if_asked(signals);
-          step();
-          write_rows();
-          write_condition();
-          output(must_stop());
-          if (observe)
-            observe();
-        }
-    });
-    finish();
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::begin()
-  {
-    files.emplace(scene, resumed_from, clock, comm);
-    if (!resumed_from)
-      {
-        for (const std::string &warning : warnings)
-          files->message(warning);
-        begin_rows();
-        write_rows();
-        output(must_stop());
-      }
-    resumed_from.reset();
-    warned_of_long_cells = row.lengths.n_too_long > 0;
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::record_failure(const std::function<void()> &steps)
-  {
-    try
-      {
-        steps();
-      }
-    catch (const std::bad_alloc &)
-      {
-        throw;
-      }
-    catch (const StoppedBySignal &stop)
-      {
-        files->fail(stop.what());
-        throw;
-      }
-    catch (const std::exception &error)
-      {
-        // Also an expression without a value at some later time: the scene had
-        // been accepted, so this is no longer bad input but a run that failed.
-        std::ostringstream text;
-        text << "At t = " << time_steps.time() << " day: " << error.what();
-        files->fail(text.str());
-        throw std::runtime_error(text.str());
-      }
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::finish()
-  {
-    files->write_timings(timer);
-    files->finish(row.cells == 0        ? "Finished: all cells are dead" :
-                  time_steps.finished() ? "Finished: End time reached" :
-                                          "Finished: Stop at cells reached",
-                  row,
-                  n_rejected,
-                  timer);
-  }
-
-  template <int dim>
-  const Tissue<dim> &
-  Simulation<dim>::state() const
-  {
-    return tissue;
-  }
-
-  template <int dim>
-  const StatisticsRow &
-  Simulation<dim>::last_row() const
-  {
-    return row;
-  }
-
-  template <int dim>
-  bool
-  Simulation<dim>::must_stop() const
-  {
-    if (time_steps.finished())
-      return true;
-    if (scene.time.stop_at_cells == 0 && development.death() == nullptr)
-      return false;
-    const auto n_cells =
-      Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
-    return n_cells == 0 || (scene.time.stop_at_cells > 0 &&
-                            n_cells >= scene.time.stop_at_cells);
-  }
-
   template <int dim>
   void
   Simulation<dim>::step()
@@ -144,19 +26,16 @@ namespace Morula
     births        = {};
     events        = {};
     condition.reset();
-    ++n_steps;
+    ++run_state.n_steps;
+    fields.begin_step();
 
-    clipped.clear();
     const SplineSpace<dim> space = splines();
-    tell_of_joined_pieces(space);
-    count_pieces(space);
+    pieces.look(space, time_steps.time());
     // Those of t = 0 stand in the first row.
-    if (n_steps > 1)
-      set_steady_fields(space);
-    const RigidModes<dim> modes = rigid_modes(space);
-    Equilibrium::Vector   u;
-    solve_step(space, modes, u);
-    commit(space, u);
+    if (run_state.n_steps > 1)
+      find_fields(
+        [&]() { fields.set_steady(tissue, space, time_steps.time()); });
+    commit(space, solve_step(space));
     {
       const TimerOutput::Scope section(timer, "strays");
       pull_back_detached_points(tissue);
@@ -165,18 +44,11 @@ namespace Morula
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
-    const PointList<dim> former =
-      renews_surface() ? tissue.boundary_points().copy() : PointList<dim>();
+    const PointList<dim> former = surface.before_losses(tissue);
     remove_the_dead();
-    if (renews_surface())
-      {
-        even_out_fill(tissue,
-                      space.occupancy(),
-                      std::min(1., row.dt / scene.tissue.renew_surface));
-        renew_surface(former, row.dt);
-      }
-    refine_stretched_surface(space, former);
-    complete_row(space);
+    count(space);
+    follow_surface(space, former);
+    complete_row();
   }
 
   template <int dim>
@@ -192,66 +64,94 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "grid");
     tissue.defragment(); // here, where a step holds least memory
-    return tissue.splines(material.volumetric_form() !=
+    return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
   }
 
   template <int dim>
-  void
-  Simulation<dim>::solve_step(const SplineSpace<dim> &space,
-                              const RigidModes<dim>  &rigid_modes,
-                              Equilibrium::Vector    &u)
+  typename StepEquilibrium<dim>::Solution
+  Simulation<dim>::solve_step(const SplineSpace<dim> &space)
   {
+    const StepEquilibrium<dim> equilibrium(model, tissue, space, timer, comm);
     while (true)
       try
         {
-          try_step(space, rigid_modes, u);
-          return;
+          return try_step(equilibrium);
         }
       catch (const StepFailed &failure)
         {
           ++row.rejected_steps;
-          ++n_rejected;
+          ++run_state.n_rejected;
           if (!time_steps.reject())
             give_up_step(failure.what());
         }
       catch (const InputError &error)
         {
           // an expression without a value at this time
-          give_up(scene.located(error.what()));
+          give_up(model.scene.located(error.what()));
         }
   }
 
   template <int dim>
-  void
-  Simulation<dim>::write_rows()
+  typename StepEquilibrium<dim>::Solution
+  Simulation<dim>::try_step(const StepEquilibrium<dim> &equilibrium)
   {
-    const TimerOutput::Scope section(timer, "rows");
-    files->step(row, births, events);
+    const double t = time_steps.time(), t_next = time_steps.next();
+    if (model.development.present())
+      {
+        const TimerOutput::Scope section(timer, "growth");
+        everywhere(comm, [&]() {
+          growth_of_step = model.development.of_step(tissue, t, t_next);
+        });
+        // Of the step's cells, so that a resumed run has the same.
+        if (model.material.depends_on_state())
+          typical_stiffness =
+            model.typical_stiffness(tissue, growth_of_step, comm);
+      }
+    return equilibrium.solve(
+      {t, t_next, growth_of_step, typical_stiffness, run_state.lumen},
+      newton_report,
+      condition);
   }
 
   template <int dim>
   void
-  Simulation<dim>::write_condition()
+  Simulation<dim>::find_fields(const std::function<void()> &find)
   {
-    if (condition)
-      files->condition(n_steps, row.time - row.dt, *condition);
+    const bool has_begun = run_state.n_steps > 0;
+    try
+      {
+        find();
+      }
+    catch (const InputError &error)
+      {
+        if (!has_begun)
+          throw;
+        give_up(model.scene.located(error.what()));
+      }
+    catch (const StepFailed &failure)
+      {
+        const std::string reason = failure.what() + std::string(".");
+        if (!has_begun)
+          throw std::runtime_error(reason);
+        give_up(reason);
+      }
   }
 
   template <int dim>
   void
   Simulation<dim>::divide()
   {
-    if (development.cycle() == nullptr)
+    if (model.development.cycle() == nullptr)
       return;
     const TimerOutput::Scope        section(timer, "division");
     const std::vector<unsigned int> due =
-      cells_due(tissue, development, time_steps.time());
+      cells_due(tissue, model.development, time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
     if (row.dividing > 0)
       {
-        Divisions<dim> divisions =
-          Morula::divide(tissue, development, due, time_steps.time(), next_id);
+        Divisions<dim> divisions = Morula::divide(
+          tissue, model.development, due, time_steps.time(), run_state.next_id);
         births = std::move(divisions.births);
         events.insert(events.end(),
                       divisions.events.begin(),
@@ -263,7 +163,7 @@ namespace Morula
   void
   Simulation<dim>::remove_the_dead()
   {
-    if (development.death() == nullptr)
+    if (model.development.death() == nullptr)
       return;
     const TimerOutput::Scope section(timer, "removal");
     const std::uint64_t      n_deaths =
@@ -271,7 +171,7 @@ namespace Morula
         return event.kind == CellEvent::Kind::death;
       });
     const std::vector<CellEvent> removals =
-      remove_dead_cells(tissue, development, time_steps.time());
+      remove_dead_cells(tissue, model.development, time_steps.time());
     events.insert(events.end(), removals.begin(), removals.end());
     row.death.emplace();
     row.death->deaths = Utilities::MPI::sum(n_deaths, comm);
@@ -280,10 +180,22 @@ namespace Morula
   }
 
   template <int dim>
-  unsigned int
-  Simulation<dim>::n_unknowns()
+  void
+  Simulation<dim>::follow_surface(const SplineSpace<dim> &space,
+                                  const PointList<dim>   &former)
   {
-    return dim * splines().n_unknowns();
+    try
+      {
+        surface.follow(tissue, space, former, time_steps.time(), row.dt);
+      }
+    catch (const SurfaceTorn &error)
+      {
+        // This step is done; the next one could not be.
+        complete_row();
+        write_rows();
+        ++run_state.n_steps;
+        give_up(error.what() + std::string("."));
+      }
   }
 
   template class Simulation<2>;

@@ -72,18 +72,20 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::commit(const SplineSpace<dim>    &space,
-                          const Equilibrium::Vector &u)
+  Simulation<dim>::commit(
+    const SplineSpace<dim>                        &space,
+    const typename StepEquilibrium<dim>::Solution &solution)
   {
     const TimerOutput::Scope     section(timer, "commit");
-    const DisplacementField<dim> displacement(space, u, comm);
-    const std::vector<double>    volumes = elastic_volumes(tissue,
-                                                        space,
-                                                        growth_of_step,
-                                                        material,
-                                                        scene.solver.kernel,
-                                                        displacement);
-    const Moved<dim>             cells =
+    const DisplacementField<dim> displacement(space, solution.u, comm);
+    const std::vector<double>    volumes =
+      elastic_volumes(tissue,
+                      space,
+                      growth_of_step,
+                      model.material,
+                      model.scene.solver.kernel,
+                      displacement);
+    const Moved<dim> cells =
       moved(tissue.cells(), displacement, Motion(), comm);
     // Where the surface stands off from the cells the field is extrapolated: no
     // reason to move farther, or to deform more, than the cells do. See also
@@ -99,16 +101,16 @@ namespace Morula
     if (!reason.empty())
       give_up(reason + ".");
 
-    const FieldsOfStep<dim> of_step = transient_fields(space);
-    development.commit(tissue,
-                       growth_of_step,
-                       time_steps.time(),
-                       time_steps.next());
-    fields.set(tissue, of_step);
+    const double      t = time_steps.time(), t_next = time_steps.next();
+    FieldsOfStep<dim> of_step;
+    find_fields(
+      [&]() { of_step = fields.transient(tissue, space, t, t_next); });
+    model.development.commit(tissue, growth_of_step, t, t_next);
+    model.fields.set(tissue, of_step);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
-        const double volume = fields.present() ? cell.volume() : 0.;
+        const double volume = model.fields.present() ? cell.volume() : 0.;
         // doc/theory.md (1.1)
         Tensor<2, dim> F = cells.deformations[p] * cell.F();
         if (!volumes.empty())
@@ -116,15 +118,15 @@ namespace Morula
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
                      1. / dim);
         cell.set(cell.columns().deformation, F);
-        if (fields.present())
-          fields.dilute(cell, cell.volume() / volume);
+        if (model.fields.present())
+          model.fields.dilute(cell, cell.volume() / volume);
       }
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.deformations[p].norm() <= limit.f)
         tissue.boundary_point(p).deform(surface.deformations[p]);
-    lumen_pressure = lumen_pressure_of_step;
-    events         = std::move(growth_of_step.events);
-    growth_of_step = {};
+    run_state.lumen = solution.lumen;
+    events          = std::move(growth_of_step.events);
+    growth_of_step  = {};
     tissue.move(cells.positions, surface.positions);
   }
 

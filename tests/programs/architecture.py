@@ -82,7 +82,7 @@ class Architecture(ProgramTest):
         calls = re.findall(r"^ +(?:\w+\.)?(\w+)\(\)", block, flags=re.M)
         self.assertGreater(len(calls), 8)
         text = text_of("simulation/simulation") + \
-            text_of("simulation/simulation_equilibrium")
+            text_of("simulation/step_equilibrium")
         self.assertEqual([name for name in calls
                           if not re.search(rf"\b{name}\(", text)], [])
 

@@ -101,7 +101,9 @@ namespace
         counted, linear, balance.scales(1.), parameters, timer, u, report);
       n_tangents = counted.n_tangents;
       if (!costly)
-        EXPECT_EQ(n_tangents, report.newton_iterations);
+        {
+          EXPECT_EQ(n_tangents, report.newton_iterations);
+        }
       return u;
     };
     unsigned int n_all, n_kept;

@@ -4,24 +4,22 @@
 #ifndef morula_simulation_simulation_h
 #define morula_simulation_simulation_h
 
-#include <morula/effects/development.h>
-#include <morula/effects/surface/boundary_terms.h>
-#include <morula/grid/piece_watch.h>
-#include <morula/mechanics/momentum_balance.h>
-#include <morula/mechanics/rigid_modes.h>
-#include <morula/mechanics/spline_field.h>
-#include <morula/particles/tissue.h>
-#include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
+#include <morula/simulation/following_surface.h>
+#include <morula/simulation/piece_news.h>
 #include <morula/simulation/run_files.h>
+#include <morula/simulation/run_state.h>
+#include <morula/simulation/step_equilibrium.h>
+#include <morula/simulation/step_fields.h>
 #include <morula/simulation/stop_signals.h>
-#include <morula/simulation/time_steps.h>
-#include <morula/solver/newton.h>
+#include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/timer.h>
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -74,24 +72,11 @@ namespace Morula
     n_unknowns();
 
   private:
-    Simulation(const Scene        &scene,
-               const MPI_Comm      comm,
-               SceneEffects<dim> &&effects);
+    Simulation(const Scene &scene, const MPI_Comm comm);
     void
     seed(const SeededTissue<dim> &seeded);
     void
-    begin_lumen();
-    void
-    restore_lumen();
-    void
-    save_lumen(SnapshotData<dim> &data) const;
-    /** What statistics.csv says of the lumen, if there is one. */
-    std::optional<LumenState>
-    lumen_state() const;
-    void
     restore();
-    void
-    find_typical_stiffness();
     void
     check_resumed_cycle() const; // Step may have changed
 
@@ -104,119 +89,44 @@ namespace Morula
     finish();
     bool
     must_stop() const;
+
     void
     step();
     SplineSpace<dim>
     splines();
+    typename StepEquilibrium<dim>::Solution
+    solve_step(const SplineSpace<dim> &space);
+    typename StepEquilibrium<dim>::Solution
+    try_step(const StepEquilibrium<dim> &equilibrium);
     void
-    tell_of_joined_pieces(const SplineSpace<dim> &space);
-    void
-    count_pieces(const SplineSpace<dim> &space);
-    void
-    solve_step(const SplineSpace<dim> &space,
-               const RigidModes<dim>  &rigid_modes,
-               Equilibrium::Vector    &u);
-    void
-    try_step(const SplineSpace<dim> &space,
-             const RigidModes<dim>  &rigid_modes,
-             Equilibrium::Vector    &u);
-    void
-    solve_balance(const SplineSpace<dim>    &space,
-                  const RigidModes<dim>     &rigid_modes,
-                  const MaterialPoints<dim> &points,
-                  Equilibrium::Vector       &u);
-    /** What fills the lumen before the step's own pressure is known. */
-    EnclosedContent
-    lumen_content(const double volume) const;
-    /** Solves the step again with other pressures until the lumen has its
-     *  volume. @throws StepFailed if it does not get it */
-    Equilibrium::Evaluation
-    keep_lumen_volume(const SplineSpace<dim>                         &space,
-                      const std::function<Equilibrium::Evaluation()> &solve,
-                      MomentumBalance<dim>                           &balance,
-                      EnclosedContent                                &content,
-                      const Equilibrium::Vector                      &u);
-    std::optional<Equilibrium::Vector>
-    start_of_step(const SplineSpace<dim> &space,
-                  const RigidModes<dim>  &modes) const;
-    void
-    estimate_condition(MomentumBalance<dim> &balance,
-                       const LinearProblem  &linear);
-    /** What keeps the step free of unsupported motions. */
-    std::vector<Equilibrium::Vector>
-    inertia(const SplineSpace<dim> &space, const RigidModes<dim> &modes);
-    void
-    commit(const SplineSpace<dim> &space, const Equilibrium::Vector &u);
-    /** Gives cells the steady fields of the present configuration. */
-    void
-    set_steady_fields(const SplineSpace<dim> &space);
-    /** The other fields at the end of the step. */
-    FieldsOfStep<dim>
-    transient_fields(const SplineSpace<dim> &space);
-    /** Those of a kind, at @p t1. */
-    FieldsOfStep<dim>
-    find_fields(const SplineSpace<dim> &space,
-                const FieldKind         kind,
-                const double            t1);
-    void
-    tell_of_fields(const FieldsOfStep<dim> &found);
-    /** What statistics.csv says of the fields. */
-    std::vector<FieldStatistics>
-    field_statistics() const;
-    void
-    refine_surface(const std::function<bool(const Point<dim> &)> &crowded);
-    /** @param former points before the step lost any, where the scene renews
-     *  the surface */
-    void
-    refine_stretched_surface(const SplineSpace<dim> &space,
-                             const PointList<dim>   &former);
-    bool
-    renews_surface() const;
-    /** Where it is time, or the step has lost points. @param dt day */
-    void
-    renew_surface(const PointList<dim> &former, const double dt);
-    /** Whether that can be done. Collective. */
-    bool
-    make_surface_anew(const PointList<dim> &former);
+    commit(const SplineSpace<dim>                        &space,
+           const typename StepEquilibrium<dim>::Solution &solution);
     void
     divide();
     void
     remove_the_dead();
     void
+    follow_surface(const SplineSpace<dim> &space, const PointList<dim> &former);
+
+    /** Lets the row say what the state is; what it says of the step stays. */
+    void
+    describe_state();
+    void
+    complete_row();
+    void
+    count(const SplineSpace<dim> &space);
+    void
     write_rows();
     void
-    write_condition();
-
-    /** Adds the terms of the conditions that load the surface. @throws
-     *  StepFailed on all ranks where a condition finds the step too long */
-    void
-    add_loads(const SplineSpace<dim>                  &space,
-              typename MomentumBalance<dim>::TermList &list);
-    /** For pieces that loads only push. */
-    std::unique_ptr<Term<dim>>
-    drag(const SplineSpace<dim> &space) const;
-
-    typename MomentumBalance<dim>::TermList
-    terms(const MaterialPoints<dim> &points, const SplineSpace<dim> &space);
-    std::vector<typename RigidModes<dim>::Mass>
-    masses(const SplineSpace<dim> &space) const;
-    RigidModes<dim>
-    rigid_modes(const SplineSpace<dim> &space) const;
-
-    StatisticsRow
-    statistics() const;
-    void
-    begin_rows();
-    void
-    complete_row(const SplineSpace<dim> &space);
-    void
-    warn_of_long_cells();
+    output(const bool last);
     SnapshotData<dim>
     snapshot() const;
     void
-    output(const bool last);
-    void
     stop_if_asked(const StopSignals &signals); // StoppedBySignal
+
+    /** Ends the run where @p find cannot find the fields. */
+    void
+    find_fields(const std::function<void()> &find);
     /** The longest that the present attempt asks for, µm. Collective. */
     double
     way_of_held_points() const;
@@ -225,61 +135,31 @@ namespace Morula
     [[noreturn]] void
     give_up_step(const std::string &reason);
 
-    /** Number of the cell's type. */
-    unsigned int
-    type_of(const CellView<dim, const double> &cell) const;
-    /** Cell number p of the present state. */
-    PresentCell<dim>
-    present_cell(const unsigned int p, const CellReader<dim> &reader) const;
-    /** At the size checkpoint, now. */
-    bool
-    is_held(const PresentCell<dim> &cell) const;
+    const TissueModel<dim> model;
+    const MPI_Comm         comm;
+    const Timer            clock;
+    TimerOutput            timer;
 
-    const Scene    scene;
-    const MPI_Comm comm;
-    const Timer    clock;
-    TimerOutput    timer;
-
-    const TissueMaterial                                material;
-    const BoundaryConditions<dim>                       boundary_conditions;
-    const CellDevelopment<dim>                          development;
-    const Fields<dim>                                   fields;
-    const std::vector<std::unique_ptr<const Fate<dim>>> fates;
-    const std::vector<typename SceneEffects<dim>::NamedForce> forces;
-    double typical_stiffness = 0.; // kPa
-
-    Tissue<dim>           tissue;
-    TimeSteps             time_steps;
-    types::particle_index next_id          = 0; // of cells
-    types::particle_index next_boundary_id = 0; // where the surface is refined
-    unsigned int          n_steps          = 0;
-    unsigned int          n_rejected       = 0;
-
-    // Of a lumen.
-    double lumen_at_start = 0.; // µm^dim, at t = 0
-    double lumen_pressure = 0.; // kPa
+    Tissue<dim> tissue;
+    TimeSteps   time_steps;
+    RunState    run_state;
+    double      typical_stiffness = 0.; // kPa
 
     // Of the present step.
-    double                           lumen_pressure_of_step = 0.; // kPa
     GrowthOfStep<dim>                growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
-    std::vector<std::uint64_t>       clipped;   // by field
 
-    PieceWatch<dim> piece_watch;
-    bool            pieces_have_joined = false; // and the user knows
-    unsigned int    n_pieces           = 0;     // counted if cells die
-    bool            pieces_have_parted = false; // and so on
-
+    PieceNews<dim>        pieces;
+    StepFields<dim>       fields;
+    FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
-    bool warned_of_fields     = false; // that did not converge
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step
-    std::optional<FieldSolver<dim>>  field_solver;  // of the configuration
     std::optional<SnapshotData<dim>> resumed_from;  // until run()
     std::optional<RunFiles<dim>>     files;         // from run() on
   };

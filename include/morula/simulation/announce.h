@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_announce_h
+#define morula_simulation_announce_h
+
+#include <functional>
+#include <string>
+
+namespace Morula
+{
+  /** Writes a message to the terminal and into log.txt. To be called on all
+   *  ranks, of which the first one writes. */
+  using Announce = std::function<void(const std::string &text)>;
+} // namespace Morula
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_following_surface_h
+#define morula_simulation_following_surface_h
+
+#include <morula/simulation/tissue_model.h>
+
+#include <deal.II/base/timer.h>
+
+namespace Morula
+{
+  /**
+   * How the surface follows the tissue: its patches split where it stretches
+   * and merge where it shrinks, and it is made anew where tissue was lost, as
+   * the scene asks. Keeps references to the model, the id and the timer.
+   */
+  template <int dim>
+  class FollowingSurface
+  {
+  public:
+    /** @param next_id the first id that no boundary point has had; advanced */
+    FollowingSurface(const TissueModel<dim> &model,
+                     types::particle_index  &next_id,
+                     TimerOutput            &timer,
+                     const MPI_Comm          comm);
+
+    /** Splits patches that are too long at the start of a run. Collective. */
+    void
+    begin(Tissue<dim> &tissue);
+
+    /** The points before a step loses any, where the scene will ask for them;
+     *  else none. */
+    PointList<dim>
+    before_losses(const Tissue<dim> &tissue) const;
+
+    /**
+     * Makes the surface anew where it is time to, or the step has lost points;
+     * splits and merges patches. Collective.
+     * @param space  of the step
+     * @param former as from before_losses()
+     * @param t      end of the step, day
+     * @param dt     its length, day
+     * @throws SurfaceTorn on all ranks
+     */
+    void
+    follow(Tissue<dim>            &tissue,
+           const SplineSpace<dim> &space,
+           const PointList<dim>   &former,
+           const double            t,
+           const double            dt);
+
+  private:
+    bool
+    renews() const;
+    void
+    renew_if_due(Tissue<dim>          &tissue,
+                 const PointList<dim> &former,
+                 const double          t,
+                 const double          dt);
+    /** Whether that can be done. Collective. */
+    bool
+    renew(Tissue<dim> &tissue, const PointList<dim> &former);
+    void
+    refine(Tissue<dim>                                   &tissue,
+           const std::function<bool(const Point<dim> &)> &crowded);
+
+    const TissueModel<dim> &model;
+    types::particle_index  &next_id;
+    TimerOutput            &timer;
+    const MPI_Comm          comm;
+    const double            longest_edge; // of a patch, µm
+  };
+} // namespace Morula
+
+#endif

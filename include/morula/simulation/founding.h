@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_founding_h
+#define morula_simulation_founding_h
+
+#include <morula/output/lineage.h>
+#include <morula/scene/seeded_tissue.h>
+#include <morula/simulation/tissue_model.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** The points of this rank at t = 0, with all columns that effects need. */
+  template <int dim>
+  struct FirstPoints
+  {
+    PointList<dim> cells, boundary_points;
+    /** The founders as they stand in lineage.csv. */
+    std::vector<Birth<dim>> births;
+  };
+
+  /** Gives founders and patches the state in which they begin. Collective.
+   *  @throws InputError on all ranks for what an effect cannot do with a
+   *  founder */
+  template <int dim>
+  FirstPoints<dim>
+  found(const TissueModel<dim>  &model,
+        const SeededTissue<dim> &seeded,
+        const MPI_Comm           comm);
+} // namespace Morula
+
+#endif

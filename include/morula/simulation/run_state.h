@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_run_state_h
+#define morula_simulation_run_state_h
+
+#include <morula/output/snapshot.h>
+#include <morula/particles/tissue.h>
+#include <morula/simulation/lumen_of_run.h>
+#include <morula/simulation/time_steps.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /** What outlives a step besides the tissue. */
+  struct RunState
+  {
+    types::particle_index next_id          = 0; // of cells
+    types::particle_index next_boundary_id = 0; // where the surface is refined
+    unsigned int          n_steps          = 0;
+    unsigned int          n_rejected       = 0;
+    std::optional<LumenMemory> lumen       = {};
+  };
+
+  /**
+   * Everything that outlives a step, for snapshot.h5; the files of the run add
+   * their own.
+   * @param has_boundary_ids whether ids of boundary points are given
+   */
+  template <int dim>
+  SnapshotData<dim>
+  snapshot_of(const Tissue<dim>      &tissue,
+              const TimeSteps::State &time_steps,
+              const RunState         &state,
+              const bool              has_boundary_ids);
+
+  /** Fills the tissue with that of a snapshot. Collective. @throws InputError
+   *  where the snapshot lacks anything */
+  template <int dim>
+  void
+  restore_tissue(const SnapshotData<dim> &data, Tissue<dim> &tissue);
+
+  /** The place in the sequence of steps. @throws InputError likewise */
+  template <int dim>
+  TimeSteps::State
+  saved_time_steps(const SnapshotData<dim> &data);
+
+  /** The rest. @param has_lumen whether the scene has a lumen. @throws
+   *  InputError likewise */
+  template <int dim>
+  RunState
+  saved_run_state(const SnapshotData<dim> &data,
+                  const bool               has_boundary_ids,
+                  const bool               has_lumen);
+} // namespace Morula
+
+#endif

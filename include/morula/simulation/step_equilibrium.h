@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_step_equilibrium_h
+#define morula_simulation_step_equilibrium_h
+
+#include <morula/mechanics/momentum_balance.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/simulation/lumen_of_run.h>
+#include <morula/simulation/tissue_model.h>
+#include <morula/solver/condition_estimate.h>
+#include <morula/solver/newton.h>
+
+#include <deal.II/base/timer.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /**
+   * The equilibrium of a step: the sum of the scene's terms on the splines of
+   * one configuration, and its solution, in as many attempts as the step takes.
+   * Keeps references to all that it is given.
+   */
+  template <int dim>
+  class StepEquilibrium
+  {
+  public:
+    /** A step that is tried. */
+    struct Attempt
+    {
+      double                   t, t_next; // day
+      const GrowthOfStep<dim> &growth;
+      double                   typical_stiffness; // kPa
+      /** Before the step; nothing without a lumen. */
+      std::optional<LumenMemory> lumen;
+    };
+
+    /** What was found for a step. */
+    struct Solution
+    {
+      Equilibrium::Vector        u;     // displacement, µm
+      std::optional<LumenMemory> lumen; // behind the step
+    };
+
+    /** Collective. */
+    StepEquilibrium(const TissueModel<dim> &model,
+                    const Tissue<dim>      &tissue,
+                    const SplineSpace<dim> &space,
+                    TimerOutput            &timer,
+                    const MPI_Comm          comm);
+
+    /**
+     * Solves for the end of a step. Collective.
+     * @param report in/out: this attempt's work is added
+     * @param condition in/out: of the first tangent, where the scene asks for
+     * it and it is not known yet
+     * @throws StepFailed, InputError on all ranks together
+     */
+    Solution
+    solve(const Attempt                    &attempt,
+          NewtonReport                     &report,
+          std::optional<ConditionEstimate> &condition) const;
+
+  private:
+    using TermList = typename MomentumBalance<dim>::TermList;
+    using MassList = std::vector<typename RigidModes<dim>::Mass>;
+
+    Solution
+    balance(const Attempt                    &attempt,
+            const MaterialPoints<dim>        &points,
+            NewtonReport                     &report,
+            std::optional<ConditionEstimate> &condition) const;
+    /** The lumen at the beginning of the step, if there is one. */
+    std::optional<Enclosure<dim>>
+    lumen_of(const Attempt &attempt) const;
+    /** Where the iterations begin, if not at rest. */
+    std::optional<Equilibrium::Vector>
+    start(const Attempt &attempt) const;
+    void
+    estimate_condition(MomentumBalance<dim>             &balance,
+                       const LinearProblem              &linear,
+                       std::optional<ConditionEstimate> &condition) const;
+    /** What keeps the step free of unsupported motions. */
+    std::vector<Equilibrium::Vector>
+    inertia() const;
+
+    TermList
+    terms(const Attempt &attempt, const MaterialPoints<dim> &points) const;
+    /** Adds the terms of the conditions that load the surface. @throws
+     *  StepFailed on all ranks where a condition finds the step too long */
+    void
+    add_loads(const Attempt &attempt, TermList &list) const;
+    /** For pieces that loads only push. */
+    std::unique_ptr<Term<dim>>
+    drag(const double typical_stiffness) const;
+    MassList
+    masses() const;
+
+    const TissueModel<dim> &model;
+    const Tissue<dim>      &tissue;
+    const SplineSpace<dim> &space;
+    TimerOutput            &timer;
+    const MPI_Comm          comm;
+    const RigidModes<dim>   rigid_modes;
+  };
+} // namespace Morula
+
+#endif

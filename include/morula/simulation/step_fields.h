@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_step_fields_h
+#define morula_simulation_step_fields_h
+
+#include <morula/output/statistics.h>
+#include <morula/simulation/announce.h>
+#include <morula/simulation/tissue_model.h>
+
+#include <deal.II/base/timer.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * The fields of a scene in the steps of a run. What the fields of one
+   * configuration share is made for the first of them and kept until the tissue
+   * moves. Keeps references to the model and the timer.
+   */
+  template <int dim>
+  class StepFields
+  {
+  public:
+    StepFields(const TissueModel<dim> &model,
+               TimerOutput            &timer,
+               const Announce         &announce);
+
+    /** Begins to count what is clipped in the next step. */
+    void
+    begin_step();
+
+    /** Gives cells the steady fields of the configuration at @p t, day.
+     *  @throws InputError, StepFailed on all ranks */
+    void
+    set_steady(Tissue<dim>            &tissue,
+               const SplineSpace<dim> &space,
+               const double            t);
+
+    /** The other fields at the end of the step that begins at @p t; the tissue
+     *  is about to move. @throws InputError, StepFailed on all ranks */
+    FieldsOfStep<dim>
+    transient(const Tissue<dim>      &tissue,
+              const SplineSpace<dim> &space,
+              const double            t,
+              const double            t_next);
+
+    /** Forgets the configuration: the splines will stand elsewhere. */
+    void
+    forget_configuration();
+
+    /** What statistics.csv says of the fields. Collective. */
+    std::vector<FieldStatistics>
+    statistics(const Tissue<dim> &tissue) const;
+
+  private:
+    /** Those of a kind, at @p t1. */
+    FieldsOfStep<dim>
+    find(const FieldKind         kind,
+         const Tissue<dim>      &tissue,
+         const SplineSpace<dim> &space,
+         const double            t,
+         const double            t1);
+    void
+    warn_if_unsettled(const FieldSolution<dim> &field, const double t);
+
+    const TissueModel<dim>         &model;
+    TimerOutput                    &timer;
+    const Announce                  announce;
+    std::optional<FieldSolver<dim>> solver;         // of the configuration
+    std::vector<std::uint64_t>      clipped;        // by field, in the step
+    bool                            warned = false; // of one not converged
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_tissue_model_h
+#define morula_simulation_tissue_model_h
+
+#include <morula/effects/development.h>
+#include <morula/effects/fields/fields.h>
+#include <morula/effects/surface/boundary_conditions.h>
+#include <morula/mechanics/tissue_material.h>
+#include <morula/particles/tissue.h>
+#include <morula/scene/scene.h>
+
+#include <mpi.h>
+
+#include <memory>
+#include <vector>
+
+namespace Morula
+{
+  /** What a scene makes of its tissue: the material, and all effects that it
+   *  has. None of it changes during a run. */
+  template <int dim>
+  struct TissueModel
+  {
+    /** @throws InputError */
+    explicit TissueModel(const Scene &scene);
+
+    const Scene                                         scene;
+    const TissueMaterial                                material;
+    const BoundaryConditions<dim>                       boundary_conditions;
+    const CellDevelopment<dim>                          development;
+    const Fields<dim>                                   fields;
+    const std::vector<std::unique_ptr<const Fate<dim>>> fates;
+    const std::vector<typename SceneEffects<dim>::NamedForce> forces;
+
+    /** An empty tissue whose cells and boundary points have the columns that
+     *  the effects need. */
+    Tissue<dim>
+    empty_tissue(const MPI_Comm comm) const;
+
+    /** Whether the cell waits at the size checkpoint at @p t, day. */
+    bool
+    is_held(const PresentCell<dim> &cell, const double t) const;
+
+    /** The largest Young's modulus of the tissue, kPa. Collective. @param
+     *  growth of the step, where moduli depend on the state of cells */
+    double
+    typical_stiffness(const Tissue<dim>       &tissue,
+                      const GrowthOfStep<dim> &growth,
+                      const MPI_Comm           comm) const;
+
+  private:
+    TissueModel(const Scene &scene, SceneEffects<dim> &&effects);
+  };
+
+  /** Cell number @p p of the tissue as it is now. */
+  template <int dim>
+  PresentCell<dim>
+  present_cell(const Tissue<dim>     &tissue,
+               const unsigned int     p,
+               const CellReader<dim> &reader);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_tissue_tables_h
+#define morula_simulation_tissue_tables_h
+
+#include <morula/output/cell_fields.h>
+#include <morula/output/statistics.h>
+#include <morula/output/surface_fields.h>
+#include <morula/simulation/tissue_model.h>
+
+namespace Morula
+{
+  /** Sets in @p row what statistics.csv says of the tissue as it is at @p t
+   *  (day), but for pieces, fields and lumen. What it says of the step stays.
+   *  Collective. */
+  template <int dim>
+  void
+  set_state(const TissueModel<dim> &model,
+            const Tissue<dim>      &tissue,
+            const double            t,
+            StatisticsRow          &row);
+
+  /** The table behind cells-NNNN.csv and .vtu, at @p t, day. */
+  template <int dim>
+  CellFields<dim>
+  cell_table(const TissueModel<dim> &model,
+             const Tissue<dim>      &tissue,
+             const double            t);
+
+  /** The table behind surface-NNNN.csv and .vtu, at @p t, day. */
+  template <int dim>
+  SurfaceFields<dim>
+  surface_table(const Tissue<dim> &tissue, const double t);
+
+  /** What the user should know of cells that are too long for the grid. */
+  template <int dim>
+  std::string
+  long_cells_warning(const StatisticsRow &row, const double grid_spacing);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/even_fill.h>
+#include <morula/particles/surface_coarsening.h>
+#include <morula/particles/surface_refinement.h>
+#include <morula/seeding/surface_renewal.h>
+#include <morula/simulation/following_surface.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Part of the boundary points that a step may lose before the surface is
+     *  made anew at once. */
+    constexpr double largest_loss = 0.01;
+
+    /** And |F|/√dim that a point may have come to since then: more is no motion
+     *  of the tissue, but of a point that it has left behind. */
+    constexpr double largest_stretch = 1.5;
+
+    /** Whether a boundary point has a larger |F|. Collective. */
+    template <int dim>
+    bool
+    is_stretched(const Tissue<dim> &tissue)
+    {
+      double largest = 0.;
+      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+        largest = std::max(largest, tissue.boundary_points().F(p).norm());
+      return Utilities::MPI::max(largest, tissue.communicator()) >
+             largest_stretch * std::sqrt(dim);
+    }
+  } // namespace
+
+
+  template <int dim>
+  FollowingSurface<dim>::FollowingSurface(const TissueModel<dim> &model,
+                                          types::particle_index  &next_id,
+                                          TimerOutput            &timer,
+                                          const MPI_Comm          comm)
+    : model(model)
+    , next_id(next_id)
+    , timer(timer)
+    , comm(comm)
+    , longest_edge(0.5 * model.scene.grid.spacing)
+  {}
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::begin(Tissue<dim> &tissue)
+  {
+    refine(tissue, [](const Point<dim> &) { return false; });
+  }
+
+
+  template <int dim>
+  PointList<dim>
+  FollowingSurface<dim>::before_losses(const Tissue<dim> &tissue) const
+  {
+    return renews() ? tissue.boundary_points().copy() : PointList<dim>();
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::follow(Tissue<dim>            &tissue,
+                                const SplineSpace<dim> &space,
+                                const PointList<dim>   &former,
+                                const double            t,
+                                const double            dt)
+  {
+    if (renews())
+      {
+        even_out_fill(tissue,
+                      space.occupancy(),
+                      std::min(1., dt / model.scene.tissue.renew_surface));
+        renew_if_due(tissue, former, t, dt);
+      }
+    try
+      {
+        refine(tissue, [&space](const Point<dim> &x) {
+          return space.occupancy().crowded(x);
+        });
+      }
+    catch (const SurfaceTorn &)
+      {
+        if (!renews() || !renew(tissue, former))
+          throw;
+      }
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::renews() const
+  {
+    return model.scene.tissue.renew_surface > 0.;
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::renew_if_due(Tissue<dim>          &tissue,
+                                      const PointList<dim> &former,
+                                      const double          t,
+                                      const double          dt)
+  {
+    const double every = model.scene.tissue.renew_surface;
+    const double slack = model.scene.time.slack();
+    const bool   is_due =
+      std::floor((t + slack) / every) > std::floor((t - dt + slack) / every);
+    const auto n = Utilities::MPI::sum<std::uint64_t>(former.size(), comm);
+    const auto n_left =
+      Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(), comm);
+    if (is_due || n - n_left > largest_loss * n || is_stretched(tissue))
+      renew(tissue, former);
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::renew(Tissue<dim>          &tissue,
+                               const PointList<dim> &former)
+  {
+    const TimerOutput::Scope   section(timer, "surface renewal");
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    const auto                 list   = renewed_surface(tissue.cells(),
+                                      former,
+                                      points.copy(),
+                                      points.columns(),
+                                      longest_edge,
+                                      next_id,
+                                      comm);
+    if (list)
+      tissue.replace_surface(*list);
+    return list.has_value();
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::refine(
+    Tissue<dim> &tissue, const std::function<bool(const Point<dim> &)> &crowded)
+  {
+    if (!model.scene.tissue.refine_surface)
+      return;
+    const TimerOutput::Scope section(timer, "surface refinement");
+    PointList<dim>           points  = tissue.boundary_points().copy();
+    const auto              &columns = tissue.boundary_points().columns();
+    const auto               alike   = [this](const auto &a, const auto &b) {
+      return model.boundary_conditions.alike(a, b);
+    };
+    const bool has_merged =
+      model.scene.tissue.coarsen_surface &&
+      coarsen_surface<dim>(points, columns, longest_edge, alike, comm);
+    const bool has_split =
+      refine_surface(points, columns, longest_edge, crowded, next_id, comm);
+    if (has_merged || has_split)
+      tissue.replace_surface(points);
+  }
+
+
+  template class FollowingSurface<2>;
+  template class FollowingSurface<3>;
+} // namespace Morula

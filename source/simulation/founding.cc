@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/effects/state/surface_distance.h>
+#include <morula/simulation/founding.h>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Where founders stand to the surface, if expressions ask for it. */
+    template <int dim>
+    std::vector<NearSurface<dim>>
+    surface_of(const StateColumns<dim> &state,
+               const SeededTissue<dim> &seeded,
+               const MPI_Comm           comm)
+    {
+      if (!state.needs_surface())
+        return {};
+      return near_surface(seeded.founders.positions,
+                          seeded.surface.positions,
+                          seeded.surface.normals,
+                          comm);
+    }
+
+    /** What the founder's file says of it. */
+    template <int dim>
+    GivenState
+    given_state(const Founders<dim> &founders, const std::size_t i)
+    {
+      GivenState given;
+      if (!founders.phases.empty())
+        given.phase = founders.phases[i];
+      if (!founders.types.empty())
+        given.type = founders.types[i];
+      return given;
+    }
+
+    /** Adds founder number @p i. @throws InputError */
+    template <int dim>
+    void
+    add_founder(const TissueModel<dim>              &model,
+                const Founders<dim>                 &founders,
+                const std::size_t                    i,
+                const std::vector<NearSurface<dim>> &surface,
+                const CellReader<dim>               &reader,
+                FirstPoints<dim>                    &points)
+    {
+      const CellDevelopment<dim> &development = model.development;
+      const CellColumns<dim>     &columns     = development.columns();
+      const StateColumns<dim>    &state       = development.state();
+      const Point<dim>            X           = founders.positions[i];
+      const types::particle_index id          = founders.first_id + i;
+      std::vector<double>         row = columns.founder(X, founders.volumes[i]);
+      const CellView<dim, double> cell(make_array_view(row), columns);
+      if (state.depth.exists())
+        cell.set(state.depth, surface[i].depth);
+      if (state.surface_normal.exists())
+        cell.set(state.surface_normal, surface[i].normal);
+      const unsigned int generation =
+        founders.generations.empty() ? 0 : founders.generations[i];
+      if (columns.generation.exists())
+        cell.set(columns.generation, generation);
+      model.fields.begin(cell);
+      development.initialize(id,
+                             cell,
+                             model.scene.time.step,
+                             given_state(founders, i));
+      if (model.fields.present())
+        model.fields.check_cell({cell, id, X, reader});
+      points.cells.add(id, X, make_array_view(row));
+      points.births.push_back({id,
+                               -1,
+                               generation,
+                               0.,
+                               X,
+                               state.type.exists() ? cell.get(state.type) : 0});
+    }
+  } // namespace
+
+
+  template <int dim>
+  FirstPoints<dim>
+  found(const TissueModel<dim>  &model,
+        const SeededTissue<dim> &seeded,
+        const MPI_Comm           comm)
+  {
+    const Founders<dim>       &founders = seeded.founders;
+    const SurfacePatches<dim> &patches  = seeded.surface;
+    const BoundaryColumns<dim> boundary(model.scene.tissue.refine_surface,
+                                        model.scene.tissue.coarsen_surface);
+    FirstPoints<dim>           points{PointList<dim>(
+                              model.development.columns().n_numbers()),
+                            PointList<dim>(boundary.n_numbers()),
+                                      {}};
+    points.cells.reserve(founders.positions.size());
+    points.births.reserve(founders.positions.size());
+    const auto surface = surface_of(model.development.state(), seeded, comm);
+    const CellReader<dim> reader = model.development.reader(0.);
+    everywhere(comm, [&]() {
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        add_founder(model, founders, i, surface, reader, points);
+    });
+    for (std::size_t i = 0; i < patches.positions.size(); ++i)
+      {
+        const Point<dim>          X   = patches.positions[i];
+        const Tensor<1, dim>      N   = patches.normals[i];
+        const std::vector<double> row = boundary.initial_point(
+          X, N, patches.areas[i], model.boundary_conditions.condition(X, N));
+        points.boundary_points.add(patches.first_id + i,
+                                   X,
+                                   make_array_view(row));
+      }
+    return points;
+  }
+
+
+  template FirstPoints<2>
+  found(const TissueModel<2> &, const SeededTissue<2> &, const MPI_Comm);
+  template FirstPoints<3>
+  found(const TissueModel<3> &, const SeededTissue<3> &, const MPI_Comm);
+} // namespace Morula

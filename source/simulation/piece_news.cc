@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/piece_news.h>
+
+#include <sstream>
+
+namespace Morula
+{
+  template <int dim>
+  PieceNews<dim>::PieceNews(const bool counts, const Announce &announce)
+    : counts(counts)
+    , announce(announce)
+  {}
+
+
+  template <int dim>
+  void
+  PieceNews<dim>::look(const SplineSpace<dim> &space, const double t)
+  {
+    if (const auto place = watch.joined(space); place && !has_joined)
+      {
+        has_joined = true;
+        std::ostringstream text;
+        text << "Warning: at t = " << t << " day two parts of the tissue have "
+             << "come within a grid spacing of each other near (" << *place
+             << ") um. From now on they stick together there, though their "
+             << "cells may not touch yet (doc/faq.md, bodies that stick). A "
+             << "smaller Grid/Spacing lets them come closer. Later ones are "
+             << "not told of.";
+        announce(text.str());
+      }
+    count(space, t);
+  }
+
+
+  template <int dim>
+  void
+  PieceNews<dim>::count(const SplineSpace<dim> &space, const double t)
+  {
+    if (!counts)
+      return;
+    const unsigned int n = pieces_with_cells(space);
+    if (n_pieces_ > 0 && n > n_pieces_ && !has_parted)
+      {
+        has_parted = true;
+        std::ostringstream text;
+        text << "Warning: at t = " << t << " day the tissue has parted: it has "
+             << n << " pieces now, and had " << n_pieces_
+             << ". Each of them moves on its own. The column pieces of "
+                "statistics.csv has their number; later ones are not told of.";
+        announce(text.str());
+      }
+    n_pieces_ = n;
+  }
+
+
+  template <int dim>
+  unsigned int
+  PieceNews<dim>::n_pieces() const
+  {
+    return n_pieces_;
+  }
+
+
+  template class PieceNews<2>;
+  template class PieceNews<3>;
+} // namespace Morula

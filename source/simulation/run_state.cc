@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/run_state.h>
+
+namespace Morula
+{
+  template <int dim>
+  SnapshotData<dim>
+  snapshot_of(const Tissue<dim>      &tissue,
+              const TimeSteps::State &time_steps,
+              const RunState         &state,
+              const bool              has_boundary_ids)
+  {
+    SnapshotData<dim> data;
+    data.program_version = MORULA_VERSION;
+    data.time            = time_steps.time;
+    data.numbers         = {{"next_id", double(state.next_id)},
+                            {"steps", double(state.n_steps)},
+                            {"rejected_steps", double(state.n_rejected)},
+                            {"step_length", time_steps.step},
+                            {"step_interval", double(time_steps.interval)},
+                            {"step_begin", time_steps.begin},
+                            {"step_part", double(time_steps.part)},
+                            {"step_level", double(time_steps.level)}};
+    if (has_boundary_ids)
+      data.numbers["next_boundary_id"] = state.next_boundary_id;
+    if (state.lumen)
+      {
+        data.numbers["lumen_at_start"] = state.lumen->volume_at_start;
+        data.numbers["lumen_pressure"] = state.lumen->pressure;
+      }
+    const GridBox<dim> &box = tissue.grid().box();
+    data.integer_tables["box_first"].assign(box.first().begin(),
+                                            box.first().end());
+    data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
+    data.integer_tables["box_weights"].assign(tissue.grid().weights().begin(),
+                                              tissue.grid().weights().end());
+    data.cells            = tissue.cells().copy();
+    data.boundary_points  = tissue.boundary_points().copy();
+    data.cell_columns     = tissue.cells().columns().layout();
+    data.boundary_columns = tissue.boundary_points().columns().layout();
+    return data;
+  }
+
+
+  template <int dim>
+  void
+  restore_tissue(const SnapshotData<dim> &data, Tissue<dim> &tissue)
+  {
+    const std::vector<int> &box_first = data.integer_table("box_first", dim);
+    const std::vector<int> &box_n     = data.integer_table("box_n", dim);
+    GridIndex<dim>          first, n;
+    std::size_t             n_grid_cells = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = box_first[d];
+        n[d]     = box_n[d];
+        if (box_n[d] <= 0)
+          refuse_snapshot(data.file, "a snapshot whose grid has cells");
+        n_grid_cells *= box_n[d];
+      }
+    const std::vector<int> &weights =
+      data.integer_table("box_weights", n_grid_cells);
+    tissue.restore(data.cells,
+                   data.boundary_points,
+                   first,
+                   n,
+                   std::vector<unsigned int>(weights.begin(), weights.end()));
+  }
+
+
+  template <int dim>
+  TimeSteps::State
+  saved_time_steps(const SnapshotData<dim> &data)
+  {
+    return {data.time,
+            data.number("step_length"),
+            static_cast<unsigned int>(data.number("step_interval")),
+            data.number("step_begin"),
+            static_cast<unsigned int>(data.number("step_part")),
+            static_cast<unsigned int>(data.number("step_level"))};
+  }
+
+
+  template <int dim>
+  RunState
+  saved_run_state(const SnapshotData<dim> &data,
+                  const bool               has_boundary_ids,
+                  const bool               has_lumen)
+  {
+    RunState state;
+    state.next_id    = data.number("next_id");
+    state.n_steps    = data.number("steps");
+    state.n_rejected = data.number("rejected_steps");
+    if (has_boundary_ids)
+      state.next_boundary_id = data.number("next_boundary_id");
+    if (has_lumen)
+      state.lumen = LumenMemory{data.number("lumen_at_start"),
+                                data.number("lumen_pressure")};
+    return state;
+  }
+
+
+#define INSTANTIATE(dim)                                                  \
+  template SnapshotData<dim> snapshot_of(const Tissue<dim> &,             \
+                                         const TimeSteps::State &,        \
+                                         const RunState &,                \
+                                         const bool);                     \
+  template void restore_tissue(const SnapshotData<dim> &, Tissue<dim> &); \
+  template TimeSteps::State saved_time_steps(const SnapshotData<dim> &);  \
+  template RunState         saved_run_state(const SnapshotData<dim> &,    \
+                                            const bool,                   \
+                                            const bool);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/simulation.h>
+#include <morula/simulation/tissue_tables.h>
+
+// What a run tells of its state.
+
+namespace Morula
+{
+  template <int dim>
+  const Tissue<dim> &
+  Simulation<dim>::state() const
+  {
+    return tissue;
+  }
+
+  template <int dim>
+  const StatisticsRow &
+  Simulation<dim>::last_row() const
+  {
+    return row;
+  }
+
+  template <int dim>
+  CellQuantities
+  Simulation<dim>::quantities(const unsigned int p) const
+  {
+    const CellReader<dim> reader = model.development.reader(time_steps.time());
+    return present_cell(tissue, p, reader).quantities();
+  }
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::n_unknowns()
+  {
+    return dim * splines().n_unknowns();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::count(const SplineSpace<dim> &space)
+  {
+    row.active_grid_cells = space.n_active_grid_cells();
+    row.inner_splines     = space.n_inner_splines();
+    row.outer_splines     = space.n_outer_splines();
+    row.unknowns          = dim * space.n_unknowns();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::describe_state()
+  {
+    row.step = run_state.n_steps;
+    set_state(model, tissue, time_steps.time(), row);
+    if (row.death)
+      row.death->pieces = pieces.n_pieces();
+    row.lumen  = lumen_state(model, tissue, run_state.lumen);
+    row.fields = fields.statistics(tissue);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::complete_row()
+  {
+    const TimerOutput::Scope section(timer, "statistics");
+    describe_state();
+    row.newton_iterations = newton_report.newton_iterations;
+    row.linear_iterations = newton_report.linear_iterations;
+    row.residual          = newton_report.residual;
+    if (row.lengths.n_too_long == 0 || warned_of_long_cells)
+      return;
+    warned_of_long_cells = true;
+    files->message(long_cells_warning<dim>(row, model.scene.grid.spacing));
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_rows()
+  {
+    const TimerOutput::Scope section(timer, "rows");
+    files->step(row, births, events);
+    if (condition)
+      files->condition(run_state.n_steps, row.time - row.dt, *condition);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::output(const bool last)
+  {
+    const double t = time_steps.time();
+    if (files->writes_points() && files->output_due(t, last))
+      {
+        const TimerOutput::Scope section(timer, "output");
+        const CellFields<dim>    cells   = cell_table(model, tissue, t);
+        const SurfaceFields<dim> surface = surface_table(tissue, t);
+        files->write_points(cells.fields(), surface.fields(), t);
+      }
+    if (files->snapshot_due(t, last))
+      files->write_snapshot(snapshot(), timer);
+  }
+
+  template <int dim>
+  SnapshotData<dim>
+  Simulation<dim>::snapshot() const
+  {
+    return snapshot_of(tissue,
+                       time_steps.state(),
+                       run_state,
+                       model.scene.tissue.refine_surface);
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

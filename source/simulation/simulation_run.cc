@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/simulation/founding.h>
+#include <morula/simulation/simulation.h>
+#include <morula/simulation/snapshot_check.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+// How a run begins, goes on and ends.
+
+namespace Morula
+{
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene &scene, const MPI_Comm comm)
+    : model(scene)
+    , comm(comm)
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , tissue(model.empty_tissue(comm))
+    , time_steps(scene.time)
+    , pieces(model.development.death() != nullptr,
+             [this](const std::string &text) { files->message(text); })
+    , fields(model,
+             timer,
+             [this](const std::string &text) { files->message(text); })
+    , surface(model, run_state.next_boundary_id, timer, comm)
+  {}
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene   &scene,
+                              const MPI_Comm comm,
+                              const bool     resume)
+    : Simulation(scene, comm)
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    if (resume)
+      restore();
+    else
+      seed(seed_tissue<dim>(scene, comm));
+  }
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Scene             &scene,
+                              const MPI_Comm           comm,
+                              const SeededTissue<dim> &seeded)
+    : Simulation(scene, comm)
+  {
+    const TimerOutput::Scope section(timer, "seeding");
+    seed(seeded);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::seed(const SeededTissue<dim> &seeded)
+  {
+    FirstPoints<dim> points = found(model, seeded, comm);
+    tissue.place(points.cells, points.boundary_points);
+    births                     = std::move(points.births);
+    warnings                   = seeded.warnings;
+    run_state.next_id          = seeded.founders.n_global;
+    run_state.next_boundary_id = seeded.surface.n_global;
+    surface.begin(tissue);
+    run_state.lumen   = lumen_at_start(model, tissue);
+    typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::restore()
+  {
+    const std::string path = model.scene.output_directory + "/snapshot.h5";
+    check_resumable(model.scene, read_snapshot_parameters(path, comm));
+    resumed_from = read_snapshot<dim>(path, comm);
+    check_columns(*resumed_from,
+                  tissue.cells().columns(),
+                  tissue.boundary_points().columns(),
+                  comm);
+    run_state = saved_run_state(*resumed_from,
+                                model.scene.tissue.refine_surface,
+                                model.boundary_conditions.lumen() != nullptr);
+    time_steps.restore(saved_time_steps(*resumed_from));
+    restore_tissue(*resumed_from, tissue);
+    typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
+    describe_state();
+    check_resumed_cycle();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_resumed_cycle() const
+  {
+    if (model.development.cycle() == nullptr)
+      return;
+    std::vector<Point<dim>> founders;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      founders.push_back(tissue.cells().founder_position(p));
+    everywhere(comm, [&]() {
+      model.development.cycle()->check(founders, model.scene.time.step);
+    });
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::run(const std::function<void()> &observe)
+  {
+    if (resumed_from && must_stop())
+      {
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          std::cout << "Already finished at t = " << time_steps.time()
+                    << " day: nothing to resume.\n";
+        if (observe)
+          observe();
+        return;
+      }
+    begin();
+    const StopSignals signals(comm);
+    record_failure([&]() {
+      if (observe)
+        observe();
+      while (!must_stop())
+        {
+          stop_if_asked(signals);
+          step();
+          write_rows();
+          output(must_stop());
+          if (observe)
+            observe();
+        }
+    });
+    finish();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::begin()
+  {
+    files.emplace(model.scene, resumed_from, clock, comm);
+    if (!resumed_from)
+      {
+        for (const std::string &warning : warnings)
+          files->message(warning);
+        first_splines.emplace(splines());
+        find_fields([&]() {
+          fields.set_steady(tissue, *first_splines, time_steps.time());
+        });
+        fields.forget_configuration(); // the splines will stand elsewhere
+        pieces.count(*first_splines, time_steps.time());
+        count(*first_splines);
+        describe_state();
+        write_rows();
+        output(must_stop());
+      }
+    resumed_from.reset();
+    warned_of_long_cells = row.lengths.n_too_long > 0;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::record_failure(const std::function<void()> &steps)
+  {
+    try
+      {
+        steps();
+      }
+    catch (const std::bad_alloc &)
+      {
+        throw;
+      }
+    catch (const StoppedBySignal &stop)
+      {
+        files->fail(stop.what());
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        // Also an expression without a value at some later time: the scene had
+        // been accepted, so this is no longer bad input but a run that failed.
+        std::ostringstream text;
+        text << "At t = " << time_steps.time() << " day: " << error.what();
+        files->fail(text.str());
+        throw std::runtime_error(text.str());
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::finish()
+  {
+    files->write_timings(timer);
+    files->finish(row.cells == 0        ? "Finished: all cells are dead" :
+                  time_steps.finished() ? "Finished: End time reached" :
+                                          "Finished: Stop at cells reached",
+                  row,
+                  run_state.n_rejected,
+                  timer);
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::must_stop() const
+  {
+    const auto limit = model.scene.time.stop_at_cells;
+    if (time_steps.finished())
+      return true;
+    if (limit == 0 && model.development.death() == nullptr)
+      return false;
+    const auto n_cells =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
+    return n_cells == 0 || (limit > 0 && n_cells >= limit);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::stop_if_asked(const StopSignals &signals)
+  {
+    const int signal = signals.received();
+    if (signal == 0)
+      return;
+    files->write_snapshot(snapshot(), timer);
+    files->write_timings(timer);
+    throw StoppedBySignal(signal, time_steps.time());
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up(const std::string &reason)
+  {
+    --run_state.n_steps; // not done
+    files->write_snapshot(snapshot(), timer);
+    // Behind the snapshot, as the step is repeated when the run is resumed.
+    if (condition)
+      files->condition(run_state.n_steps + 1, time_steps.time(), *condition);
+    files->write_timings(timer);
+    throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::way_of_held_points() const
+  {
+    double largest = 0.;
+    everywhere(comm, [&]() {
+      for (const auto &point : held_points(model.boundary_conditions,
+                                           tissue,
+                                           time_steps.time(),
+                                           time_steps.next()))
+        largest = std::max(largest, point.from.distance(point.to));
+    });
+    return Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up_step(const std::string &reason)
+  {
+    std::ostringstream text;
+    text << "the step failed even at a length of "
+         << time_steps.next() - time_steps.time()
+         << " day (Time/Smallest step = " << model.scene.time.smallest_step
+         << "): " << reason
+         << ". Resuming may go on with a smaller Time/Smallest step or other "
+            "Solver keys; if it does not, start anew with a larger "
+            "Grid/Spacing, with smaller loads or less growth";
+    if (model.boundary_conditions.has_dirichlet())
+      text << ", or with another Boundary conditions/Nitsche penalty";
+    text << '.';
+    if (const double way = way_of_held_points();
+        way > 0.5 * model.scene.grid.spacing)
+      text << " Even in so short a step held points move by " << way
+           << " um: let Boundary conditions/Displacement rise from 0 with t.";
+    give_up(text.str());
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Morula

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/lumen.h>
+#include <morula/mechanics/drag.h>
+#include <morula/mechanics/spline_field.h>
+#include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/simulation/step_checks.h>
+#include <morula/simulation/step_equilibrium.h>
+#include <morula/simulation/step_points.h>
+
+#include <utility>
+
+namespace Morula
+{
+  template <int dim>
+  StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim> &model,
+                                        const Tissue<dim>      &tissue,
+                                        const SplineSpace<dim> &space,
+                                        TimerOutput            &timer,
+                                        const MPI_Comm          comm)
+    : model(model)
+    , tissue(tissue)
+    , space(space)
+    , timer(timer)
+    , comm(comm)
+    , rigid_modes(space,
+                  masses(),
+                  supports(model.boundary_conditions, tissue, space),
+                  comm)
+  {}
+
+
+  template <int dim>
+  typename StepEquilibrium<dim>::Solution
+  StepEquilibrium<dim>::solve(const Attempt                    &attempt,
+                              NewtonReport                     &report,
+                              std::optional<ConditionEstimate> &condition) const
+  {
+    MaterialPoints<dim> points;
+    {
+      const TimerOutput::Scope section(timer, "points");
+      points = material_points(tissue, space, attempt.growth, model.material);
+    }
+    Solution solution = balance(attempt, points, report, condition);
+
+    // A large cell is several quadrature points, but deforms as the field does
+    // at its own position: no energy has kept that from turning inside out.
+    if (points.subdivided &&
+        inverts(DisplacementField<dim>(space, solution.u, comm),
+                tissue.cells(),
+                comm))
+      throw StepFailed("a cell is turned inside out");
+    return solution;
+  }
+
+
+  template <int dim>
+  typename StepEquilibrium<dim>::Solution
+  StepEquilibrium<dim>::balance(
+    const Attempt                    &attempt,
+    const MaterialPoints<dim>        &points,
+    NewtonReport                     &report,
+    std::optional<ConditionEstimate> &condition) const
+  {
+    const double                  stiffness = attempt.typical_stiffness;
+    const TermList                list      = terms(attempt, points);
+    std::optional<Enclosure<dim>> lumen     = lumen_of(attempt);
+    MomentumBalance<dim>          balance(
+      space, list, timer, comm, lumen ? &*lumen : nullptr);
+    const LinearProblem linear =
+      balance.linear_problem(stiffness, inertia(), points.xi.size());
+    estimate_condition(balance, linear, condition);
+    Solution   solution{start(attempt).value_or(balance.rest()), attempt.lumen};
+    const auto solve = [&]() {
+      return Morula::solve(balance,
+                           linear,
+                           balance.scales(stiffness),
+                           model.scene.solver,
+                           timer,
+                           solution.u,
+                           report);
+    };
+    Equilibrium::Evaluation evaluation;
+    try
+      {
+        if (lumen)
+          {
+            const LumenEquilibrium found =
+              keep_lumen_volume(*model.boundary_conditions.lumen(),
+                                tissue,
+                                space,
+                                solve,
+                                balance,
+                                lumen->content,
+                                solution.u,
+                                timer);
+            evaluation               = found.evaluation;
+            solution.lumen->pressure = found.pressure;
+          }
+        else
+          evaluation = solve();
+      }
+    catch (const StepFailed &failure)
+      {
+        throw StepFailed(failure.what() +
+                         (". " + balance.describe(solution.u)));
+      }
+    if (model.boundary_conditions.has_dirichlet())
+      check_gap(balance.extremes(evaluation),
+                model.scene.solver.largest_gap,
+                space.box().spacing());
+    return solution;
+  }
+
+
+  template <int dim>
+  std::optional<Enclosure<dim>>
+  StepEquilibrium<dim>::lumen_of(const Attempt &attempt) const
+  {
+    if (!attempt.lumen)
+      return {};
+    const TimerOutput::Scope section(timer, "lumen");
+    const Lumen<dim>        &lumen = *model.boundary_conditions.lumen();
+    Enclosure<dim>           found = enclosure(lumen, tissue, space, comm);
+    everywhere(comm, [&]() {
+      found.content = lumen_content(lumen,
+                                    *attempt.lumen,
+                                    attempt.t_next,
+                                    found.volume,
+                                    attempt.typical_stiffness);
+    });
+    return found;
+  }
+
+
+  template <int dim>
+  std::optional<Equilibrium::Vector>
+  StepEquilibrium<dim>::start(const Attempt &attempt) const
+  {
+    if (!model.boundary_conditions.has_dirichlet())
+      return {};
+    std::vector<HeldPoint<dim>> points;
+    everywhere(comm, [&]() {
+      points = held_points(model.boundary_conditions,
+                           tissue,
+                           attempt.t,
+                           attempt.t_next);
+    });
+    return rigid_start(space, rigid_modes, points, comm);
+  }
+
+
+  template <int dim>
+  void
+  StepEquilibrium<dim>::estimate_condition(
+    MomentumBalance<dim>             &balance,
+    const LinearProblem              &linear,
+    std::optional<ConditionEstimate> &condition) const
+  {
+    // Once a step, in its first attempt.
+    if (!model.scene.output.condition_estimate || condition)
+      return;
+    const TimerOutput::Scope section(timer, "condition estimate");
+    condition = Morula::estimate_condition(balance, linear, balance.rest());
+  }
+
+
+  template <int dim>
+  typename StepEquilibrium<dim>::TermList
+  StepEquilibrium<dim>::terms(const Attempt             &attempt,
+                              const MaterialPoints<dim> &points) const
+  {
+    const double t = attempt.t_next;
+    TermList     list;
+    list.push_back(internal_force(points,
+                                  model.material.volumetric_form(),
+                                  model.scene.solver.kernel));
+    // Expressions may have no value at this time: then all ranks must know.
+    const auto add = [&](const std::string &name, const auto &make) {
+      const TimerOutput::Scope section(timer, name);
+      everywhere(comm, [&]() { list.push_back(make()); });
+    };
+    for (const auto &named : model.forces)
+      add(named.name, [&]() {
+        return named.force->term(tissue, cell_positions(tissue, space), t);
+      });
+    if (model.boundary_conditions.has_dirichlet())
+      add("nitsche", [&]() {
+        return nitsche_term(model.boundary_conditions,
+                            model.material,
+                            tissue,
+                            space,
+                            attempt.growth,
+                            t);
+      });
+    add_loads(attempt, list);
+    return list;
+  }
+
+
+  template <int dim>
+  void
+  StepEquilibrium<dim>::add_loads(const Attempt &attempt, TermList &list) const
+  {
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    if (!conditions.has(SurfaceCondition::loaded))
+      return;
+    std::optional<LoadedPoints<dim>> points;
+    for (const auto &named : conditions.list())
+      if (named.condition->kind() == SurfaceCondition::loaded)
+        {
+          const TimerOutput::Scope section(timer, named.name);
+          everywhere(comm, [&]() {
+            if (!points)
+              {
+                points                 = loaded_points(tissue, space);
+                points->time           = attempt.t;
+                points->youngs_modulus = attempt.typical_stiffness;
+              }
+            if (auto term = named.condition->term(*points, attempt.t_next))
+              list.push_back(std::move(term));
+          });
+        }
+    if (conditions.has_pushing())
+      list.push_back(drag(attempt.typical_stiffness));
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  StepEquilibrium<dim>::drag(const double typical_stiffness) const
+  {
+    std::vector<double> volumes;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      volumes.push_back(tissue.cells().initial_volume(p));
+    const double h = space.box().spacing();
+    return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
+                                       std::move(volumes),
+                                       Drag<dim>::relative * typical_stiffness /
+                                         (h * h));
+  }
+
+
+  template <int dim>
+  typename StepEquilibrium<dim>::MassList
+  StepEquilibrium<dim>::masses() const
+  {
+    const Cells<dim> &cells = tissue.cells();
+    MassList          list;
+    for (const auto &grid_cell : cells.grid_cells())
+      for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+        list.push_back({space.piece(grid_cell.number),
+                        cells.position(p),
+                        cells.initial_volume(p)});
+    return list;
+  }
+
+
+  template <int dim>
+  std::vector<Equilibrium::Vector>
+  StepEquilibrium<dim>::inertia() const
+  {
+    if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
+      return {};
+    const TimerOutput::Scope section(timer, "rigid motion");
+    return rigid_modes.inertia(masses());
+  }
+
+
+  template class StepEquilibrium<2>;
+  template class StepEquilibrium<3>;
+} // namespace Morula

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/step_fields.h>
+#include <morula/solver/linear_solver.h>
+
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A linear solver with a timer of its own: the rows of the linear solver
+     *  in timings.csv are those of Newton's method. */
+    struct SilentSolver
+    {
+      SilentSolver(const SolverParameters &parameters,
+                   const LinearProblem    &problem)
+        : timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+        , solver(parameters, problem, timer)
+      {}
+
+      TimerOutput  timer;
+      LinearSolver solver;
+    };
+
+    MakeLinearSolver
+    make_solver_of(const SolverParameters &parameters)
+    {
+      return [&parameters](const LinearProblem &problem) -> SolveLinear {
+        // Functions are copied; a preconditioner is not.
+        const auto own = std::make_shared<SilentSolver>(parameters, problem);
+        return [own](const Equilibrium::Matrix &A,
+                     Equilibrium::Vector       &x,
+                     const Equilibrium::Vector &b,
+                     const double               tolerance) {
+          unsigned int iterations = 0;
+          own->solver.solve(A, x, b, tolerance, iterations);
+        };
+      };
+    }
+  } // namespace
+
+
+  template <int dim>
+  StepFields<dim>::StepFields(const TissueModel<dim> &model,
+                              TimerOutput            &timer,
+                              const Announce         &announce)
+    : model(model)
+    , timer(timer)
+    , announce(announce)
+  {}
+
+
+  template <int dim>
+  void
+  StepFields<dim>::begin_step()
+  {
+    clipped.clear();
+  }
+
+
+  template <int dim>
+  FieldsOfStep<dim>
+  StepFields<dim>::find(const FieldKind         kind,
+                        const Tissue<dim>      &tissue,
+                        const SplineSpace<dim> &space,
+                        const double            t,
+                        const double            t1)
+  {
+    if (!model.fields.any(kind))
+      return {};
+    const TimerOutput::Scope section(timer, "fields");
+    if (!solver)
+      solver.emplace(tissue,
+                     space,
+                     model.development.reader(t),
+                     make_solver_of(model.scene.solver));
+    FieldsOfStep<dim> found;
+    try
+      {
+        found = model.fields.find(kind, *solver, t, t1);
+      }
+    catch (const StepFailed &failure)
+      {
+        throw StepFailed("the equation of a field could not be solved: " +
+                         std::string(failure.what()));
+      }
+    clipped.resize(model.scene.fields.fields.size(), 0);
+    for (const FieldSolution<dim> &field : found)
+      {
+        clipped[field.number] += field.clipped;
+        warn_if_unsettled(field, t);
+      }
+    return found;
+  }
+
+
+  template <int dim>
+  void
+  StepFields<dim>::warn_if_unsettled(const FieldSolution<dim> &field,
+                                     const double              t)
+  {
+    if (field.converged || warned)
+      return;
+    warned = true;
+    std::ostringstream text;
+    text << "Warning: at t = " << t << " day the field '"
+         << model.scene.fields.fields[field.number].name
+         << "' still changed by " << field.change
+         << " of its largest value after " << field.iterations
+         << " iterations, as what cells do to it depends on itself. The next "
+            "step goes on from there; expressions without jumps converge "
+            "better. Later ones are not told of.";
+    announce(text.str());
+  }
+
+
+  template <int dim>
+  void
+  StepFields<dim>::set_steady(Tissue<dim>            &tissue,
+                              const SplineSpace<dim> &space,
+                              const double            t)
+  {
+    model.fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
+    // What it has made serves the others in the same configuration.
+    if (!model.fields.any(FieldKind::transient))
+      forget_configuration();
+  }
+
+
+  template <int dim>
+  FieldsOfStep<dim>
+  StepFields<dim>::transient(const Tissue<dim>      &tissue,
+                             const SplineSpace<dim> &space,
+                             const double            t,
+                             const double            t_next)
+  {
+    FieldsOfStep<dim> found =
+      find(FieldKind::transient, tissue, space, t, t_next);
+    forget_configuration();
+    return found;
+  }
+
+
+  template <int dim>
+  void
+  StepFields<dim>::forget_configuration()
+  {
+    solver.reset();
+  }
+
+
+  template <int dim>
+  std::vector<FieldStatistics>
+  StepFields<dim>::statistics(const Tissue<dim> &tissue) const
+  {
+    std::vector<FieldStatistics> list;
+    for (const FieldTotals &field : model.fields.totals(tissue))
+      list.push_back({field.name,
+                      field.min,
+                      field.mean,
+                      field.max,
+                      list.size() < clipped.size() ? clipped[list.size()] : 0});
+    return list;
+  }
+
+
+  template class StepFields<2>;
+  template class StepFields<3>;
+} // namespace Morula

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/tissue_model.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace Morula
+{
+  template <int dim>
+  TissueModel<dim>::TissueModel(const Scene &scene)
+    : TissueModel(scene, effects_of<dim>(scene))
+  {}
+
+
+  template <int dim>
+  TissueModel<dim>::TissueModel(const Scene &scene, SceneEffects<dim> &&effects)
+    : scene(scene)
+    , material(scene.material)
+    , boundary_conditions(std::move(effects.conditions), scene.nitsche)
+    , development(std::move(effects.development),
+                  effects.columns,
+                  effects.state,
+                  material,
+                  scene.random_seed)
+    , fields(std::move(effects.fields))
+    , fates(std::move(effects.fates))
+    , forces(std::move(effects.forces))
+  {}
+
+
+  template <int dim>
+  Tissue<dim>
+  TissueModel<dim>::empty_tissue(const MPI_Comm comm) const
+  {
+    return {scene.grid,
+            development.columns(),
+            comm,
+            BoundaryColumns<dim>(scene.tissue.refine_surface,
+                                 scene.tissue.coarsen_surface)};
+  }
+
+
+  template <int dim>
+  bool
+  TissueModel<dim>::is_held(const PresentCell<dim> &cell, const double t) const
+  {
+    const CellCycle<dim> *cycle = development.cycle();
+    return cycle != nullptr &&
+           cycle->is_held(development.clock(cell.cell()),
+                          CellAt<dim>(cell, t),
+                          t,
+                          cell.cell().elastic_volume_ratio());
+  }
+
+
+  template <int dim>
+  double
+  TissueModel<dim>::typical_stiffness(const Tissue<dim>       &tissue,
+                                      const GrowthOfStep<dim> &growth,
+                                      const MPI_Comm           comm) const
+  {
+    double largest = 0.;
+    if (material.depends_on_state())
+      for (const Lame &lame : growth.lame)
+        largest = std::max(largest, youngs_modulus(lame));
+    else
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        largest =
+          std::max(largest,
+                   material.youngs_modulus(tissue.cells().founder_position(p)));
+    return Utilities::MPI::max(largest, comm);
+  }
+
+
+  template <int dim>
+  PresentCell<dim>
+  present_cell(const Tissue<dim>     &tissue,
+               const unsigned int     p,
+               const CellReader<dim> &reader)
+  {
+    const Cells<dim> &cells = tissue.cells();
+    return {cells[p], cells.id(p), cells.position(p), reader};
+  }
+
+
+  template struct TissueModel<2>;
+  template struct TissueModel<3>;
+  template PresentCell<2>
+  present_cell(const Tissue<2> &, const unsigned int, const CellReader<2> &);
+  template PresentCell<3>
+  present_cell(const Tissue<3> &, const unsigned int, const CellReader<3> &);
+} // namespace Morula

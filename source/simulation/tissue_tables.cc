@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/cell_domain.h>
+#include <morula/simulation/tissue_tables.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdint>
+#include <sstream>
+#include <vector>
+
+namespace Morula
+{
+  template <int dim>
+  void
+  set_state(const TissueModel<dim> &model,
+            const Tissue<dim>      &tissue,
+            const double            t,
+            StatisticsRow          &row)
+  {
+    const CellDevelopment<dim>     &development = model.development;
+    const Death<dim>               *death       = development.death();
+    const std::vector<std::string> &types  = development.state().type_names();
+    const Cells<dim>               &cells  = tissue.cells();
+    const CellReader<dim>           reader = development.reader(t);
+    const MPI_Comm                  comm   = tissue.communicator();
+    TissueSums<dim>                 sums;
+    LongestCell<dim>                longest(model.scene.grid.spacing);
+    std::vector<std::uint64_t>      of_types(types.size(), 0);
+    std::uint64_t                   held  = 0;
+    std::uint64_t                   dying = 0;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        sums.add_cell(cell.quantities(), cell.position());
+        held += model.is_held(cell, t);
+        dying += death != nullptr && death->is_dead(cells[p]);
+        if (!of_types.empty())
+          ++of_types[cell.type()];
+        longest.add(cell_domain<dim>(cell.position(), cell.cell()));
+      }
+    for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+      sums.add_boundary_point(tissue.boundary_points().position(p));
+
+    row.time    = t;
+    row.cells   = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
+    row.tissue  = sums.totals(comm);
+    row.lengths = longest.over_all_ranks(comm);
+    row.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+    if (death != nullptr)
+      {
+        if (!row.death)
+          row.death.emplace();
+        row.death->dying = Utilities::MPI::sum(dying, comm);
+      }
+    Utilities::MPI::sum(of_types, comm, of_types);
+    row.cells_of_types.clear();
+    for (std::size_t type = 0; type < of_types.size(); ++type)
+      row.cells_of_types.emplace_back(types[type], of_types[type]);
+  }
+
+
+  template <int dim>
+  CellFields<dim>
+  cell_table(const TissueModel<dim> &model,
+             const Tissue<dim>      &tissue,
+             const double            t)
+  {
+    const CellCycle<dim> *cycle = model.development.cycle();
+    const Cells<dim>     &cells = tissue.cells();
+    CellFields<dim>       table(t,
+                          cells.size(),
+                          cells.columns(),
+                          cycle != nullptr && cycle->has_checkpoint());
+    const CellReader<dim> reader = model.development.reader(t);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        table.add(cells.id(p),
+                  cells[p],
+                  cells.position(p),
+                  reader.phase(cells[p]),
+                  model.is_held(cell, t),
+                  cell.quantities());
+      }
+    return table;
+  }
+
+
+  template <int dim>
+  SurfaceFields<dim>
+  surface_table(const Tissue<dim> &tissue, const double t)
+  {
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    SurfaceFields<dim>         table(t, points.columns());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      table.add(points.id(p), points[p], points.position(p));
+    return table;
+  }
+
+
+  template <int dim>
+  std::string
+  long_cells_warning(const StatisticsRow &row, const double grid_spacing)
+  {
+    const auto        &place = row.lengths.place;
+    std::ostringstream text;
+    text << "Warning: from t = " << row.time << " day on, fewer than "
+         << CellLengths::fewest << " cells fill Grid/Spacing = " << grid_spacing
+         << " um where the tissue is stretched: " << row.lengths.n_too_long
+         << (row.lengths.n_too_long == 1 ? " cell is" : " cells are")
+         << " too long, the longest, at (" << place[0] << ' ' << place[1];
+    if (dim == 3)
+      text << ' ' << place[2];
+    text << ") um, " << grid_spacing / row.lengths.min_cells_per_spacing
+         << " um. Do not rely on positions and stresses there, and if it gets "
+            "worse the run may fail. Start anew with a smaller Tissue/Cell "
+            "spacing or a larger Grid/Spacing; the column "
+            "min_cells_per_spacing of statistics.csv has the number.";
+    return text.str();
+  }
+
+
+#define INSTANTIATE(dim)                                                     \
+  template void               set_state(const TissueModel<dim> &,            \
+                                        const Tissue<dim> &,                 \
+                                        const double,                        \
+                                        StatisticsRow &);                    \
+  template CellFields<dim>    cell_table(const TissueModel<dim> &,           \
+                                         const Tissue<dim> &,                \
+                                         const double);                      \
+  template SurfaceFields<dim> surface_table(const Tissue<dim> &,             \
+                                            const double);                   \
+  template std::string        long_cells_warning<dim>(const StatisticsRow &, \
+                                               const double);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,10 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""prm/showcase/spheroid.prm beside Greenspan's equations, on a coarser lattice and
-for some days in which all three zones are there."""
+"""Scenes of prm/showcase at a small size: the spheroid beside Greenspan's equations,
+on a coarser lattice and for some days in which all three zones are there; one under
+pressure beside what J_e alone says; the growth plate beside its fields alone."""
+import unittest.mock
+
 import numpy
+from morula.run import Run
 from program import TESTS, ProgramTest, main, overrides
+from scipy.linalg import solve_banded
+from upkeep.showcase import plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii
 from upkeep.showcase.spheroids import (LINES, SCENE, all_series,
                                        radii_of_run)
@@ -61,6 +67,79 @@ class Showcase(ProgramTest):
         grown = course(10.0, days, Parameters(200.0, 150.0, 0.4, 0.2))[0]
         self.assertLess(abs(grown / (10 * numpy.exp(0.4 * days / 3))
                             - 1).max(), 1e-7)
+
+    def test_pressure(self):
+        """5 kPa for a day, and half a day without."""
+        case = pressure.Case(5.0, True)
+        self.execute(pressure.SCENE, *overrides(
+            {"Tissue/Radius": "60", "Tissue/Cell spacing": "15",
+             "Proliferation/Cell cycle/G0 exit rate":
+             "20*(volume > 3400*(1 + noise))",
+             "Boundary conditions/Pressure":
+             "5*min(1, t/0.1)*(t < 1.01)", "Output/Formats": "none",
+             "Time/End time": "1.5"}))
+        rows = Run(self.work / "output").statistics
+        volume = rows["total_volume"] / rows["total_volume"].iloc[0]
+        with unittest.mock.patch.object(pressure, "RELEASE", 1.0):
+            exact = case.course(rows["time"].to_numpy())
+        pressed = (rows["time"] > 0.2) & (rows["time"] < 1.01)
+        print("volumes off:", (volume / exact - 1).to_numpy().round(3))
+        self.assertLess(abs(volume / exact - 1)[pressed].max(), 0.04)
+        self.assertLess(abs(volume.iloc[-1] / exact[-1] - 1), 0.06)
+        self.assertLess(volume[pressed].iloc[0], 0.95)
+
+    def test_law_of_pressure(self):
+        """J_e is that of doc/theory.md (1.4); growth stops at the pressure that
+        was chosen, is never faster under more of it, and the file has its
+        numbers."""
+        self.assertAlmostEqual(pressure.volume_ratio(5), 0.78754, 5)
+        rates = [pressure.growth_rate(p) for p in (0, 2, 5, 10.9, 11.1, 20)]
+        self.assertEqual(rates, sorted(rates, reverse=True))
+        self.assertEqual((rates[0], rates[-1]), (1, 0))
+        self.assertGreater(rates[3], 0.3)
+        self.assertEqual(rates[4], 0)
+        text = pressure.SCENE.read_text(encoding="utf-8")
+        strain = 1 - pressure.volume_ratio(pressure.CHOSEN)
+        for number in (numpy.log(2) / pressure.DOUBLING,
+                       pressure.half_strain(), strain):
+            self.assertIn(f"{number:.4f}", text)
+
+    def test_growth_plate(self):
+        """A narrow one: the zone ends where the fields say, and comes back after
+        the cut as fast as its cells double."""
+        self.execute(plate.SCENE, *overrides(
+            {"Tissue/Size": "120, 500", "Time/End time": "5",
+             "Output/Formats": "csv"}))
+        times, heights = plate.heights(self.work / "output")
+        expected = plate.steady_height(plate.ANSWER)
+        self.assertAlmostEqual(expected, 300, 0)
+        steady = (times > 1) & (times < 2.95)
+        print("heights:", heights[steady].mean(), "from the fields:", expected)
+        self.assertLess(abs(heights[steady].mean() / expected - 1), 0.02)
+        self.assertLess(abs(heights[steady] / expected - 1).max(), 0.05)
+        grows = (times > 3.05) & (times < 4)
+        exact = plate.LEFT * numpy.exp(plate.GROWTH * (times - plate.CUT))
+        self.assertLess(abs(heights / exact - 1)[grows].max(), 0.03)
+        self.assertLess(abs(heights[times > 4.55] / expected - 1).max(), 0.05)
+
+    def test_morphogens(self):
+        """The closed form against the steady fields by finite differences, in a
+        thick layer."""
+        y = numpy.linspace(0, 3000, 6001)
+        h = y[1]
+
+        def steady(source, reach):
+            inner = -2 * numpy.ones(len(y)) - (h / reach)**2
+            outer = numpy.ones(len(y))
+            upper, lower = outer.copy(), outer.copy()
+            upper[1] = lower[-2] = 2  # nothing leaves at either end
+            return solve_banded((1, 1), [upper, inner, lower],
+                                -source * (h / reach)**2)
+        ihh = steady(1.0 * (y > 300), plate.REACH_IHH)
+        pthrp = steady(plate.ANSWER * ihh * (y < plate.WALL),
+                       plate.REACH_PTHRP)
+        self.assertLess(abs(numpy.interp(300, y, pthrp)
+                            / plate.signal(300, plate.ANSWER) - 1), 0.01)
 
 
 if __name__ == "__main__":

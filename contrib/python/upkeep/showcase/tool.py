@@ -2,14 +2,16 @@
 # Copyright (C) 2026 by the Morula authors
 """Compares the showcase scenes with published data.
 
-    contrib/showcase                       all series: some hours
+    contrib/showcase                       all runs: about an hour
     contrib/showcase "WM983b, 2500 cells"  this one
+    contrib/showcase pressure              all that begin so
     contrib/showcase --fit                 fits the equations to the data anew
 
 Runs are kept below output/showcase and not repeated by the same build. With
 --document, the tables and pictures of doc/showcase.md are written anew.
 """
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy
@@ -22,7 +24,7 @@ from morula.scene import Scene
 
 from tests.common.tables import aligned, markdown, renew
 
-from .figure import draw
+from . import figure, plate, pressure
 from .spheroids import ROOT, SCENE, all_series, fit, radii_of_run
 
 HEADER = ["series", "from the data, µm", "Greenspan's from the data, µm",
@@ -50,13 +52,39 @@ def rms(differences):
     return numpy.sqrt(numpy.mean(differences**2))
 
 
+@dataclass(frozen=True)
+class Subject:
+    """A scene, its runs, and what the page shows of them: a table and a picture
+    of this name."""
+
+    name: str
+    scene: Path
+    cases: object  # () -> what is run: each has a name and overrides()
+    header: list
+    row: object  # (case, record of its run) -> cells of the table
+    draw: object  # (pairs of them, path)
+
+
+SUBJECTS = (
+    Subject("spheroids", SCENE, all_series, HEADER, row, figure.draw),
+    Subject("pressure", pressure.SCENE, pressure.all_cases, pressure.HEADER,
+            pressure.row, pressure.draw),
+    Subject("growth-plate", plate.SCENE, plate.all_cases, plate.HEADER,
+            plate.row, plate.draw))
+
+
 def wanted(names):
-    known = {series.name: series for series in all_series()}
+    """Cases of each subject, by the beginnings of their names."""
+    cases = {subject.name: subject.cases() for subject in SUBJECTS}
     for name in names:
-        if name not in known:
-            raise Refused("The series", name, "one of " + ", ".join(
-                f"'{one}'" for one in known), "Without a name, all are run.")
-    return [known[name] for name in names or known]
+        if not any(case.name.startswith(name)
+                   for some in cases.values() for case in some):
+            raise Refused("The run", name, "the beginning of " + ", ".join(
+                f"'{case.name}'" for some in cases.values() for case in some),
+                "Without a name, all are run.")
+    return {subject: [case for case in some if not names or
+                      any(case.name.startswith(name) for name in names)]
+            for subject, some in cases.items()}
 
 
 def compare(options):
@@ -66,29 +94,37 @@ def compare(options):
                   *(f"{value:.4g}" for value in values),
                   f"rms {error:.1f} um")
         return 0
-    chosen = wanted(options.series)
-    scene = Scene(SCENE, Program(options.morula), options.overrides)
-    jobs = [Job(job_name([("series", series.name)], keys), keys)
-            for series in chosen
-            for keys in [(*series.overrides(), *scene.overrides)]]
+    chosen = wanted(options.runs)
+    finished = [run(subject, chosen[subject.name], options)
+                for subject in SUBJECTS if chosen[subject.name]]
+    return 0 if all(finished) else 1
+
+
+def run(subject, chosen, options):
+    """Whether all runs have come to their end."""
+    scene = Scene(subject.scene, Program(options.morula), options.overrides)
+    jobs = [Job(job_name([("series", case.name)], keys), keys)
+            for case in chosen
+            for keys in [(*case.overrides(), *scene.overrides)]]
     kept = KeptRuns(scene, options.output, n_at_a_time=options.jobs,
                     resume=True)
     kept.check(jobs)
     records = kept.run(jobs)
     done = list(zip(chosen, records))
-    rows = [row(*pair) for pair in done]
-    print(*aligned(HEADER, rows), sep="\n")
+    rows = [subject.row(*pair) for pair in done]
+    print(*aligned(subject.header, rows), sep="\n")
     if options.document:
-        renew(ROOT / "doc/showcase.md", {"spheroids": markdown(HEADER, rows)})
-        draw(done, ROOT / "doc/images/showcase/spheroids.png")
-    return 0 if all(record.finished for record in records) else 1
+        renew(ROOT / "doc/showcase.md",
+              {subject.name: markdown(subject.header, rows)})
+        subject.draw(done, ROOT / f"doc/images/showcase/{subject.name}.png")
+    return all(record.finished for record in records)
 
 
 def parser():
     result = argparse.ArgumentParser(
         prog="showcase", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter)
-    result.add_argument("series", nargs="*", metavar="SERIES")
+    result.add_argument("runs", nargs="*", metavar="RUN")
     result.add_argument("--fit", action="store_true",
                         help="only fit the equations to the data")
     result.add_argument("--morula", default=ROOT / "build/morula",

@@ -3,14 +3,15 @@
 # Copyright (C) 2026 by the Morula authors
 """Scenes of prm/showcase at a small size: the spheroid beside Greenspan's equations,
 on a coarser lattice and for some days in which all three zones are there; one under
-pressure beside what J_e alone says; the growth plate beside its fields alone."""
+pressure beside what J_e alone says; the growth plate beside its fields alone; the
+organoid against itself."""
 import unittest.mock
 
 import numpy
 from morula.run import Run
 from program import TESTS, ProgramTest, main, overrides
 from scipy.linalg import solve_banded
-from upkeep.showcase import plate, pressure
+from upkeep.showcase import organoid, plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii
 from upkeep.showcase.spheroids import (LINES, SCENE, all_series,
                                        radii_of_run)
@@ -140,6 +141,29 @@ class Showcase(ProgramTest):
                        plate.REACH_PTHRP)
         self.assertLess(abs(numpy.interp(300, y, pthrp)
                             / plate.signal(300, plate.ANSWER) - 1), 0.01)
+
+    def test_organoid(self):
+        """Crypts are deeper around an emptied lumen, and as deep as before when
+        it is refilled; the more tension, the less that matters."""
+        changes = []
+        for tension in (3.0, 12.0):
+            case = organoid.Case(tension)
+            output = self.work / f"{tension:g}"
+            self.execute(organoid.SCENE, *overrides(
+                {**dict(case.overrides()), "Time/Step": "0.1",
+                 "Output/Formats": "csv", "Output/Interval": "1"}),
+                output=output)
+            run = Run(output)
+            self.assertLess(organoid.volume_error(run), 1e-6)
+            full, emptied, again = (organoid.depth(run, day) for day in (
+                organoid.FULL, organoid.EMPTY, organoid.AGAIN))
+            print("depths, um:", full, emptied, again)
+            self.assertGreater(full, 2)
+            self.assertLess(abs(again / full - 1), 0.03)
+            changes.append(emptied / full)
+        self.assertGreater(changes[0], 2)
+        self.assertGreater(changes[1], 1.2)
+        self.assertLess(changes[1], 0.7 * changes[0])
 
 
 if __name__ == "__main__":

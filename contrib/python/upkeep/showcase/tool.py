@@ -24,7 +24,7 @@ from morula.scene import Scene
 
 from tests.common.tables import aligned, markdown, renew
 
-from . import figure, plate, pressure
+from . import figure, organoid, plate, pressure
 from .spheroids import ROOT, SCENE, all_series, fit, radii_of_run
 
 HEADER = ["series", "from the data, µm", "Greenspan's from the data, µm",
@@ -70,7 +70,9 @@ SUBJECTS = (
     Subject("pressure", pressure.SCENE, pressure.all_cases, pressure.HEADER,
             pressure.row, pressure.draw),
     Subject("growth-plate", plate.SCENE, plate.all_cases, plate.HEADER,
-            plate.row, plate.draw))
+            plate.row, plate.draw),
+    Subject("organoid", organoid.SCENE, organoid.all_cases, organoid.HEADER,
+            organoid.row, organoid.draw))
 
 
 def wanted(names):

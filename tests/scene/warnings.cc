@@ -4,6 +4,7 @@
 
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/traction.h>
 #include <morula/scene/warnings.h>
@@ -380,4 +381,23 @@ TEST(SceneWarnings, OfContractionsThatJump)
   // At the start, too.
   scene.contraction.stretch = "if(X > 0, 1.2, 1)";
   expect_warning(scene, {"by up to 0.2;"});
+}
+
+
+TEST(SceneWarnings, OfANarrowLumen)
+{
+  Scene scene                          = good_scene();
+  scene.tissue.shape                   = "sphere";
+  scene.tissue.radius                  = 300.;
+  scene.tissue.inner_radius            = 60.;
+  scene.grid.spacing                   = 38.;
+  scene.keys<LumenParameters>().where  = "X^2 + Y^2 + Z^2 < 80^2";
+  scene.keys<LumenParameters>().volume = "1 + t";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.grid.spacing = 44.;
+  expect_warning(scene,
+                 {"Boundary conditions/Lumen where",
+                  "only 1",
+                  "2.7 times",
+                  "a third of its width"});
 }

@@ -3,6 +3,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/seeding/seeding.h>
+#include <morula/seeding/shape.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -281,6 +282,57 @@ TEST(SurfacePatches, EllipsoidsAreEvenlyCovered)
         }
     }
 }
+
+namespace
+{
+  /** A shell: both surfaces have their areas, and enclose what lies between. */
+  template <int dim>
+  void
+  check_shell()
+  {
+    TissueParameters parameters;
+    parameters.shape           = "sphere";
+    parameters.center          = {7., 8., 9.};
+    parameters.radius          = 100.;
+    parameters.inner_radius    = 60.;
+    parameters.boundary_points = 3000;
+    const auto       patches   = seed_and_gather<dim>(parameters);
+    const Point<dim> center    = leading_components<dim>(parameters.center);
+    double           inner     = 0.;
+    for (std::size_t i = 0; i < patches.areas.size(); ++i)
+      {
+        const Tensor<1, dim> arm = patches.positions[i] - center;
+        const bool           out = arm * patches.normals[i] > 0.;
+        EXPECT_NEAR(arm.norm(), out ? 100. : 60., 1e-10);
+        EXPECT_NEAR(arm * patches.normals[i], out ? 100. : -60., 1e-10);
+        inner += out ? 0. : patches.areas[i];
+      }
+    const double unit = dim == 3 ? 4. * pi : 2. * pi;
+    EXPECT_NEAR(inner, unit * std::pow(60., dim - 1), 1e-8);
+    EXPECT_NEAR(total_area(patches) - inner,
+                unit * std::pow(100., dim - 1),
+                1e-8);
+    EXPECT_LE(openness(patches), 1e-3);
+    EXPECT_NEAR(enclosed_volume(patches),
+                unit / dim * (std::pow(100., dim) - std::pow(60., dim)),
+                1e-3 * std::pow(100., dim));
+    EXPECT_NEAR(patches.areas.front() / patches.areas.back(), 1., 0.01);
+    EXPECT_EQ(patches.n_global, 3000u);
+  }
+} // namespace
+
+
+TEST(SurfacePatches, ShellIn2D)
+{
+  check_shell<2>();
+}
+
+
+TEST(SurfacePatches, ShellIn3D)
+{
+  check_shell<3>();
+}
+
 
 TEST(SurfacePatches, EllipsoidOfEqualAxesIsASphere)
 {

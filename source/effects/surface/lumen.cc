@@ -6,6 +6,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Morula
@@ -15,6 +18,10 @@ namespace Morula
     /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
      *  patches' vectors do not quite add up to nothing. */
     constexpr double largest_gap = 0.02;
+
+    /** Grid spacings across a lumen, below which splines see too little of it:
+     *  doc/theory.md, section 4.3. */
+    constexpr double narrowest = 3.;
 
     /** An expression of a lumen, which may depend on the time alone.
      *  @throws InputError */
@@ -217,6 +224,36 @@ namespace Morula
         volume(t, 1.);
       else
         pressure(t);
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    double width = std::numeric_limits<double>::infinity();
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double lower = std::numeric_limits<double>::max(), upper = -lower;
+        for (std::size_t i = 0; i < scene.boundary_points.size(); ++i)
+          if (this->acts_on(scene.boundary_points[i], scene.normals[i]))
+            {
+              lower = std::min(lower, scene.boundary_points[i][d]);
+              upper = std::max(upper, scene.boundary_points[i][d]);
+            }
+        width = std::min(width,
+                         Utilities::MPI::max(upper, scene.comm) -
+                           Utilities::MPI::min(lower, scene.comm));
+      }
+    const double h = scene.grid_spacing;
+    if (width < narrowest * h)
+      review.warn(where.path(),
+                  where.text(),
+                  "the lumen is only " + as_text(width) + " um wide, " +
+                    as_text(std::round(10. * width / h) / 10.) +
+                    " times Grid/Spacing; at 2 times its pressure was 20 % "
+                    "wrong (doc/theory.md, section 4.3).",
+                  "Choose a Grid/Spacing of at most a third of its width.");
   }
 
 

@@ -91,6 +91,8 @@ namespace Morula
 
     void
     check(const Preview<dim> &scene) const override;
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     const ExpressionKey             where;

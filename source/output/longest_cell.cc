@@ -16,8 +16,11 @@ namespace Morula
   void
   LongestCell<dim>::add(const ParticleDomain<dim> &cell)
   {
-    constexpr double slack  = 1e-9; // for rounding
-    const double     length = cell.length();
+    constexpr double slack = 1e-9; // for rounding
+    const double     bound = cell.length_bound();
+    if (bound <= longest && h >= (CellLengths::fewest - slack) * bound)
+      return;
+    const double length = cell.length();
     if (length > longest)
       {
         longest = length;

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 using namespace Morula;
 
 namespace
@@ -56,6 +58,31 @@ TEST(LongestCell, IsFoundOnAllRanks)
   check_lengths<3>();
 }
 
+
+TEST(LongestCell, BoundOfTheLength)
+{
+  std::mt19937 generator(3);
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      Tensor<2, 3> A;
+      for (unsigned int k = 0; k < 9; ++k)
+        A[k / 3][k % 3] = std::normal_distribution<>()(generator);
+      if (determinant(A) < 0.)
+        A *= -1.;
+      const ParticleDomain<3> cell(Point<3>(), A);
+      EXPECT_GE(cell.length_bound(), cell.length());
+      EXPECT_LE(cell.length_bound(), 1.16 * cell.length());
+    }
+  // exact where two of three are equal, and in the plane
+  Tensor<2, 3> rod;
+  rod[0][0] = rod[1][1] = 1.;
+  rod[2][2]             = 5.;
+  EXPECT_NEAR(ParticleDomain<3>(Point<3>(), rod).length_bound(), 5., 1e-7);
+  Tensor<2, 2> sheet;
+  sheet[0][0] = sheet[0][1] = sheet[1][1] = 2.;
+  const ParticleDomain<2> cell(Point<2>(), sheet);
+  EXPECT_NEAR(cell.length_bound(), cell.length(), 1e-7);
+}
 
 TEST(LongestCell, ExactlyTwoPerSpacingAreEnough)
 {

@@ -37,8 +37,11 @@ def counters(output):
 
     def total(name):
         return sum(int(row[name]) for row in rows[1:])
+    # Steps take tangents in the same proportion as Newton iterations.
     points = sum(int(before["cells"]) * int(row["newton_iterations"])
                  for before, row in zip(rows, rows[1:]))
+    points = (points * calls.get("tangent", 0)
+              // max(total("newton_iterations"), 1))
     return {"unknowns": total("unknowns"),
             "newton_iterations": total("newton_iterations"),
             "linear_iterations": total("linear_iterations"),

@@ -28,7 +28,7 @@ foreach(feature MPI P4EST TRILINOS HDF5 MUPARSER LAPACK UMFPACK)
   endif()
 endforeach()
 
-# Ifpack, Amesos and EpetraExt are used through Epetra's interface for int.
+# Amesos and EpetraExt are used through Epetra's interface for int.
 if(DEAL_II_WITH_64BIT_INDICES)
   message(FATAL_ERROR
     "Morula needs a deal.II with 32-bit indices "
@@ -69,7 +69,7 @@ foreach(target dealii::interface_trilinos dealii::interface_mpi)
 endforeach()
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 foreach(header Epetra_CrsMatrix.h EpetraExt_MatrixMatrix.h NOX_Solver_Generic.H
-               Ifpack_IC.h Amesos.h)
+               Amesos.h)
   string(REGEX MATCH "^[A-Za-z]+" package ${header})
   morula_check("#if !__has_include(<${header}>)\n#error missing\n#endif\n"
     MORULA_HAS_${package})

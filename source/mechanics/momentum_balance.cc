@@ -355,6 +355,7 @@ namespace Morula
       });
     result.null_space       = std::move(null_space);
     result.strongly_coupled = assembly.unknowns().of_extended_splines();
+    result.n_components     = dim;
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
     result.costly = dim == 3 || Utilities::MPI::sum(1. * n_points, comm) >=

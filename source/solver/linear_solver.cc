@@ -170,9 +170,11 @@ namespace Morula
     remove_parts(balanced, problem.null_space);
     SolverControl control(max_iterations, tolerance * balanced.l2_norm());
     // Preconditioned from the right: else the tolerance would be one for the
-    // preconditioned residual, which can be far from the residual.
-    SolverGMRES<Vector> gmres(control,
-                              SolverGMRES<Vector>::AdditionalData(100, true));
+    // preconditioned residual, which can be far from the residual. It adds up
+    // the preconditioned vectors themselves, as single precision makes these
+    // differ from a linear map's by more than a tight tolerance.
+    SolverFGMRES<Vector> gmres(control,
+                               SolverFGMRES<Vector>::AdditionalData(100));
     x = 0.;
     try
       {

@@ -3,154 +3,131 @@
 
 #include <morula/solver/overlapping_cholesky.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace Morula
 {
   namespace
   {
-    /** Own rows, then the others. */
-    Epetra_Map
-    block_map(const OverlappingCholesky::Matrix &K, IndexSet others)
+    IndexSet
+    difference(IndexSet all, const IndexSet &part)
     {
-      const IndexSet own = K.locally_owned_range_indices();
-      others.subtract_set(own);
-      std::vector<int> rows;
-      for (const IndexSet &part : {own, others})
-        for (const auto row : part)
-          rows.push_back(static_cast<int>(row));
-      return Epetra_Map(
-        -1, rows.size(), rows.data(), 0, K.trilinos_matrix().Comm());
+      all.subtract_set(part);
+      return all;
     }
 
-    /** Entries of a block on and above the diagonal, row by row: Ifpack reads
-     *  no others. */
-    struct Triangle
+    Epetra_Map
+    map_of(const std::vector<const IndexSet *> &parts, const Epetra_Comm &comm)
     {
-      std::vector<int>    lengths, columns;
-      std::vector<double> values;
-    };
+      std::vector<int> rows;
+      for (const IndexSet *const part : parts)
+        for (const auto row : *part)
+          rows.push_back(static_cast<int>(row));
+      return Epetra_Map(-1, rows.size(), rows.data(), 0, comm);
+    }
 
-    /** The rows are those of K on this rank, then the received ones. */
-    Triangle
-    upper_triangle(const Epetra_CrsMatrix &K,
-                   const Epetra_CrsMatrix &received,
-                   const Epetra_Map       &rows)
+    std::unique_ptr<IncompleteCholesky>
+    make_factor(const unsigned int                    n_components,
+                const int                             n_rows,
+                const IncompleteCholesky::Rows       &rows,
+                const IncompleteCholesky::Parameters &parameters)
     {
-      // Tables, as to ask the map for each entry takes longer than the rest.
-      const int        n_own = K.NumMyRows(), n = rows.NumMyElements();
-      std::vector<int> numbers(K.NumGlobalRows(), -1);
-      for (int k = 0; k < n; ++k)
-        numbers[rows.GID(k)] = k;
-      std::vector<int> numbers_of_columns(K.NumMyCols());
-      for (int k = 0; k < K.NumMyCols(); ++k)
-        numbers_of_columns[k] = numbers[K.GCID(k)];
-
-      Triangle          result;
-      const std::size_t n_most = K.NumMyNonzeros() + received.NumMyNonzeros();
-      result.columns.reserve(n_most);
-      result.values.reserve(n_most);
-      for (int row = 0; row < n; ++row)
+      AssertThrow(n_rows % n_components == 0, ExcInternalError());
+      switch (n_components)
         {
-          const std::size_t begin = result.columns.size();
-          const bool        own   = row < n_own;
-          int               length, *ids;
-          double           *entries;
-          if (own)
-            K.ExtractMyRowView(row, length, entries, ids);
-          else
-            received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
-          for (int k = 0; k < length; ++k)
-            {
-              const int column = (own ? numbers_of_columns : numbers)[ids[k]];
-              if (column >= row)
-                {
-                  result.columns.push_back(column);
-                  result.values.push_back(entries[k]);
-                }
-            }
-          result.lengths.push_back(result.columns.size() - begin);
+          case 2:
+            return std::make_unique<BlockCholesky<2>>(n_rows, rows, parameters);
+          case 3:
+            return std::make_unique<BlockCholesky<3>>(n_rows, rows, parameters);
+          default:
+            AssertThrow(n_components == 1, ExcNotImplemented());
+            return std::make_unique<BlockCholesky<1>>(n_rows, rows, parameters);
         }
-      return result;
     }
   } // namespace
 
-  OverlappingCholesky::OverlappingCholesky(const Matrix     &K,
-                                           const IndexSet   &others,
-                                           const Parameters &parameters)
-    : rows(block_map(K, others))
+  OverlappingCholesky::OverlappingCholesky(const Matrix      &K,
+                                           const IndexSet    &others,
+                                           const unsigned int n_components,
+                                           const Parameters  &parameters)
+    : own(K.locally_owned_range_indices())
+    , others(difference(others, own))
+    , rows(map_of({&own, &this->others}, K.trilinos_matrix().Comm()))
     , import(rows, K.trilinos_matrix().RowMap())
-    , self(MPI_COMM_SELF)
-    , local(rows.NumMyElements(), 0, self)
     , gathered(rows)
   {
-    if (rows.Comm().NumProc() > 1)
-      block = block_of(K.trilinos_matrix());
-    factorize(block ? *block : K.trilinos_matrix(), parameters);
-  }
-
-  std::unique_ptr<Epetra_CrsMatrix>
-  OverlappingCholesky::block_of(const Epetra_CrsMatrix &K) const
-  {
-    const int        n_own = K.NumMyRows(), n = rows.NumMyElements();
-    const Epetra_Map others(
-      -1, n - n_own, rows.MyGlobalElements() + n_own, 0, rows.Comm());
-    Epetra_CrsMatrix received(Copy, others, 0);
-    int error = received.Import(K, Epetra_Import(others, K.RowMap()), Insert);
-    AssertThrow(error == 0, ExcTrilinosError(error));
-
-    // All rows are inserted at once: one by one takes three times as long.
-    const Triangle triangle = upper_triangle(K, received, rows);
-    auto           result   = std::make_unique<Epetra_CrsMatrix>(
-      Copy, local, local, triangle.lengths.data(), true);
-    for (int row = 0, begin = 0; row < n; begin += triangle.lengths[row++])
-      result->InsertMyValues(row,
-                             triangle.lengths[row],
-                             &triangle.values[begin],
-                             &triangle.columns[begin]);
-    error = result->FillComplete();
-    AssertThrow(error == 0, ExcTrilinosError(error));
-    return result;
+    const Epetra_CrsMatrix &epetra = K.trilinos_matrix();
+    const Epetra_Map        map    = map_of({&this->others}, epetra.Comm());
+    Epetra_CrsMatrix        received(Copy, map, 0);
+    if (epetra.Comm().NumProc() > 1)
+      {
+        const int error =
+          received.Import(epetra, Epetra_Import(map, epetra.RowMap()), Insert);
+        AssertThrow(error == 0, ExcTrilinosError(error));
+      }
+    factorize(epetra, received, n_components, parameters);
   }
 
   void
-  OverlappingCholesky::factorize(const Epetra_CrsMatrix &A,
+  OverlappingCholesky::factorize(const Epetra_CrsMatrix &K,
+                                 const Epetra_CrsMatrix &received,
+                                 const unsigned int      n_components,
                                  const Parameters       &parameters)
   {
-    // Ifpack only reads the matrix.
-    factor = std::make_unique<Ifpack_IC>(const_cast<Epetra_CrsMatrix *>(&A));
-    Teuchos::ParameterList list;
-    list.set("fact: ict level-of-fill", parameters.fill);
-    list.set("fact: relative threshold", parameters.relative_diagonal);
-    list.set("fact: absolute threshold", parameters.absolute_diagonal);
-    factor->SetParameters(list);
-    int error = factor->Initialize();
-    AssertThrow(error == 0, ExcTrilinosError(error));
-    error = factor->Compute();
-    AssertThrow(error == 0, ExcTrilinosError(error));
+    const int  n_own     = own.n_elements();
+    const auto number_of = [&](const types::global_dof_index row) {
+      if (own.is_element(row))
+        return static_cast<int>(own.index_within_set(row));
+      return others.is_element(row) ?
+               n_own + static_cast<int>(others.index_within_set(row)) :
+               -1;
+    };
+    std::vector<int> numbers(K.NumMyCols()); // of the matrix's columns
+    for (int k = 0; k < K.NumMyCols(); ++k)
+      numbers[k] = number_of(K.GCID(k));
+
+    const auto row_of = [&](const int row, IncompleteCholesky::Row &result) {
+      result.columns.clear();
+      result.values.clear();
+      const bool is_own = row < n_own;
+      int        length, *ids;
+      double    *entries;
+      if (is_own)
+        K.ExtractMyRowView(row, length, entries, ids);
+      else
+        received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
+      for (int k = 0; k < length; ++k)
+        {
+          const int column = is_own ? numbers[ids[k]] : number_of(ids[k]);
+          if (column >= 0)
+            {
+              result.columns.push_back(column);
+              result.values.push_back(entries[k]);
+            }
+        }
+    };
+    factor =
+      make_factor(n_components, rows.NumMyElements(), row_of, parameters);
   }
 
   bool
   OverlappingCholesky::is_positive() const
   {
-    const Epetra_Vector &inverse_pivots = factor->D();
-    for (int k = 0; k < inverse_pivots.MyLength(); ++k)
-      if (!(inverse_pivots[k] > 0.))
-        return false;
-    return true;
+    return factor->is_positive();
   }
 
   void
   OverlappingCholesky::vmult(Vector &y, const Vector &x) const
   {
-    if (!block)
+    if (rows.Comm().NumProc() == 1)
       {
-        factor->ApplyInverse(x.trilinos_vector(), y.trilinos_vector());
+        y = x;
+        factor->solve(y.trilinos_vector()[0]);
         return;
       }
     gathered.Import(x.trilinos_vector(), import, Insert);
-    Epetra_Vector view(View, local, gathered.Values());
-    factor->ApplyInverse(view, view);
+    factor->solve(gathered.Values());
     y.trilinos_vector().PutScalar(0.);
     y.trilinos_vector().Export(gathered, import, Add);
   }

@@ -16,7 +16,7 @@ namespace Morula
   {
     /**
      * Incomplete factorisations in the order in which they are tried. Fewer
-     * entries make them faster; the raised diagonal keeps them positive, and
+     * blocks make them faster; the raised diagonal keeps them positive, and
      * usable for the later tangents of the step (doc/performance.md, The linear
      * solver). Free bodies do without the last one: it excites motions that
      * hardly anything resists, such as the twist of a row of cells, by a
@@ -26,11 +26,9 @@ namespace Morula
     {
       double fill, relative_diagonal;
     };
-    constexpr Attempt     attempts[]        = {{0.6, 1.02},
-                                               {1., 1.02},
-                                               {1., 1.1},
-                                               {1., 1.5}};
-    constexpr std::size_t n_of_free_bodies  = 3;
+    constexpr Attempt attempts[] = {
+      {1.25, 1.02}, {1.5, 1.02}, {2., 1.02}, {2., 1.1}, {2., 1.5}};
+    constexpr std::size_t n_of_free_bodies  = 4;
     constexpr double      absolute_diagonal = 2e-5; // of a typical entry
 
     /** Makes @p result (K + Kᵀ)/2. */
@@ -72,17 +70,9 @@ namespace Morula
         parameters.relative_diagonal = attempts[n_tried].relative_diagonal;
         parameters.absolute_diagonal =
           absolute_diagonal * problem.typical_entry;
-        std::unique_ptr<OverlappingCholesky> made;
-        try
-          {
-            made =
-              std::make_unique<OverlappingCholesky>(A,
-                                                    problem.strongly_coupled,
-                                                    parameters);
-          }
-        catch (const ExceptionBase &)
-          {}                                               // a zero pivot
-        const bool failed = !made || !made->is_positive(); // on this rank
+        auto made = std::make_unique<OverlappingCholesky>(
+          A, problem.strongly_coupled, problem.n_components, parameters);
+        const bool failed = !made->is_positive(); // on this rank
         if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
           factorisation_ = std::move(made);
       }

@@ -119,7 +119,8 @@ namespace
 } // namespace
 
 
-/** With room for all entries the factorisations are complete. */
+/** With room for all entries the factorisations are complete, in single
+ *  precision. */
 TEST(OverlappingCholesky, AddsUpTheBlocksInverses)
 {
   const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
@@ -130,7 +131,7 @@ TEST(OverlappingCholesky, AddsUpTheBlocksInverses)
   parameters.fill = 10.;
   for (const unsigned int reach : {0u, 1u, 4u, n})
     {
-      const OverlappingCholesky P(K, others_of(rank, reach), parameters);
+      const OverlappingCholesky P(K, others_of(rank, reach), 1, parameters);
       EXPECT_TRUE(P.is_positive());
       std::vector<double>         all(n);
       OverlappingCholesky::Vector x(own_rows(), MPI_COMM_WORLD), y(x);
@@ -142,7 +143,7 @@ TEST(OverlappingCholesky, AddsUpTheBlocksInverses)
       P.vmult(y, x);
       const std::vector<double> expected = exact(all, diagonal, reach);
       for (const auto i : own_rows())
-        EXPECT_NEAR(y(i), expected[i], 1e-12) << "row " << i;
+        EXPECT_NEAR(y(i), expected[i], 1e-6) << "row " << i;
     }
 }
 
@@ -158,14 +159,14 @@ TEST(OverlappingCholesky, RaisesTheDiagonal)
   OverlappingCholesky::Parameters parameters, none;
   parameters.relative_diagonal = 1.5;
   parameters.absolute_diagonal = 0.25;
-  const OverlappingCholesky   P(K, own_rows(), parameters);
-  const OverlappingCholesky   Q(raised, own_rows(), none);
+  const OverlappingCholesky   P(K, own_rows(), 1, parameters);
+  const OverlappingCholesky   Q(raised, own_rows(), 1, none);
   OverlappingCholesky::Vector x(own_rows(), MPI_COMM_WORLD), y(x), z(x);
   x = 1.;
   P.vmult(y, x);
   Q.vmult(z, x);
   z -= y;
-  EXPECT_LT(z.linfty_norm(), 1e-14);
+  EXPECT_LT(z.linfty_norm(), 1e-6 * y.linfty_norm());
   EXPECT_GT(y.linfty_norm(), 0.);
 }
 
@@ -174,6 +175,6 @@ TEST(OverlappingCholesky, KnowsWhenItIsNotPositive)
 {
   TrilinosWrappers::SparseMatrix K;
   fill(K, -1.); // rows 0 to 9 have no positive diagonal
-  const OverlappingCholesky P(K, IndexSet(n), {});
+  const OverlappingCholesky P(K, IndexSet(n), 1, {});
   EXPECT_TRUE(Utilities::MPI::logical_or(!P.is_positive(), MPI_COMM_WORLD));
 }

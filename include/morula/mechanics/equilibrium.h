@@ -99,6 +99,8 @@ namespace Morula
      *  part of the problem couple strongly. The preconditioner keeps them in
      *  one block. */
     IndexSet strongly_coupled;
+    /** Unknowns of a spline: they follow each other, on the same rank. */
+    unsigned int n_components = 1;
     /** Typical entry of a matrix; of a tangent in kPa µm^(dim-2). */
     double typical_entry = 1.;
     /** Whether making a matrix costs more than an iteration or two of Newton's

@@ -18,7 +18,7 @@ namespace Morula
    * gradient method that reacts to negative curvature, with an incomplete
    * Cholesky factorisation that is made once a step and kept
    * (doc/theory.md, section 5); where that is not positive, Jacobi.
-   * Unsymmetric systems (following pressure) go to GMRES, with the
+   * Unsymmetric systems (following pressure) go to flexible GMRES, with the
    * factorisation of their symmetric part. Along the problem's null space
    * nothing is solved for: there rounding could pass for negative curvature.
    * `automatic` does the same, and turns to the direct solver for a system that

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_block_cholesky_h
+#define morula_solver_block_cholesky_h
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace Morula
+{
+  /** An incomplete Cholesky factorisation M = L Lᵀ of a matrix on one rank. */
+  class IncompleteCholesky
+  {
+  public:
+    /** What decides about the factor. */
+    struct Parameters
+    {
+      /** Blocks of the factor over those of the matrix's triangle; the largest
+       *  of each column are kept. */
+      double fill = 1.;
+      /** The diagonal is multiplied by the one and raised by the other. */
+      double relative_diagonal = 1.;
+      double absolute_diagonal = 0.;
+    };
+
+    /** A row of a matrix: the numbers of its columns in any order, and the
+     *  entries. */
+    struct Row
+    {
+      std::vector<int>    columns;
+      std::vector<double> values;
+    };
+
+    /** Puts a matrix's row into the second argument. Of symmetric blocks only
+     *  columns from the diagonal's block on are read. */
+    using Rows = std::function<void(const int row, Row &)>;
+
+    virtual ~IncompleteCholesky() = default;
+
+    /** Whether all pivots are positive; else there is no factor. */
+    virtual bool
+    is_positive() const = 0;
+
+    /** x = M⁻¹ x. */
+    virtual void
+    solve(double *x) const = 0;
+  };
+
+  /** n numbers in one register: three take the place of four. */
+  template <int n>
+  struct Lanes;
+
+  template <>
+  struct Lanes<1>
+  {
+    typedef float Type __attribute__((vector_size(4)));
+  };
+
+  template <>
+  struct Lanes<2>
+  {
+    typedef float Type __attribute__((vector_size(8)));
+  };
+
+  template <>
+  struct Lanes<3>
+  {
+    typedef float Type __attribute__((vector_size(16)));
+  };
+
+  /**
+   * Crout's incomplete factorisation with a limited number of blocks a column,
+   * by blocks of n × n entries: those of two splines in n-dimensional space.
+   * Single precision, with rows and columns scaled so that the diagonal is 1:
+   * a preconditioner needs no more.
+   *
+   * No library has it: Ifpack's of single entries in double precision took
+   * three to four times as long for as many iterations (doc/performance.md, The
+   * linear solver), and Ifpack2's are of Tpetra's matrices.
+   *
+   * N. Li, Y. Saad and E. Chow: Crout versions of ILU for general sparse
+   * matrices, SIAM J. Sci. Comput. 25, 716-728 (2003).
+   */
+  template <int n>
+  class BlockCholesky : public IncompleteCholesky
+  {
+  public:
+    /** @param n_rows of the matrix: a multiple of n */
+    BlockCholesky(const int         n_rows,
+                  const Rows       &rows,
+                  const Parameters &parameters);
+
+    bool
+    is_positive() const override;
+
+    void
+    solve(double *x) const override;
+
+  private:
+    using Lane = typename Lanes<n>::Type;
+
+    /** A block of a vector. */
+    struct Part
+    {
+      Lane values;
+    };
+
+    /** By columns. */
+    struct Block
+    {
+      Lane column[n];
+    };
+
+    class Column; // of the factor, while it is made
+
+    void
+    scale(const Rows &rows, const Parameters &parameters);
+
+    /** The rows of the block row k as the matrix's column k. */
+    void
+    read(const int k, const Rows &rows, Row &row, Column &column) const;
+
+    /** Subtracts what the columns before k contribute to it, and makes them
+     *  await their next row. */
+    void
+    eliminate(const int k, Column &column);
+
+    /** Factors the block on the diagonal; false where it is not positive. */
+    bool
+    invert_diagonal(const int k, const Block &block);
+
+    /** Keeps the @p n_most largest blocks of column k. */
+    void
+    keep(const int k, const std::size_t n_most, Column &column);
+
+    int                      n_blocks;
+    std::vector<float>       scales;   // diag^(-1/2), by row
+    std::vector<Block>       diagonal; // inverses of its lower triangles
+    std::vector<std::size_t> begins;   // by column
+    std::vector<int>         numbers;  // of block rows, ascending in a column
+    std::vector<Block>       blocks;   // below the diagonal
+    std::size_t              n_most    = 0; // blocks a column
+    bool                     positive_ = true;
+
+    // While it is made, by column: the first block not below the current one,
+    // and the next column that awaits the same row; and that list's begin.
+    std::vector<std::size_t> firsts;
+    std::vector<int>         nexts, heads;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/block_cholesky.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Of a matrix with the diagonal 1: smaller ones are rounding. */
+    constexpr float least_pivot = 1e-6f;
+  } // namespace
+
+  /** A column with all its blocks, at their places. */
+  template <int n>
+  class BlockCholesky<n>::Column
+  {
+  public:
+    explicit Column(const int n_blocks)
+      : blocks(n_blocks)
+      , used(n_blocks, false)
+    {}
+
+    Block &
+    operator[](const int row)
+    {
+      if (!used[row])
+        {
+          used[row]   = true;
+          blocks[row] = Block();
+          rows.push_back(row);
+        }
+      return blocks[row];
+    }
+
+    void
+    clear()
+    {
+      for (const int row : rows)
+        used[row] = false;
+      rows.clear();
+    }
+
+    std::vector<int> rows; // in use
+
+  private:
+    std::vector<Block> blocks;
+    std::vector<char>  used;
+  };
+
+  template <int n>
+  BlockCholesky<n>::BlockCholesky(const int         n_rows,
+                                  const Rows       &rows,
+                                  const Parameters &parameters)
+    : n_blocks(n_rows / n)
+    , scales(n_rows)
+    , diagonal(n_blocks)
+    , begins(1, 0)
+    , firsts(n_blocks)
+    , nexts(n_blocks, -1)
+    , heads(n_blocks, -1)
+  {
+    scale(rows, parameters);
+    numbers.reserve(n_blocks * n_most);
+    blocks.reserve(n_blocks * n_most);
+    Column column(n_blocks);
+    Row    row;
+    for (int k = 0; k < n_blocks && positive_; ++k)
+      {
+        read(k, rows, row, column);
+        eliminate(k, column);
+        positive_ = invert_diagonal(k, column[k]);
+        keep(k, n_most, column);
+        column.clear();
+      }
+    firsts = {};
+    nexts = heads = {};
+  }
+
+  template <int n>
+  void
+  BlockCholesky<n>::scale(const Rows &rows, const Parameters &parameters)
+  {
+    Row         row;
+    std::size_t n_entries = 0; // above the diagonal's blocks
+    for (int r = 0; r < n * n_blocks; ++r)
+      {
+        rows(r, row);
+        double entry = 0.;
+        for (std::size_t e = 0; e < row.columns.size(); ++e)
+          if (row.columns[e] == r)
+            entry = row.values[e];
+          else
+            n_entries += row.columns[e] / n > r / n;
+        entry =
+          parameters.relative_diagonal * entry + parameters.absolute_diagonal;
+        positive_ = positive_ && entry > 0.;
+        scales[r] = entry > 0. ? 1. / std::sqrt(entry) : 1.;
+      }
+    const double mean = n_entries / (n * n * std::max(1., 1. * n_blocks));
+    n_most = std::min(std::ceil(parameters.fill * mean), 1. * n_blocks);
+  }
+
+  template <int n>
+  void
+  BlockCholesky<n>::read(const int   k,
+                         const Rows &rows,
+                         Row        &row,
+                         Column     &column) const
+  {
+    for (int i = 0; i < n; ++i)
+      {
+        rows(n * k + i, row);
+        for (std::size_t e = 0; e < row.columns.size(); ++e)
+          if (const int j = row.columns[e]; j / n >= k)
+            column[j / n].column[i][j % n] =
+              row.values[e] * scales[n * k + i] * scales[j];
+        column[k].column[i][i] = 1.; // raised, and scaled
+      }
+  }
+
+  template <int n>
+  void
+  BlockCholesky<n>::eliminate(const int k, Column &column)
+  {
+    for (int j = heads[k], next; j >= 0; j = next)
+      {
+        next = nexts[j];
+        // Here is L_kj: all L_ij L_kjᵀ with i >= k.
+        float factors[n][n];
+        for (int c = 0; c < n; ++c)
+          for (int m = 0; m < n; ++m)
+            factors[c][m] = blocks[firsts[j]].column[m][c];
+        for (std::size_t e = firsts[j]; e < begins[j + 1]; ++e)
+          {
+            Block       &target = column[numbers[e]];
+            const Block &block  = blocks[e];
+            for (int c = 0; c < n; ++c)
+              for (int m = 0; m < n; ++m)
+                target.column[c] -= block.column[m] * factors[c][m];
+          }
+        if (++firsts[j] < begins[j + 1])
+          nexts[j] = std::exchange(heads[numbers[firsts[j]]], j);
+      }
+  }
+
+  template <int n>
+  bool
+  BlockCholesky<n>::invert_diagonal(const int k, const Block &block)
+  {
+    float L[n][n] = {};
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j)
+        {
+          float sum = block.column[j][i];
+          for (int m = 0; m < j; ++m)
+            sum -= L[i][m] * L[j][m];
+          if (i != j)
+            L[i][j] = sum / L[j][j];
+          else if (sum > least_pivot)
+            L[i][i] = std::sqrt(sum);
+          else
+            return false;
+        }
+    // Column c of the inverse solves L x = e_c.
+    diagonal[k] = Block();
+    for (int c = 0; c < n; ++c)
+      for (int i = c; i < n; ++i)
+        {
+          float sum = i == c ? 1.f : 0.f;
+          for (int m = c; m < i; ++m)
+            sum -= L[i][m] * diagonal[k].column[c][m];
+          diagonal[k].column[c][i] = sum / L[i][i];
+        }
+    return true;
+  }
+
+  template <int n>
+  void
+  BlockCholesky<n>::keep(const int k, const std::size_t n_most, Column &column)
+  {
+    std::vector<std::pair<float, int>> sizes; // negative: the largest first
+    sizes.reserve(column.rows.size());
+    for (const int row : column.rows)
+      {
+        Lane squares = {};
+        for (const Lane &lane : column[row].column)
+          squares += lane * lane;
+        float sum = 0.f;
+        for (int i = 0; i < n; ++i)
+          sum += squares[i];
+        if (row != k && sum > 0.f)
+          sizes.emplace_back(-sum, row);
+      }
+    if (sizes.size() > n_most)
+      {
+        std::nth_element(sizes.begin(), sizes.begin() + n_most, sizes.end());
+        sizes.resize(n_most);
+      }
+    for (const auto &[size, row] : sizes)
+      numbers.push_back(row);
+    std::sort(numbers.begin() + begins[k], numbers.end());
+
+    // L_ik L_kkᵀ = A_ik
+    const Block inverse = diagonal[k];
+    for (std::size_t e = begins[k]; e < numbers.size(); ++e)
+      {
+        const Block &block = column[numbers[e]];
+        blocks.emplace_back();
+        for (int c = 0; c < n; ++c)
+          for (int m = 0; m <= c; ++m)
+            blocks.back().column[c] += block.column[m] * inverse.column[m][c];
+      }
+    firsts[k] = begins[k];
+    begins.push_back(numbers.size());
+    if (firsts[k] < begins[k + 1])
+      nexts[k] = std::exchange(heads[numbers[firsts[k]]], k);
+  }
+
+  template <int n>
+  bool
+  BlockCholesky<n>::is_positive() const
+  {
+    return positive_;
+  }
+
+  template <int n>
+  void
+  BlockCholesky<n>::solve(double *x) const
+  {
+    // Far from the limits of single precision.
+    double largest = 0.;
+    for (int r = 0; r < n * n_blocks; ++r)
+      largest = std::max(largest, std::abs(scales[r] * x[r]));
+    if (!(largest > 0.))
+      return;
+    const double      unit = std::exp2(std::ilogb(largest));
+    std::vector<Part> y(n_blocks);
+    for (int k = 0; k < n_blocks; ++k)
+      for (int i = 0; i < n; ++i)
+        y[k].values[i] = scales[n * k + i] * x[n * k + i] / unit;
+
+    for (int k = 0; k < n_blocks; ++k)
+      {
+        Lane z = {};
+        for (int m = 0; m < n; ++m)
+          z += diagonal[k].column[m] * y[k].values[m];
+        y[k].values = z;
+        for (std::size_t e = begins[k]; e < begins[k + 1]; ++e)
+          {
+            Lane &sum = y[numbers[e]].values;
+            for (int m = 0; m < n; ++m)
+              sum -= blocks[e].column[m] * z[m];
+          }
+      }
+    for (int k = n_blocks - 1; k >= 0; --k)
+      {
+        Lane sums[n] = {};
+        for (std::size_t e = begins[k]; e < begins[k + 1]; ++e)
+          for (int m = 0; m < n; ++m)
+            sums[m] += blocks[e].column[m] * y[numbers[e]].values;
+        Lane z = y[k].values;
+        for (int m = 0; m < n; ++m)
+          for (int i = 0; i < n; ++i)
+            z[m] -= sums[m][i];
+        for (int m = 0; m < n; ++m)
+          {
+            float sum = 0.f;
+            for (int i = m; i < n; ++i)
+              sum += diagonal[k].column[m][i] * z[i];
+            y[k].values[m] = sum;
+          }
+      }
+    for (int k = 0; k < n_blocks; ++k)
+      for (int i = 0; i < n; ++i)
+        x[n * k + i] = unit * scales[n * k + i] * y[k].values[i];
+  }
+
+  template class BlockCholesky<1>;
+  template class BlockCholesky<2>;
+  template class BlockCholesky<3>;
+} // namespace Morula

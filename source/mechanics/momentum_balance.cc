@@ -343,11 +343,13 @@ namespace Morula
   LinearProblem
   MomentumBalance<dim>::linear_problem(const double        youngs_modulus,
                                        std::vector<Vector> null_space,
-                                       const unsigned int  n_points) const
+                                       const unsigned int  n_cells) const
   {
-    // In 2-D a tangent of fewer points a spline costs less than the residual
-    // and the linear system of a further iteration: doc/performance.md.
-    constexpr double least_points_a_spline = 20.;
+    // In 2-D a tangent of fewer cells a spline costs less than the residual
+    // and the linear system of a further iteration: doc/performance.md. Fewer
+    // cells than splines in 3-D leave motions that hardly anything resists:
+    // with a kept tangent these drift.
+    constexpr double least_cells_a_spline = dim == 2 ? 20. : 2.;
     LinearProblem    result;
     result.symmetric =
       std::all_of(terms.begin(), terms.end(), [](const auto &term) {
@@ -358,8 +360,8 @@ namespace Morula
     result.n_components     = dim;
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
-    result.costly = dim == 3 || Utilities::MPI::sum(1. * n_points, comm) >=
-                                  least_points_a_spline * space.n_unknowns();
+    result.costly = Utilities::MPI::sum(1. * n_cells, comm) >=
+                    least_cells_a_spline * space.n_unknowns();
     return result;
   }
 

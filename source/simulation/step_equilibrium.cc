@@ -71,7 +71,7 @@ namespace Morula
     MomentumBalance<dim>          balance(
       space, list, timer, comm, lumen ? &*lumen : nullptr);
     const LinearProblem linear =
-      balance.linear_problem(stiffness, inertia(), points.xi.size());
+      balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
     Solution   solution{start(attempt).value_or(balance.rest()), attempt.lumen};
     const auto solve = [&]() {

@@ -94,12 +94,12 @@ namespace Morula
      * What a linear solver should know of the tangents. Collective.
      * @param youngs_modulus a typical one, kPa
      * @param null_space     as from RigidModes::inertia()
-     * @param n_points       quadrature points on this rank
+     * @param n_cells        on this rank
      */
     LinearProblem
     linear_problem(const double        youngs_modulus,
                    std::vector<Vector> null_space,
-                   const unsigned int  n_points) const;
+                   const unsigned int  n_cells) const;
 
     /** What Newton's method compares with, where @p youngs_modulus is a typical
      *  one (kPa): doc/theory.md (5.3). */

@@ -12,7 +12,7 @@ namespace Morula
    * The tangents of one solve. A tangent costs several residuals, and its
    * linear systems are solved loosely as long as the residual is large: so an
    * iteration goes on with the last tangent while that makes the residual five
-   * times smaller (doc/theory.md, 5.4).
+   * times smaller (doc/theory.md, 5.1).
    */
   class Tangents
   {

@@ -113,6 +113,7 @@ class Figures:
 
     steps: int
     newton: float  # iterations a step
+    tangents: float  # a step; an iteration may go on with the last one
     linear: float  # iterations a Newton iteration
     condition: float
     rejected: int

@@ -72,6 +72,15 @@ def different_cells(one, other, agreement):
     return []
 
 
+def n_tangents(directory):
+    """How many tangents a run has assembled."""
+    for line in (directory / "timings.csv").read_text().splitlines():
+        name, calls, *_ = line.split(",")
+        if name == "tangent":
+            return int(calls)
+    return 0
+
+
 def figures(results):
     rows = results.statistics()
     newton = rows["newton_iterations"].sum()
@@ -81,6 +90,7 @@ def figures(results):
         condition = float(estimates.max()) if estimates.size else None
     steps = int(rows["step"].max())
     return Figures(steps=steps, newton=newton / max(steps, 1),
+                   tangents=n_tangents(results.directory) / max(steps, 1),
                    linear=rows["linear_iterations"].sum() / max(newton, 1),
                    condition=condition,
                    rejected=int(rows["rejected_steps"].sum()),

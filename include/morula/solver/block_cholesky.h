@@ -52,18 +52,21 @@ namespace Morula
   template <int n>
   struct Lanes;
 
+  /** One number. */
   template <>
   struct Lanes<1>
   {
     typedef float Type __attribute__((vector_size(4)));
   };
 
+  /** Two numbers. */
   template <>
   struct Lanes<2>
   {
     typedef float Type __attribute__((vector_size(8)));
   };
 
+  /** Three numbers and one of no use. */
   template <>
   struct Lanes<3>
   {

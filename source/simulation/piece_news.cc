@@ -22,12 +22,14 @@ namespace Morula
       {
         has_joined = true;
         std::ostringstream text;
-        text << "Warning: at t = " << t << " day two parts of the tissue have "
-             << "come within a grid spacing of each other near (" << *place
+        text << "Warning: at t = " << t
+             << " day two parts of the tissue have come within a grid spacing "
+                "of each other near ("
+             << *place
              << ") um. From now on they stick together there, though their "
-             << "cells may not touch yet (doc/faq.md, bodies that stick). A "
-             << "smaller Grid/Spacing lets them come closer. Later ones are "
-             << "not told of.";
+                "cells may not touch yet (doc/faq.md, bodies that stick). A "
+                "smaller Grid/Spacing lets them come closer. Later ones are "
+                "not told of.";
         announce(text.str());
       }
     count(space, t);

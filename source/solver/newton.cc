@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -68,7 +69,7 @@ namespace Morula
         const double norm      = solver.getSolutionGroup().getNormF();
         const int    iteration = solver.getNumIterations();
         status                 = NOX::StatusTest::Failed;
-        if (norm <= bounds.rounding ||
+        if (is_rounding(solver) ||
             (norm <= bounds.residual &&
              (iteration == 0 ||
               left_over(solver) <=
@@ -104,8 +105,21 @@ namespace Morula
       }
 
     private:
+      /** Whether the residual is rounding. Behind an iteration with a kept
+       *  tangent that is asked of two in turn: the first may just have come
+       *  below the bound, where soft tissue still moves. */
+      bool
+      is_rounding(const NOX::Solver::Generic &solver) const
+      {
+        return solver.getSolutionGroup().getNormF() <= bounds.rounding &&
+               (!tangents.kept() ||
+                solver.getPreviousSolutionGroup().getNormF() <=
+                  bounds.rounding);
+      }
+
       /** The last change of the solution times the ratio by which the residual
-       *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). */
+       *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). Infinite
+       *  where the iteration has changed nothing. */
       static double
       left_over(const NOX::Solver::Generic &solver)
       {
@@ -113,8 +127,9 @@ namespace Morula
         const auto &before = solver.getPreviousSolutionGroup();
         const auto  change = now.getX().clone();
         change->update(-1., before.getX(), 1.);
-        return change->norm(NOX::Abstract::Vector::MaxNorm) * now.getNormF() /
-               before.getNormF();
+        const double size = change->norm(NOX::Abstract::Vector::MaxNorm);
+        return size > 0. ? size * now.getNormF() / before.getNormF() :
+                           std::numeric_limits<double>::infinity();
       }
 
       /** Of the bound of displacements. An iteration with a tangent of its own

@@ -239,6 +239,12 @@ namespace Morula
     return copy;
   }
 
+  bool
+  NoxGroup::has_kept_tangent() const
+  {
+    return tangents.kept();
+  }
+
   EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem,
                                      const bool         has_energy)
     : problem(problem)
@@ -257,24 +263,33 @@ namespace Morula
       dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
     auto &new_group = dynamic_cast<NoxGroup &>(group);
 
-    const double slope  = direction.innerProduct(old_group.getF());
-    const auto  &before = old_group.evaluation();
-    const double slack  = rounding_error * before.energy_magnitude;
-    step                = 1.;
+    const bool   is_kept = old_group.has_kept_tangent();
+    const double slope   = direction.innerProduct(old_group.getF());
+    const auto  &before  = old_group.evaluation();
+    const double slack   = rounding_error * before.energy_magnitude;
+    step                 = 1.;
     for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
       {
         new_group.computeX(old_group, direction, step);
         new_group.computeF();
         const double energy = new_group.evaluation().energy;
-        if (!std::isfinite(energy))
-          continue;
-        if (has_energy ?
-              energy <= before.energy + armijo * step * slope + slack :
-              new_group.getNormF() <=
-                  (1. - armijo * step) * old_group.getNormF() ||
-                new_group.getNormF() <=
-                  rounding_of_residual(problem, values_of(new_group.getX())))
+        const double norm   = new_group.getNormF();
+        const bool falls = norm <= (1. - armijo * step) * old_group.getNormF();
+        if (std::isfinite(energy) &&
+            (!is_kept || norm <= old_group.getNormF()) &&
+            (has_energy ?
+               energy <= before.energy + armijo * step * slope + slack :
+               falls ||
+                 norm <=
+                   rounding_of_residual(problem, values_of(new_group.getX()))))
           return true;
+        if (is_kept)
+          {
+            step = 0.;
+            new_group.computeX(old_group, direction, step);
+            new_group.computeF();
+            return true;
+          }
       }
     step = 0.; // any other length NOX would take for a recovery step
     return false;

@@ -74,11 +74,10 @@ def different_cells(one, other, agreement):
 
 def n_tangents(directory):
     """How many tangents a run has assembled."""
-    for line in (directory / "timings.csv").read_text().splitlines():
-        name, calls, *_ = line.split(",")
-        if name == "tangent":
-            return int(calls)
-    return 0
+    timings = directory / "timings.csv"
+    lines = timings.read_text().splitlines() if timings.is_file() else []
+    return sum(int(line.split(",")[1]) for line in lines
+               if line.startswith("tangent,"))
 
 
 def figures(results):

@@ -82,6 +82,10 @@ namespace Morula
     Teuchos::RCP<NOX::Abstract::Group>
     clone(NOX::CopyType type) const override;
 
+    /** Whether the direction is that of a kept tangent. */
+    bool
+    has_kept_tangent() const;
+
   private:
     void
     invalidate();
@@ -101,7 +105,9 @@ namespace Morula
   /**
    * Backtracking on the energy with Armijo's rule and slack for rounding,
    * doc/theory.md (5.2); for problems without energy, on |R|. Inversion counts
-   * as infinite energy.
+   * as infinite energy. The direction of a kept tangent is taken as a whole, if
+   * it makes |R| smaller as well, or not at all: then the next iteration has a
+   * tangent of its own.
    */
   class EnergyLineSearch : public NOX::LineSearch::Generic
   {

@@ -10,8 +10,8 @@ TOLERANCE = 0.1
 # Sums of ranks' blocks precondition less well than the whole factorisation, by
 # far so on the few grid cells of these scenes.
 RANKS_FACTOR = 4.5
-# What each of Newton's iterations has many of.
-IN_NEWTON = ("linear_iterations", "tangent_kflop")
+# What each of Newton's iterations, or each tangent, has many of.
+IN_EACH = {"linear_iterations": "newton_iterations", "tangent_kflop": "tangents"}
 
 
 def flop_per_point(dim):
@@ -62,14 +62,15 @@ def excess(found, reference, ranks):
     reference is to be renewed. A list of texts."""
     texts = []
     usual_work = {row["counter"]: int(row["value"]) for row in read(reference)}
-    newton = max(usual_work["newton_iterations"], 1)
     for name, usual in usual_work.items():
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":
             upper *= RANKS_FACTOR
         # Two of whatever is counted. On more ranks than the reference has these
-        # may be two of Newton's iterations, with what they take.
-        few = 2 * usual / newton if ranks > 1 and name in IN_NEWTON else 2
+        # may be two of Newton's iterations or tangents, with what they take.
+        few = 2
+        if ranks > 1 and name in IN_EACH:
+            few *= usual / max(usual_work[IN_EACH[name]], 1)
         if not lower - few <= found[name] <= upper + few:
             texts.append(f"{name}: {found[name]}, in the reference {usual}")
     return texts

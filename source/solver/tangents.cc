@@ -10,7 +10,7 @@ namespace Morula
     /** Of the residual, with which a tangent still serves. */
     constexpr double sufficient_reduction = 0.2;
     /** More iterations are a sign of trouble. */
-    constexpr unsigned int max_iterations = 10;
+    constexpr unsigned int last_kept_iteration = 10;
   } // namespace
 
   Tangents::Tangents(Equilibrium &problem, const bool keep)
@@ -23,7 +23,7 @@ namespace Morula
   {
     ++n_iterations;
     kept_ = keep && last != nullptr && undisturbed &&
-            n_iterations <= max_iterations &&
+            n_iterations <= last_kept_iteration &&
             norm <= sufficient_reduction * last_norm;
     if (!kept_)
       last = &problem.tangent(u,

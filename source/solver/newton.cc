@@ -69,7 +69,7 @@ namespace Morula
         const double norm      = solver.getSolutionGroup().getNormF();
         const int    iteration = solver.getNumIterations();
         status                 = NOX::StatusTest::Failed;
-        if (is_rounding(solver) ||
+        if (norm <= bounds.rounding ||
             (norm <= bounds.residual &&
              (iteration == 0 ||
               left_over(solver) <=
@@ -105,18 +105,6 @@ namespace Morula
       }
 
     private:
-      /** Whether the residual is rounding. Behind an iteration with a kept
-       *  tangent that is asked of two in turn: the first may just have come
-       *  below the bound, where soft tissue still moves. */
-      bool
-      is_rounding(const NOX::Solver::Generic &solver) const
-      {
-        return solver.getSolutionGroup().getNormF() <= bounds.rounding &&
-               (!tangents.kept() ||
-                solver.getPreviousSolutionGroup().getNormF() <=
-                  bounds.rounding);
-      }
-
       /** The last change of the solution times the ratio by which the residual
        *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). Infinite
        *  where the iteration has changed nothing. */

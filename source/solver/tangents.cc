@@ -9,7 +9,7 @@ namespace Morula
   {
     /** Of the residual, with which a tangent still serves. */
     constexpr double sufficient_reduction = 0.2;
-    /** More iterations are a sign of trouble. */
+    /** Later ones are a sign of trouble. */
     constexpr unsigned int last_kept_iteration = 10;
   } // namespace
 

@@ -5,96 +5,97 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <map>
+#include <vector>
 
 namespace Morula
 {
   namespace
   {
-    /** A place in a lattice of cubes. */
+    /** Cubes of a lattice that follow each other along the last axis, far fewer
+     *  than cubes: the first one, and the place on that axis behind the last
+     *  one. */
     template <int dim>
-    using Place = std::array<int, dim>;
+    using Run = std::array<int, dim + 1>;
 
     /** The cubes of a lattice, its lines at @p offset + i @p length (µm), that
-     *  hold points. Rank 0 gets those of all ranks. Collective. */
+     *  hold points, as runs; all ranks' on rank 0. Collective. */
     template <int dim>
-    std::set<Place<dim>>
+    std::vector<Run<dim>>
     occupied(const std::vector<Point<dim>> &points,
              const Point<dim>              &offset,
              const double                   length,
              const MPI_Comm                 comm)
     {
-      std::set<Place<dim>> mine;
-      for (const Point<dim> &X : points)
-        {
-          Place<dim> place;
-          for (unsigned int d = 0; d < dim; ++d)
-            place[d] =
-              static_cast<int>(std::floor((X[d] - offset[d]) / length));
-          mine.insert(place);
-        }
-      std::set<Place<dim>> all;
-      for (const auto &places : Utilities::MPI::gather(
-             comm, std::vector<Place<dim>>(mine.begin(), mine.end()), 0))
-        all.insert(places.begin(), places.end());
-      return all;
-    }
+      std::vector<std::array<int, dim>> places(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          places[i][d] =
+            static_cast<int>(std::floor((points[i][d] - offset[d]) / length));
+      std::sort(places.begin(), places.end());
 
-    /** The cubes of @p places that stand at most @p reach cubes from @p center
-     *  along each axis; they are taken out. */
-    template <int dim>
-    std::vector<Place<dim>>
-    take_around(const Place<dim>     &center,
-                const int             reach,
-                std::set<Place<dim>> &places)
-    {
-      std::vector<Place<dim>> found;
-      Place<dim>              offset;
-      offset.fill(-reach);
-      for (bool more = true; more;)
+      std::vector<Run<dim>> mine;
+      for (const std::array<int, dim> &place : places)
         {
-          Place<dim> place = center;
-          for (unsigned int d = 0; d < dim; ++d)
-            place[d] += offset[d];
-          if (const auto it = places.find(place); it != places.end())
+          const int end = place[dim - 1] + 1;
+          if (!mine.empty() && end <= mine.back()[dim] + 1 &&
+              std::equal(place.begin(), place.end() - 1, mine.back().begin()))
+            mine.back()[dim] = end;
+          else
             {
-              found.push_back(place);
-              places.erase(it);
+              mine.emplace_back();
+              std::copy(place.begin(), place.end(), mine.back().begin());
+              mine.back()[dim] = end;
             }
-          more = false;
-          for (unsigned int d = 0; d < dim && !more; ++d)
-            if (++offset[d] <= reach)
-              more = true;
-            else
-              offset[d] = -reach;
         }
-      return found;
+      std::vector<Run<dim>> all;
+      for (const auto &runs : Utilities::MPI::gather(comm, mine, 0))
+        all.insert(all.end(), runs.begin(), runs.end());
+      return all;
     }
 
     /** How many groups the cubes form, of which neighbours stand at most
      *  @p reach cubes apart along each axis. */
     template <int dim>
     unsigned int
-    n_groups(std::set<Place<dim>> places, const int reach)
+    n_groups(const std::vector<Run<dim>> &runs, const int reach)
     {
-      unsigned int n = 0;
-      for (; !places.empty(); ++n)
+      using Row = std::array<int, dim - 1>; // the other axes
+      std::map<Row, std::vector<std::size_t>> rows;
+      std::vector<std::size_t>                rank(runs.size()), parent(rank);
+      boost::disjoint_sets<std::size_t *, std::size_t *> groups(rank.data(),
+                                                                parent.data());
+      std::vector<std::size_t>                           list;
+      for (std::size_t r = 0; r < runs.size(); ++r)
         {
-          std::vector<Place<dim>> rim = {*places.begin()};
-          places.erase(places.begin());
-          while (!rim.empty())
+          groups.make_set(r);
+          list.push_back(r);
+          const Run<dim> &run = runs[r];
+          Row             row;
+          std::copy_n(run.begin(), dim - 1, row.begin());
+          // with those before it
+          for (int k = 0; k < Utilities::pow(2 * reach + 1, dim - 1); ++k)
             {
-              const Place<dim> center = rim.back();
-              rim.pop_back();
-              for (const Place<dim> &place :
-                   take_around<dim>(center, reach, places))
-                rim.push_back(place);
+              Row other = row;
+              for (int d = 0, rest = k; d < dim - 1; ++d)
+                {
+                  other[d] += rest % (2 * reach + 1) - reach;
+                  rest /= 2 * reach + 1;
+                }
+              if (const auto found = rows.find(other); found != rows.end())
+                for (const std::size_t s : found->second)
+                  if (run[dim - 1] < runs[s][dim] + reach &&
+                      runs[s][dim - 1] < run[dim] + reach)
+                    groups.union_set(r, s);
             }
+          rows[row].push_back(r);
         }
-      return n;
+      return groups.count_sets(list.begin(), list.end());
     }
   } // namespace
 

@@ -25,8 +25,8 @@ namespace Morula
   /**
    * Counts the bodies and the pieces of the tissue at the start. A gap of two
    * of the longest cells counts, one of a single cell does not; in between it
-   * depends on where the cells stand. Collective: rank 0 counts places, not
-   * founders, and all ranks get its answer.
+   * depends on where the cells stand. Collective: rank 0 gets runs of places,
+   * far fewer than founders, and all ranks get its answer.
    */
   template <int dim>
   BodyCounts

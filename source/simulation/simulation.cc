@@ -25,7 +25,6 @@ namespace Morula
     newton_report = NewtonReport();
     births        = {};
     events        = {};
-    condition.reset();
     ++run_state.n_steps;
     fields.begin_step();
 

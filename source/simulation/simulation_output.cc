@@ -82,6 +82,7 @@ namespace Morula
     files->step(row, births, events);
     if (condition)
       files->condition(run_state.n_steps, row.time - row.dt, *condition);
+    condition.reset(); // one row a step, also where the run ends here
   }
 
   template <int dim>

@@ -74,7 +74,7 @@ namespace Morula
         read(k, rows, row, column);
         eliminate(k, column);
         positive_ = invert_diagonal(k, column[k]);
-        keep(k, n_most, column);
+        keep(k, column);
         column.clear();
       }
     firsts = {};
@@ -181,7 +181,7 @@ namespace Morula
 
   template <int n>
   void
-  BlockCholesky<n>::keep(const int k, const std::size_t n_most, Column &column)
+  BlockCholesky<n>::keep(const int k, Column &column)
   {
     std::vector<std::pair<float, int>> sizes; // negative: the largest first
     sizes.reserve(column.rows.size());

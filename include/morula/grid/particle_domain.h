@@ -93,9 +93,8 @@ namespace Morula
       return std::sqrt(std::isfinite(largest) ? largest : trace(square) / dim);
     }
 
-    /** A bound of length(), µm, that costs a tenth of it: the largest
-     * eigenvalue of a symmetric tensor S is at most tr S/d + √((d-1)/d) |dev
-     * S|. */
+    /** A bound of length(), µm, which needs no eigenvalues: the largest one of
+     *  a symmetric tensor S is at most tr S/d + √((d-1)/d) |dev S|. */
     double
     length_bound() const
     {

@@ -134,9 +134,9 @@ namespace Morula
     bool
     invert_diagonal(const int k, const Block &block);
 
-    /** Keeps the @p n_most largest blocks of column k. */
+    /** Keeps the n_most largest blocks of column k. */
     void
-    keep(const int k, const std::size_t n_most, Column &column);
+    keep(const int k, Column &column);
 
     int                      n_blocks;
     std::vector<float>       scales;   // diag^(-1/2), by row

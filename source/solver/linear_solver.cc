@@ -126,13 +126,11 @@ namespace Morula
                                 unsigned int               &iterations,
                                 const Equilibrium::RankOne *rank_one)
   {
-    const Vector magnitude = diagonal_magnitude(K, b);
-    double       shift = 0., needed = 0.;
+    double shift = 0., needed = 0.;
     while (shift < Shifts::last)
       {
-        const ShiftedSystem system{
-          K, magnitude, problem.null_space, shift, rank_one};
-        const auto iterate = [&](const auto &P) {
+        const ShiftedSystem system{K, problem.null_space, shift, rank_one};
+        const auto          iterate = [&](const auto &P) {
           return conjugate_gradients(
             system, P, x, b, tolerance, max_iterations, iterations, needed);
         };
@@ -141,7 +139,7 @@ namespace Morula
         const CgOutcome outcome =
           factorisation != nullptr ?
             iterate(*factorisation) :
-            iterate(jacobi_preconditioner(magnitude, shift));
+            iterate(jacobi_preconditioner(diagonal_magnitude(K, b), shift));
         largest_shift_ = std::max(largest_shift_, shift);
         has_shifted_   = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)

@@ -156,7 +156,7 @@ namespace
     unsigned int                           n      = 0;
     double                                 needed = 0.;
     EXPECT_EQ(conjugate_gradients(
-                ShiftedSystem{K, b, none, 0.}, P, x, b, 1e-6, 1000, n, needed),
+                ShiftedSystem{K, none, 0.}, P, x, b, 1e-6, 1000, n, needed),
               CgOutcome::converged);
     return n;
   }

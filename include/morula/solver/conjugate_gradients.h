@@ -5,6 +5,7 @@
 #define morula_solver_conjugate_gradients_h
 
 #include <morula/solver/null_space.h>
+#include <morula/solver/preconditioner.h>
 
 namespace Morula
 {
@@ -22,7 +23,6 @@ namespace Morula
   struct ShiftedSystem
   {
     const Equilibrium::Matrix              &K;
-    const Equilibrium::Vector              &diagonal; // |diag K|
     const std::vector<Equilibrium::Vector> &null_space;
     double                                  shift; // σ
     /** What K lacks, or null. */
@@ -51,7 +51,10 @@ namespace Morula
                       double                    &needed)
   {
     using Vector = Equilibrium::Vector;
-    Vector r(b), z(b), p(b), Kp(b), shifted(b);
+    Vector r(b), z(b), p(b), Kp(b), shifted(b), diagonal;
+    // Hardly any system is shifted, and the search for the entries takes time.
+    if (system.shift > 0.)
+      diagonal = diagonal_magnitude(system.K, b);
     x = 0.;
     remove_parts(r, system.null_space);
     P.vmult(z, r);
@@ -68,7 +71,7 @@ namespace Morula
         if (system.shift > 0.)
           {
             shifted = p;
-            shifted.scale(system.diagonal);
+            shifted.scale(diagonal);
             Kp.add(system.shift, shifted);
           }
         remove_parts(Kp, system.null_space);
@@ -77,7 +80,7 @@ namespace Morula
         if (!(curvature > 0.))
           {
             shifted = p;
-            shifted.scale(system.diagonal);
+            shifted.scale(diagonal_magnitude(system.K, b));
             needed = system.shift - curvature / (p * shifted);
             return CgOutcome::negative_curvature;
           }

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """contrib/render: cells are where they are, colours mean what they say, all
-states and films, what it refuses and what it costs; and what tools say when a
-library of Python is missing."""
+states and films, and what it refuses; and what tools say when a library of
+Python is missing."""
 import os
-import resource
 import shutil
 import subprocess
 from pathlib import Path
@@ -239,18 +238,15 @@ class Render(ProgramTest):
         for word in ("ffmpeg", "package", ".gif"):
             self.assertIn(word, done.stderr)
 
-    def test_cost(self):
-        """9,261 cells in two panels: 3 to 4 s of processor time, a third of it
-        for the libraries and the file. Drawn by VTK it was 22."""
+    def test_thousands_of_cells(self):
+        """9,261 cells in two panels fill them both."""
         self.lattice(21)
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.render("--panels", "2", "--field", "pressure")
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.assertLess(after.ru_utime - before.ru_utime
-                        + after.ru_stime - before.ru_stime, 6)
         picture = np.asarray(Image.open(self.output / "pressure.png"))
         self.assertGreater(picture.shape[1], 2000)
-        self.assertGreater((picture < 200).any(axis=2).mean(), 0.2)
+        drawn = (picture < 200).any(axis=2)
+        for panel in np.array_split(drawn, 2, axis=1):
+            self.assertGreater(panel.mean(), 0.2)
 
 
 class MissingLibraries(ProgramTest):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/global_order.h>
 #include <morula/particles/surface_refinement.h>
 
 #include <deal.II/base/mpi.h>
@@ -86,21 +87,6 @@ namespace Morula
               "Tissue/Refine surface = false";
       throw SurfaceTorn(Utilities::MPI::broadcast(comm, text.str(), rank));
     }
-
-    /** Position of each of this rank's @p ids among those of all ranks. */
-    std::vector<types::particle_index>
-    ranks_of(const std::vector<types::particle_index> &ids, const MPI_Comm comm)
-    {
-      std::vector<types::particle_index> all;
-      for (const auto &part : Utilities::MPI::all_gather(comm, ids))
-        all.insert(all.end(), part.begin(), part.end());
-      std::sort(all.begin(), all.end());
-      std::vector<types::particle_index> places;
-      for (const types::particle_index id : ids)
-        places.push_back(std::lower_bound(all.begin(), all.end(), id) -
-                         all.begin());
-      return places;
-    }
   } // namespace
 
 
@@ -130,11 +116,10 @@ namespace Morula
               split.push_back(i);
               ids.push_back(points.ids[i]);
             }
-        const auto n = Utilities::MPI::sum<std::uint64_t>(split.size(), comm);
-        if (n == 0)
+        const GlobalOrder order = global_order(ids, comm);
+        if (order.n_keys == 0)
           return any;
 
-        const auto places = ranks_of(ids, comm);
         for (std::size_t s = 0; s < split.size(); ++s)
           {
             const std::size_t    i       = split[s];
@@ -144,14 +129,14 @@ namespace Morula
             const std::vector<double> row(points.row(i).begin(),
                                           points.row(i).end());
             leave.push_back(false);
-            points.add(next_id + places[s],
+            points.add(next_id + order.places[s],
                        points.positions[i] + quarter,
                        make_array_view(row));
             points.positions[i] -= quarter;
             view(i).halve(k, -1.);
             view(points.size() - 1).halve(k, 1.);
           }
-        next_id += n;
+        next_id += order.n_keys;
       }
   }
 

@@ -8,17 +8,32 @@
 
 #include <mpi.h>
 
+#include <tuple>
 #include <vector>
 
 namespace Morula
 {
   using namespace dealii;
 
-  /** When which cell divides. */
+  /** When which cell divides; ordered by time, then by the mother's id. */
   struct DivisionEvent
   {
     double                time;   // day, exact
     types::particle_index mother; // id
+
+    friend bool
+    operator<(const DivisionEvent &a, const DivisionEvent &b)
+    {
+      return std::tie(a.time, a.mother) < std::tie(b.time, b.mother);
+    }
+
+    /** For messages: deal.II wants it of every type, and copies the bytes. */
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &mother;
+    }
   };
 
   /**

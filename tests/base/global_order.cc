@@ -1,0 +1,168 @@
+// ranks: 1 2 4
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/global_order.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace Morula;
+
+namespace
+{
+  using namespace dealii;
+
+  const MPI_Comm comm = MPI_COMM_WORLD;
+
+  struct Event
+  {
+    double       time;
+    unsigned int id;
+
+    friend bool
+    operator<(const Event &a, const Event &b)
+    {
+      return a.time < b.time || (a.time == b.time && a.id < b.id);
+    }
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &id;
+    }
+  };
+
+  unsigned int
+  rank()
+  {
+    return Utilities::MPI::this_mpi_process(comm);
+  }
+
+  /** Compares with the order of all keys, gathered and sorted. */
+  template <typename Key>
+  void
+  expect_as_gathered(const std::vector<Key> &keys)
+  {
+    std::vector<Key> all;
+    for (const auto &part : Utilities::MPI::all_gather(comm, keys))
+      all.insert(all.end(), part.begin(), part.end());
+    std::stable_sort(all.begin(), all.end());
+
+    const GlobalOrder order = global_order(keys, comm);
+    EXPECT_EQ(order.n_keys, all.size());
+    ASSERT_EQ(order.places.size(), keys.size());
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      {
+        std::uint64_t n_smaller = 0;
+        while (n_smaller < all.size() && all[n_smaller] < keys[k])
+          ++n_smaller;
+        EXPECT_EQ(order.places[k], n_smaller) << "key " << k;
+      }
+  }
+
+  /** Times of which many are equal, unless @p n_times is large. */
+  std::vector<Event>
+  random_events(const unsigned int n, const unsigned int n_times)
+  {
+    std::mt19937       generator(5 + rank());
+    std::vector<Event> events;
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    for (unsigned int i = 0; i < n; ++i)
+      events.push_back({(generator() % n_times) / 7., i * n_ranks + rank()});
+    std::shuffle(events.begin(), events.end(), generator);
+    return events;
+  }
+} // namespace
+
+
+TEST(GlobalOrder, NoKeys)
+{
+  expect_as_gathered<unsigned int>({});
+}
+
+
+TEST(GlobalOrder, FewKeys)
+{
+  for (const unsigned int n : {1u, 2u, 31u, 32u})
+    expect_as_gathered(random_events(n, 5));
+}
+
+
+TEST(GlobalOrder, ManyKeys)
+{
+  for (const unsigned int n : {33u, 100u, 1500u})
+    expect_as_gathered(random_events(n, 1000000));
+}
+
+
+TEST(GlobalOrder, EqualTimes)
+{
+  expect_as_gathered(random_events(700, 1));
+  expect_as_gathered(random_events(700, 4));
+}
+
+
+TEST(GlobalOrder, EqualKeys)
+{
+  expect_as_gathered(std::vector<unsigned int>(300, 8));
+  std::vector<unsigned int> keys;
+  for (unsigned int i = 0; i < 300; ++i)
+    keys.push_back(i % 3);
+  expect_as_gathered(keys);
+}
+
+
+TEST(GlobalOrder, SomeRanksHaveNone)
+{
+  for (const unsigned int n : {3u, 500u})
+    {
+      expect_as_gathered(rank() == 0 ? random_events(n, 50) :
+                                       std::vector<Event>());
+      expect_as_gathered(rank() == 1 ? random_events(n, 50) :
+                                       std::vector<Event>());
+      expect_as_gathered(rank() == 3 ? random_events(n, 50) :
+                                       random_events(n / 100, 50));
+    }
+}
+
+
+// Ranks' keys that do not mix, in falling order.
+TEST(GlobalOrder, SeparateKeys)
+{
+  std::vector<double> keys;
+  for (unsigned int i = 0; i < 400; ++i)
+    keys.push_back(std::sqrt(400. - i) - 1000. * rank());
+  expect_as_gathered(keys);
+}
+
+
+// Whichever ranks have most, the parts that are ordered are about equal.
+TEST(GlobalOrder, EvenParts)
+{
+  const unsigned int                     n_ranks = 4;
+  std::vector<std::vector<unsigned int>> samples;
+  std::vector<std::uint64_t>             n_keys;
+  std::vector<unsigned int>              all;
+  for (unsigned int r = 0; r < n_ranks; ++r)
+    {
+      std::vector<unsigned int> keys;
+      for (unsigned int i = 0; i < 1000 * (1 + r * r); ++i)
+        keys.push_back(r % 2 == 0 ? i : i * i % 50021);
+      std::sort(keys.begin(), keys.end());
+      samples.push_back(Implementation::samples_of(keys));
+      n_keys.push_back(keys.size());
+      all.insert(all.end(), keys.begin(), keys.end());
+    }
+  const auto limits = Implementation::splitters(samples, n_keys);
+  ASSERT_EQ(limits.size(), n_ranks - 1);
+  std::vector<double> sizes(n_ranks, 0.);
+  for (const unsigned int key : all)
+    ++sizes[std::upper_bound(limits.begin(), limits.end(), key) -
+            limits.begin()];
+  for (const double size : sizes)
+    EXPECT_NEAR(size / all.size(), 0.25, 0.03);
+}

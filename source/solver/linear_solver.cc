@@ -22,7 +22,7 @@ namespace Morula
     /** A matrix and what it lacks. */
     struct Sum
     {
-      const Matrix               &K;
+      const HaloProduct          &K;
       const Equilibrium::RankOne *rank_one;
 
       void
@@ -90,6 +90,8 @@ namespace Morula
         prepared = true;
       }
     const TimerOutput::Scope section(timer, "linear solver");
+    if (!is_direct && !(product && product->is_of(K)))
+      product.emplace(K);
     try
       {
         if (is_direct)
@@ -129,7 +131,10 @@ namespace Morula
     double shift = 0., needed = 0.;
     while (shift < Shifts::last)
       {
-        const ShiftedSystem system{K, problem.null_space, shift, rank_one};
+        const ShiftedSystem system{*product,
+                                   problem.null_space,
+                                   shift,
+                                   rank_one};
         const auto          iterate = [&](const auto &P) {
           return conjugate_gradients(
             system, P, x, b, tolerance, max_iterations, iterations, needed);
@@ -139,7 +144,7 @@ namespace Morula
         const CgOutcome outcome =
           factorisation != nullptr ?
             iterate(*factorisation) :
-            iterate(jacobi_preconditioner(diagonal_magnitude(K, b), shift));
+            iterate(Jacobi(diagonal_magnitude(K, b), shift));
         largest_shift_ = std::max(largest_shift_, shift);
         has_shifted_   = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)
@@ -176,7 +181,7 @@ namespace Morula
     x = 0.;
     try
       {
-        const Sum            sum{K, rank_one};
+        const Sum            sum{*product, rank_one};
         const Projected<Sum> A{sum, problem.null_space};
         const auto           iterate = [&](const auto &P) {
           const Projected<std::decay_t<decltype(P)>> projected{
@@ -186,7 +191,7 @@ namespace Morula
         if (preconditioner.factorisation() != nullptr)
           iterate(*preconditioner.factorisation());
         else
-          iterate(jacobi_preconditioner(diagonal_magnitude(K, b), 0.));
+          iterate(Jacobi(diagonal_magnitude(K, b), 0.));
         remove_parts(x, problem.null_space);
       }
     catch (const SolverControl::NoConvergence &)

@@ -3,6 +3,9 @@
 
 #include <morula/solver/overlapping_cholesky.h>
 
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -18,12 +21,11 @@ namespace Morula
     }
 
     Epetra_Map
-    map_of(const std::vector<const IndexSet *> &parts, const Epetra_Comm &comm)
+    map_of(const IndexSet &set, const Epetra_Comm &comm)
     {
       std::vector<int> rows;
-      for (const IndexSet *const part : parts)
-        for (const auto row : *part)
-          rows.push_back(static_cast<int>(row));
+      for (const auto row : set)
+        rows.push_back(static_cast<int>(row));
       return Epetra_Map(-1, rows.size(), rows.data(), 0, comm);
     }
 
@@ -53,15 +55,14 @@ namespace Morula
                                            const Parameters  &parameters)
     : own(K.locally_owned_range_indices())
     , others(difference(others, own))
-    , rows(map_of({&own, &this->others}, K.trilinos_matrix().Comm()))
-    , import(rows, K.trilinos_matrix().RowMap())
-    , gathered(rows)
+    , gathered(own.n_elements() + this->others.n_elements())
   {
     const Epetra_CrsMatrix &epetra = K.trilinos_matrix();
-    const Epetra_Map        map    = map_of({&this->others}, epetra.Comm());
+    const Epetra_Map        map    = map_of(this->others, epetra.Comm());
     Epetra_CrsMatrix        received(Copy, map, 0);
     if (epetra.Comm().NumProc() > 1)
       {
+        halo.emplace(own, this->others, K.get_mpi_communicator());
         const int error =
           received.Import(epetra, Epetra_Import(map, epetra.RowMap()), Insert);
         AssertThrow(error == 0, ExcTrilinosError(error));
@@ -96,7 +97,10 @@ namespace Morula
       if (is_own)
         K.ExtractMyRowView(row, length, entries, ids);
       else
-        received.ExtractGlobalRowView(rows.GID(row), length, entries, ids);
+        received.ExtractGlobalRowView(others.nth_index_in_set(row - n_own),
+                                      length,
+                                      entries,
+                                      ids);
       for (int k = 0; k < length; ++k)
         {
           const int column = is_own ? numbers[ids[k]] : number_of(ids[k]);
@@ -107,8 +111,7 @@ namespace Morula
             }
         }
     };
-    factor =
-      make_factor(n_components, rows.NumMyElements(), row_of, parameters);
+    factor = make_factor(n_components, gathered.size(), row_of, parameters);
   }
 
   bool
@@ -120,15 +123,18 @@ namespace Morula
   void
   OverlappingCholesky::vmult(Vector &y, const Vector &x) const
   {
-    if (rows.Comm().NumProc() == 1)
+    if (!halo)
       {
         y = x;
         factor->solve(y.trilinos_vector()[0]);
         return;
       }
-    gathered.Import(x.trilinos_vector(), import, Insert);
-    factor->solve(gathered.Values());
-    y.trilinos_vector().PutScalar(0.);
-    y.trilinos_vector().Export(gathered, import, Add);
+    const std::size_t n_own  = own.n_elements();
+    double *const     result = y.trilinos_vector()[0];
+    std::copy_n(x.begin(), n_own, gathered.begin());
+    halo->fetch(gathered.data(), gathered.data() + n_own);
+    factor->solve(gathered.data());
+    std::copy_n(gathered.begin(), n_own, result);
+    halo->add_back(gathered.data() + n_own, result);
   }
 } // namespace Morula

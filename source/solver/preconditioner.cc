@@ -89,17 +89,21 @@ namespace Morula
     return diagonal;
   }
 
-  DiagonalMatrix<Equilibrium::Vector>
-  jacobi_preconditioner(const Equilibrium::Vector &magnitude,
-                        const double               shift)
+  Jacobi::Jacobi(const Vector &magnitude, const double shift)
+    : inverse(magnitude)
   {
-    Equilibrium::Vector inverse(magnitude);
     for (const auto row : inverse.locally_owned_elements())
       inverse(row) =
         magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
     inverse.compress(VectorOperation::insert);
-    DiagonalMatrix<Equilibrium::Vector> result;
-    result.reinit(inverse);
-    return result;
+  }
+
+  void
+  Jacobi::vmult(Vector &y, const Vector &x) const
+  {
+    y.trilinos_vector().Multiply(1.,
+                                 inverse.trilinos_vector(),
+                                 x.trilinos_vector(),
+                                 0.);
   }
 } // namespace Morula

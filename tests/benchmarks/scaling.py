@@ -10,7 +10,7 @@ ROWS = ("preconditioner", "linear solver", "sparsity pattern")
 # What the model takes a cluster to be.
 LATENCY = 2e-6       # s, of a message
 BANDWIDTH = 1e10     # bytes a second and rank
-MESSAGES = 3         # reductions of a CG iteration
+MESSAGES = 1         # reductions of a CG iteration
 OVERLAP = 3          # splines for each one along a block's rim at the surface
 
 

@@ -155,8 +155,14 @@ namespace
     const std::vector<Equilibrium::Vector> none;
     unsigned int                           n      = 0;
     double                                 needed = 0.;
-    EXPECT_EQ(conjugate_gradients(
-                ShiftedSystem{K, none, 0.}, P, x, b, 1e-6, 1000, n, needed),
+    EXPECT_EQ(conjugate_gradients(ShiftedSystem{HaloProduct(K), none, 0.},
+                                  P,
+                                  x,
+                                  b,
+                                  1e-6,
+                                  1000,
+                                  n,
+                                  needed),
               CgOutcome::converged);
     return n;
   }

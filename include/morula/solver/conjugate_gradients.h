@@ -4,57 +4,28 @@
 #ifndef morula_solver_conjugate_gradients_h
 #define morula_solver_conjugate_gradients_h
 
-#include <morula/solver/null_space.h>
-#include <morula/solver/preconditioner.h>
+#include <morula/solver/one_reduction.h>
+#include <morula/solver/shifted_system.h>
 
 namespace Morula
 {
-  /** How conjugate gradients have ended. */
-  enum class CgOutcome
-  {
-    converged,
-    negative_curvature,
-    indefinite_preconditioner,
-    stalled // more than the iterations allowed
-  };
-
-  /** The system (K + σ |diag K|) x = b, in the space orthogonal to a null
-   *  space. */
-  struct ShiftedSystem
-  {
-    const Equilibrium::Matrix              &K;
-    const std::vector<Equilibrium::Vector> &null_space;
-    double                                  shift; // σ
-    /** What K lacks, or null. */
-    const Equilibrium::RankOne *rank_one = nullptr;
-  };
-
-  /**
-   * Preconditioned conjugate gradients that stop where they meet negative
-   * curvature. deal.II's SolverCG and Trilinos' AztecOO and Belos do not look
-   * at the curvature: they iterate on for thousands of steps on an indefinite
-   * tangent, or return one along which the energy rises.
-   * @param tolerance of the residual, relative to |b|
-   * @param iterations in/out: this solve's are added
-   * @param needed out: on negative curvature the σ with which that direction
-   *        would have had none
-   */
+  /** The plain form of conjugate_gradients(). */
   template <typename Preconditioner>
   CgOutcome
-  conjugate_gradients(const ShiftedSystem       &system,
-                      const Preconditioner      &P,
-                      Equilibrium::Vector       &x,
-                      const Equilibrium::Vector &b,
-                      const double               tolerance,
-                      const unsigned int         max_iterations,
-                      unsigned int              &iterations,
-                      double                    &needed)
+  plain_conjugate_gradients(const ShiftedSystem       &system,
+                            const Preconditioner      &P,
+                            Equilibrium::Vector       &x,
+                            const Equilibrium::Vector &b,
+                            const double               tolerance,
+                            const unsigned int         max_iterations,
+                            unsigned int              &iterations,
+                            double                    &needed)
   {
     using Vector = Equilibrium::Vector;
     Vector r(b), z(b), p(b), Kp(b), shifted(b), diagonal;
     // Hardly any system is shifted, and the search for the entries takes time.
     if (system.shift > 0.)
-      diagonal = diagonal_magnitude(system.K, b);
+      diagonal = diagonal_magnitude(system.K.matrix(), b);
     x = 0.;
     remove_parts(r, system.null_space);
     P.vmult(z, r);
@@ -80,7 +51,7 @@ namespace Morula
         if (!(curvature > 0.))
           {
             shifted = p;
-            shifted.scale(diagonal_magnitude(system.K, b));
+            shifted.scale(diagonal_magnitude(system.K.matrix(), b));
             needed = system.shift - curvature / (p * shifted);
             return CgOutcome::negative_curvature;
           }
@@ -96,6 +67,43 @@ namespace Morula
         rz = rz_new;
       }
     return CgOutcome::stalled;
+  }
+
+  /**
+   * Preconditioned conjugate gradients that stop where they meet negative
+   * curvature. deal.II's SolverCG and Trilinos' AztecOO and Belos do not look
+   * at the curvature: they iterate on for thousands of steps on an indefinite
+   * tangent, or return one along which the energy rises.
+   *
+   * On one rank, where a reduction costs nothing, this is the plain form: the
+   * curvature is that of the product with p itself.
+   * @param tolerance of the residual, relative to |b|
+   * @param iterations in/out: this solve's are added
+   * @param needed out: on negative curvature the σ with which that direction
+   *        would have had none
+   */
+  template <typename Preconditioner>
+  CgOutcome
+  conjugate_gradients(const ShiftedSystem       &system,
+                      const Preconditioner      &P,
+                      Equilibrium::Vector       &x,
+                      const Equilibrium::Vector &b,
+                      const double               tolerance,
+                      const unsigned int         max_iterations,
+                      unsigned int              &iterations,
+                      double                    &needed)
+  {
+    const bool alone =
+      Utilities::MPI::n_mpi_processes(b.get_mpi_communicator()) == 1;
+    return (alone ? plain_conjugate_gradients<Preconditioner> :
+                    one_reduction_an_iteration<Preconditioner>)(system,
+                                                                P,
+                                                                x,
+                                                                b,
+                                                                tolerance,
+                                                                max_iterations,
+                                                                iterations,
+                                                                needed);
   }
 } // namespace Morula
 

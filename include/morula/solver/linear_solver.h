@@ -6,10 +6,13 @@
 
 #include <morula/mechanics/equilibrium.h>
 #include <morula/solver/direct_solver.h>
+#include <morula/solver/halo_product.h>
 #include <morula/solver/preconditioner.h>
 #include <morula/solver/solver_parameters.h>
 
 #include <deal.II/base/timer.h>
+
+#include <optional>
 
 namespace Morula
 {
@@ -89,15 +92,16 @@ namespace Morula
                       unsigned int               &iterations,
                       const Equilibrium::RankOne *rank_one);
 
-    const bool           is_direct;
-    const bool           automatic;
-    const LinearProblem &problem;
-    TimerOutput         &timer;
-    Preconditioner       preconditioner;
-    DirectSolver         direct;
-    double               largest_shift_ = 0.;
-    bool                 has_shifted_   = false;
-    bool                 prepared       = false; // one was asked for
+    const bool                 is_direct;
+    const bool                 automatic;
+    const LinearProblem       &problem;
+    TimerOutput               &timer;
+    Preconditioner             preconditioner;
+    DirectSolver               direct;
+    std::optional<HaloProduct> product; // of the last matrix
+    double                     largest_shift_ = 0.;
+    bool                       has_shifted_   = false;
+    bool                       prepared       = false; // one was asked for
   };
 } // namespace Morula
 

@@ -5,16 +5,17 @@
 #define morula_solver_overlapping_cholesky_h
 
 #include <morula/solver/block_cholesky.h>
+#include <morula/solver/halo.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <Epetra_CrsMatrix.h>
-#include <Epetra_Import.h>
-#include <Epetra_Vector.h>
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace Morula
 {
@@ -52,7 +53,7 @@ namespace Morula
     bool
     is_positive() const;
 
-    /** Collective. */
+    /** Neighbours have to do the same. */
     void
     vmult(Vector &y, const Vector &x) const;
 
@@ -65,10 +66,9 @@ namespace Morula
 
     const IndexSet                      own;
     const IndexSet                      others; // without the own ones
-    Epetra_Map                          rows;   // of this rank's block
-    Epetra_Import                       import;
+    std::optional<Halo>                 halo;   // not on one rank
     std::unique_ptr<IncompleteCholesky> factor;
-    mutable Epetra_Vector               gathered;
+    mutable std::vector<double>         gathered; // of the block
   };
 } // namespace Morula
 

@@ -7,8 +7,6 @@
 #include <morula/mechanics/equilibrium.h>
 #include <morula/solver/overlapping_cholesky.h>
 
-#include <deal.II/lac/diagonal_matrix.h>
-
 #include <memory>
 
 namespace Morula
@@ -50,10 +48,23 @@ namespace Morula
                      const Equilibrium::Vector &like);
 
   /** Jacobi's preconditioner of K + σ |diag K|: the inverse of
-   *  (1 + σ) |diag K|; always positive. */
-  DiagonalMatrix<Equilibrium::Vector>
-  jacobi_preconditioner(const Equilibrium::Vector &magnitude,
-                        const double               shift);
+   *  (1 + σ) |diag K|; always positive. deal.II's DiagonalMatrix assigns a
+   *  vector in each product, for which Epetra compares maps by a reduction. */
+  class Jacobi
+  {
+  public:
+    using Vector = Equilibrium::Vector;
+
+    /** @param magnitude |diag K| */
+    Jacobi(const Vector &magnitude, const double shift);
+
+    /** No communication. */
+    void
+    vmult(Vector &y, const Vector &x) const;
+
+  private:
+    Vector inverse;
+  };
 } // namespace Morula
 
 #endif

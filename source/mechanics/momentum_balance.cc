@@ -356,7 +356,7 @@ namespace Morula
         return term->is_conservative();
       });
     result.null_space       = std::move(null_space);
-    result.strongly_coupled = assembly.unknowns().of_extended_splines();
+    result.strongly_coupled = assembly.unknowns().relevant();
     result.n_components     = dim;
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);

@@ -95,9 +95,9 @@ namespace Morula
      * to them.
      */
     std::vector<Equilibrium::Vector> null_space;
-    /** Unknowns, of this rank or others, that extended splines in this rank's
-     *  part of the problem couple strongly. The preconditioner keeps them in
-     *  one block. */
+    /** Unknowns, of this rank or others, that this rank's part of the problem
+     *  couples strongly, such as those that extended splines depend on. The
+     *  preconditioner keeps them in one block. */
     IndexSet strongly_coupled;
     /** Unknowns of a spline: they follow each other, on the same rank. */
     unsigned int n_components = 1;

@@ -70,6 +70,23 @@ namespace Morula
   }
 
   void
+  PosixFile::write_at(std::string_view text, std::uint64_t offset)
+  {
+    while (!text.empty())
+      {
+        const ssize_t n =
+          ::pwrite(descriptor, text.data(), text.size(), offset);
+        if (n >= 0)
+          {
+            text.remove_prefix(n);
+            offset += n;
+          }
+        else if (errno != EINTR)
+          fail("write");
+      }
+  }
+
+  void
   PosixFile::reserve(const std::size_t size)
   {
     errno = ::posix_fallocate(descriptor, 0, size);

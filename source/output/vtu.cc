@@ -202,6 +202,10 @@ namespace Morula
         }
     }
 
+    const std::string end_of_array = "\n</DataArray>\n";
+    const std::string end_of_piece = "</PointData>\n</Piece>\n";
+    const std::string end_of_file  = "</UnstructuredGrid>\n</VTKFile>\n";
+
     /** The arrays of a group as they stand in this rank's piece. */
     template <int dim>
     std::string
@@ -220,7 +224,7 @@ namespace Morula
           const std::size_t size = array.n_bytes(fields.size());
           text += array.tag();
           append_base64(data.data() + begin, size, text);
-          text += "\n</DataArray>\n";
+          text += end_of_array;
           begin += size;
         }
       return text;
@@ -256,49 +260,129 @@ namespace Morula
       return "<Piece NumberOfPoints=\"" + n + "\" NumberOfCells=\"" + n +
              "\">\n<Points>\n";
     }
+
+    /** Size of a rank's piece. */
+    std::uint64_t
+    n_bytes(const std::vector<Group> &groups, const std::uint64_t n_points)
+    {
+      std::uint64_t size = end_of_piece.size();
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        {
+          size += before(g, n_points).size();
+          for (const Array &array : groups[g])
+            size += array.tag().size() + (array.n_bytes(n_points) + 2) / 3 * 4 +
+                    end_of_array.size();
+        }
+      return size;
+    }
+
+    /** A group of this rank's piece, and the end of the piece behind the last
+     *  one. */
+    template <int dim>
+    std::string
+    part_of_piece(const PointFields<dim>   &fields,
+                  const std::vector<Group> &groups,
+                  const std::size_t         g)
+    {
+      return before(g, fields.size()) + elements(fields, groups, g) +
+             (g + 1 == groups.size() ? end_of_piece : "");
+    }
+
+    /** All ranks write, each its piece. @p ends of the pieces */
+    template <int dim>
+    void
+    write_together(SharedFile                       &file,
+                   const std::string                &beginning,
+                   const PointFields<dim>           &fields,
+                   const std::vector<Group>         &groups,
+                   const std::vector<std::uint64_t> &ends,
+                   const MPI_Comm                    comm)
+    {
+      const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+      everywhere(comm, [&]() {
+        std::uint64_t offset = rank == 0 ? beginning.size() : ends[rank - 1];
+        if (rank == 0)
+          file.write(beginning, 0);
+        for (std::size_t g = 0; g < groups.size(); ++g)
+          {
+            const std::string text = part_of_piece(fields, groups, g);
+            file.write(text, offset);
+            offset += text.size();
+          }
+        AssertThrow(offset == ends[rank], ExcInternalError());
+        if (rank + 1 == ends.size())
+          file.write(end_of_file, offset);
+      });
+      file.commit();
+    }
+
+    /** Rank 0 writes what it gets from the others, one group of one rank after
+     *  the other: as little as possible is in memory. */
+    template <int dim>
+    void
+    write_gathered(const std::string        &path,
+                   const std::string        &beginning,
+                   const PointFields<dim>   &fields,
+                   const std::vector<Group> &groups,
+                   const MPI_Comm            comm)
+    {
+      const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+      std::optional<AtomicFile> file; // on rank 0
+      on_root(comm, [&]() {
+        file.emplace(path);
+        file->write(beginning);
+      });
+      for (unsigned int piece = 0;
+           piece < Utilities::MPI::n_mpi_processes(comm);
+           ++piece)
+        for (std::size_t g = 0; g < groups.size(); ++g)
+          {
+            const std::vector<std::string> texts =
+              gather_to_root(piece == rank ? part_of_piece(fields, groups, g) :
+                                             std::string(),
+                             comm);
+            on_root(comm, [&]() { file->write(texts[piece]); });
+          }
+      on_root(comm, [&]() {
+        file->write(end_of_file);
+        file->commit();
+      });
+    }
   } // namespace
 
   // deal.II writes such files as well, but compressed: output then takes five
   // times as long, a third of a whole run of Fig. 4b (doc/performance.md, Five
   // days of Fig. 4b). VTK can append raw data, which are a quarter smaller, but
   // such a file is not XML: the ParaView of Debian 12 fails on them, and on
-  // appended base64 as well. Rank 0 writes: when the disk is full, MPI I/O
-  // fails on some ranks only, and the others wait for them for ever.
+  // appended base64 as well.
   template <int dim>
   void
   write_vtu(const std::string      &path,
             const PointFields<dim> &fields,
             const double            time,
             const unsigned int      number,
-            const MPI_Comm          comm)
+            const MPI_Comm          comm,
+            const std::uint64_t     shared_from)
   {
-    const unsigned int        rank    = Utilities::MPI::this_mpi_process(comm);
-    const unsigned int        n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const std::vector<Group>  groups  = groups_of(fields);
-    std::optional<AtomicFile> file; // on rank 0
-    on_root(comm, [&]() {
-      file.emplace(path);
-      file->write(head(time, number));
-    });
-    for (unsigned int piece = 0; piece < n_ranks; ++piece)
-      for (std::size_t g = 0; g < groups.size(); ++g)
-        {
-          // one rank after the other: as little as possible is in memory
-          const std::vector<std::string> texts =
-            gather_to_root(piece == rank ? before(g, fields.size()) +
-                                             elements(fields, groups, g) :
-                                           std::string(),
-                           comm);
-          on_root(comm, [&]() {
-            file->write(texts[piece]);
-            if (g + 1 == groups.size())
-              file->write("</PointData>\n</Piece>\n");
-          });
-        }
-    on_root(comm, [&]() {
-      file->write("</UnstructuredGrid>\n</VTKFile>\n");
-      file->commit();
-    });
+    const std::vector<Group>   groups    = groups_of(fields);
+    const std::string          beginning = head(time, number);
+    std::vector<std::uint64_t> ends;
+    std::uint64_t              end = beginning.size();
+    for (const std::uint64_t n_points :
+         Utilities::MPI::all_gather(comm, std::uint64_t(fields.size())))
+      ends.push_back(end += n_bytes(groups, n_points));
+
+    const std::uint64_t size = end + end_of_file.size();
+    if (ends.size() > 1 && size >= shared_from)
+      {
+        SharedFile file(path, size, comm);
+        if (file.is_shared())
+          {
+            write_together(file, beginning, fields, groups, ends, comm);
+            return;
+          }
+      }
+    write_gathered(path, beginning, fields, groups, comm);
   }
 
   void
@@ -325,11 +409,13 @@ namespace Morula
                const PointFields<2> &,
                const double,
                const unsigned int,
-               const MPI_Comm);
+               const MPI_Comm,
+               const std::uint64_t);
   template void
   write_vtu<3>(const std::string &,
                const PointFields<3> &,
                const double,
                const unsigned int,
-               const MPI_Comm);
+               const MPI_Comm,
+               const std::uint64_t);
 } // namespace Morula

@@ -32,7 +32,7 @@ namespace
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &time &id;
+      archive & time & id;
     }
   };
 

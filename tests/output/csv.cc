@@ -126,3 +126,23 @@ TEST(Csv, LeavesTheOldFileWhenTheDiskIsFull)
   EXPECT_EQ(content(path), "id,third\n0,0\n");
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a.csv"});
 }
+
+
+// All ranks together write what rank 0 alone would.
+TEST(Csv, IsTheSameWrittenTogether)
+{
+  const ScratchDirectory directory;
+  for (const int n : {0, 1, 7, 500})
+    {
+      const auto        fields   = dealt_points(n);
+      const std::string gathered = directory / "gathered.csv";
+      const std::string together = directory / "together.csv";
+      write_csv(gathered, fields, MPI_COMM_WORLD, ~std::uint64_t(0));
+      write_csv(together, fields, MPI_COMM_WORLD, 0);
+      EXPECT_GE(content(gathered).size(), 9u + 4u * n);
+      EXPECT_EQ(content(together), content(gathered));
+      EXPECT_EQ(directory.files(),
+                (std::vector<std::string>{"gathered.csv", "together.csv"}));
+      MPI_Barrier(MPI_COMM_WORLD); // before they are written again
+    }
+}

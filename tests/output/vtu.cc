@@ -10,6 +10,8 @@
 
 #include <cstdlib>
 #include <map>
+#include <optional>
+#include <stdexcept>
 
 #include "output/scratch_directory.h"
 
@@ -215,4 +217,64 @@ TEST(Pvd, ListsTheFilesThatExist)
   EXPECT_EQ(entries[0].second, "cells-0000.vtu");
   EXPECT_NEAR(entries[1].first, 1. / 3., 1e-11);
   EXPECT_EQ(entries[1].second, "cells-0002.vtu");
+}
+
+
+// All ranks together write what rank 0 alone would.
+TEST(Vtu, IsTheSameWrittenTogether)
+{
+  const ScratchDirectory directory;
+  for (const unsigned int n : {0u, 1u, 7u, 500u})
+    {
+      const auto fields = dealt_points<3>(n);
+      const auto write  = [&](const std::string  &name,
+                             const std::uint64_t shared_from) {
+        const std::string path = directory / name;
+        write_vtu(path, fields, 0.5, 2, MPI_COMM_WORLD, shared_from);
+        return content(path);
+      };
+      const std::string gathered = write("gathered.vtu", ~std::uint64_t(0));
+      EXPECT_GT(gathered.size(), 1000u);
+      EXPECT_EQ(write("together.vtu", 0), gathered);
+      EXPECT_EQ(directory.files(),
+                (std::vector<std::string>{"gathered.vtu", "together.vtu"}));
+      MPI_Barrier(MPI_COMM_WORLD); // before it is written again
+    }
+}
+
+
+// Nothing is left where no file can be made, and the old one stays.
+TEST(Vtu, FailsTogether)
+{
+  const ScratchDirectory directory;
+  EXPECT_THROW(write_vtu(directory / "missing/cells.vtu",
+                         dealt_points<3>(7),
+                         0.5,
+                         2,
+                         MPI_COMM_WORLD,
+                         0),
+               std::runtime_error);
+  EXPECT_EQ(directory.files(), std::vector<std::string>());
+}
+
+
+// A disk that is full for the last rank alone, after all room was reserved.
+TEST(Vtu, FailsTogetherWhereOneRankCannotWrite)
+{
+  const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n    = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const ScratchDirectory directory;
+  const std::string      path = directory / "cells.vtu";
+  on_root(MPI_COMM_WORLD, [&]() { write(path, "as it was"); });
+  {
+    std::optional<FullDisk> full;
+    if (rank + 1 == n)
+      full.emplace(1000);
+    EXPECT_THROW(
+      write_vtu(path, dealt_points<3>(500), 0.5, 2, MPI_COMM_WORLD, 0),
+      std::runtime_error);
+  }
+  MPI_Barrier(MPI_COMM_WORLD); // rank 0 has removed what there was
+  EXPECT_EQ(directory.files(), std::vector<std::string>{"cells.vtu"});
+  EXPECT_EQ(content(path), "as it was");
 }

@@ -5,9 +5,11 @@
 #define morula_output_csv_h
 
 #include <morula/output/point_fields.h>
+#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <string>
 
 namespace Morula
@@ -16,13 +18,16 @@ namespace Morula
    * Writes one CSV file for all ranks: a header, then the rows in the order of
    * their ids, so that the file is equal for any number of ranks. The file
    * appears when it is complete. Collective.
+   * @param shared_from size of a file, bytes, from which on all ranks write it
+   *        together if the file system allows that; else rank 0 does
    * @throws std::runtime_error, on all ranks, with path and reason
    */
   template <int dim>
   void
   write_csv(const std::string      &path,
             const PointFields<dim> &fields,
-            const MPI_Comm          comm);
+            const MPI_Comm          comm,
+            const std::uint64_t     shared_from = SharedFile::worth_while);
 } // namespace Morula
 
 #endif

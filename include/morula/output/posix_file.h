@@ -5,6 +5,7 @@
 #define morula_output_posix_file_h
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,10 @@ namespace Morula
     /** Adds @p text at the end. */
     void
     write(std::string_view text);
+
+    /** Puts @p text in the file's place from byte @p offset on. */
+    void
+    write_at(std::string_view text, std::uint64_t offset);
 
     /** Reserves @p size bytes on the disk, where the file system can do that,
      *  so that a full disk is noticed now. */

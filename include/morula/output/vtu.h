@@ -5,9 +5,11 @@
 #define morula_output_vtu_h
 
 #include <morula/output/point_fields.h>
+#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,9 @@ namespace Morula
    * complete. Collective.
    * @param time   day, for ParaView's annotation
    * @param number of the file in its series
+   * @param shared_from size of a file, bytes, from which on all ranks write it
+   *        together if the file system allows that; else rank 0 does, group by
+   *        group of columns. The file is the same.
    * @throws std::runtime_error, on all ranks, with path and reason
    */
   template <int dim>
@@ -29,7 +34,8 @@ namespace Morula
             const PointFields<dim> &fields,
             const double            time,
             const unsigned int      number,
-            const MPI_Comm          comm);
+            const MPI_Comm          comm,
+            const std::uint64_t     shared_from = SharedFile::worth_while);
 
   /**
    * Writes the ParaView record of a series: times (day) and file names relative

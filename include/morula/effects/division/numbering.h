@@ -32,7 +32,7 @@ namespace Morula
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &time &mother;
+      archive & time & mother;
     }
   };
 

@@ -39,8 +39,7 @@ namespace Morula
         // The first direction at least 2/3 as long as the longest. Bodies are
         // mostly held and loaded along their last direction; a cut across an
         // earlier one gives each half a part of what is held and loaded.
-        const int    longest = *std::max_element(n.begin(), n.end());
-        unsigned int split   = 0;
+        const int longest = *std::max_element(n.begin(), n.end());
         while (3 * n[split] < 2 * longest)
           ++split;
         repetitions[split] = 2;
@@ -60,6 +59,7 @@ namespace Morula
           }
       }
 
+      unsigned int              split         = 0; // the direction of both
       int                       n_refinements = 0;
       std::vector<unsigned int> repetitions;
       GridIndex<dim>            first, end;
@@ -131,7 +131,7 @@ namespace Morula
   {
     box_ = GridBox<dim>(first, n, h, offset);
     const CoarseCells<dim> coarse(box_);
-    grid_cells.clear();
+    owned.clear(); // its iterators refer to the triangulation
     tria.clear();
     GridGenerator::subdivided_hyper_rectangle(tria,
                                               coarse.repetitions,
@@ -144,52 +144,81 @@ namespace Morula
             grid_cell->set_refine_flag();
         tria.execute_coarsening_and_refinement();
       }
-    weights_.assign(box_.size(), 1);
-    tabulate();
+    weights_.clear();
+    total_weight_ = 0.;
+    find_owners();
   }
 
   template <int dim>
   void
-  BackgroundGrid<dim>::partition(const std::vector<unsigned int> &weights)
+  BackgroundGrid<dim>::partition(const GridCellCounts &weights)
   {
-    AssertDimension(weights.size(), box_.size());
-    weights_ = weights;
+    weights_      = sum_at_owners(weights);
+    total_weight_ = 0.;
+    for (const GridCellCount &weight : weights_)
+      total_weight_ += weight.n;
+    total_weight_ = Utilities::MPI::sum(total_weight_, comm);
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return;
     const auto connection = tria.signals.weight.connect(
       [&](const typename Triangulation<dim>::cell_iterator &grid_cell,
           const typename Triangulation<dim>::CellStatus) -> unsigned int {
         const GridIndex<dim> index = box_.locate(grid_cell->center());
-        return 1 + (box_.contains(index) ? weights_[box_.number(index)] : 0);
+        return 1 + (box_.contains(index) ? weight(box_.number(index)) : 0);
       });
     tria.repartition();
     connection.disconnect();
-    tabulate();
+    find_owners();
+  }
+
+  /** Weight of a grid cell that this rank owned before the partition. */
+  template <int dim>
+  unsigned int
+  BackgroundGrid<dim>::weight(const unsigned int number) const
+  {
+    const auto found =
+      std::lower_bound(weights_.begin(),
+                       weights_.end(),
+                       number,
+                       [](const GridCellCount &count, const unsigned int n) {
+                         return count.number < n;
+                       });
+    return found != weights_.end() && found->number == number ? found->n : 0;
   }
 
   template <int dim>
   void
-  BackgroundGrid<dim>::tabulate()
+  BackgroundGrid<dim>::find_owners()
   {
-    grid_cells.assign(box_.size(), tria.end());
-    owners.assign(box_.size(), 0);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    const CoarseCells<dim> coarse(box_);
+    owners =
+      GridOwners<dim>(tria,
+                      box_,
+                      {coarse.first, coarse.split, coarse.n_refinements});
+    owned.clear();
     for (const auto &grid_cell : tria.active_cell_iterators())
       if (const GridIndex<dim> index = box_.locate(grid_cell->center());
           grid_cell->is_locally_owned() && box_.contains(index))
-        {
-          const unsigned int number = box_.number(index);
-          grid_cells[number]        = grid_cell;
-          owners[number]            = rank;
-        }
-    Utilities::MPI::sum(owners, comm, owners);
+        owned.push_back({box_.number(index), grid_cell});
+    std::sort(owned.begin(),
+              owned.end(),
+              [](const OwnedGridCell &a, const OwnedGridCell &b) {
+                return a.number < b.number;
+              });
   }
 
   template <int dim>
-  const std::vector<unsigned int> &
+  const GridCellCounts &
   BackgroundGrid<dim>::weights() const
   {
     return weights_;
+  }
+
+  template <int dim>
+  double
+  BackgroundGrid<dim>::total_weight() const
+  {
+    return total_weight_;
   }
 
   template <int dim>
@@ -203,14 +232,44 @@ namespace Morula
   unsigned int
   BackgroundGrid<dim>::owner(const unsigned int number) const
   {
-    return owners[number];
+    return owner(box_.index(number));
+  }
+
+  template <int dim>
+  unsigned int
+  BackgroundGrid<dim>::owner(const GridIndex<dim> &index) const
+  {
+    return owners(index);
+  }
+
+  template <int dim>
+  const std::vector<typename BackgroundGrid<dim>::OwnedGridCell> &
+  BackgroundGrid<dim>::owned_grid_cells() const
+  {
+    return owned;
   }
 
   template <int dim>
   typename BackgroundGrid<dim>::CellIterator
   BackgroundGrid<dim>::grid_cell(const unsigned int number) const
   {
-    return grid_cells[number];
+    const auto found = std::lower_bound(owned.begin(),
+                                        owned.end(),
+                                        number,
+                                        [](const OwnedGridCell &grid_cell,
+                                           const unsigned int   n) {
+                                          return grid_cell.number < n;
+                                        });
+    return found != owned.end() && found->number == number ?
+             found->cell :
+             CellIterator(tria.end());
+  }
+
+  template <int dim>
+  GridCellCounts
+  BackgroundGrid<dim>::sum_at_owners(const GridCellCounts &counts) const
+  {
+    return Morula::sum_at_owners(counts, box_, owners, comm);
   }
 
   template <int dim>

@@ -58,6 +58,46 @@ namespace Morula
       file.text(group + "/columns", columns);
     }
 
+    constexpr const char *weights_name = "grid weights";
+
+    /** One row for each grid cell: its number and its weight. */
+    void
+    write_weights(Hdf5Writer &file, const GridCellCounts &weights)
+    {
+      std::vector<unsigned int> rows;
+      rows.reserve(2 * weights.size());
+      for (const GridCellCount &weight : weights)
+        {
+          rows.push_back(weight.number);
+          rows.push_back(weight.n);
+        }
+      file.rows(weights_name, rows.data(), weights.size(), 2);
+    }
+
+    /** Rows [n r / size, n (r + 1) / size) of n, for rank r. */
+    std::pair<hsize_t, hsize_t>
+    slice(const hsize_t n, const MPI_Comm comm)
+    {
+      const hsize_t rank    = Utilities::MPI::this_mpi_process(comm);
+      const hsize_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      return {n * rank / n_ranks, n * (rank + 1) / n_ranks};
+    }
+
+    /** This rank's slice of the weights. */
+    GridCellCounts
+    read_weights(const Hdf5Reader &file, const MPI_Comm comm)
+    {
+      const auto size = file.size(weights_name);
+      if (size.size() != 2 || size[1] != 2)
+        throw std::runtime_error("the grid weights do not fit");
+      const auto [begin, end] = slice(size[0], comm);
+      const auto     rows = file.rows<unsigned int>(weights_name, begin, end);
+      GridCellCounts weights;
+      for (std::size_t i = 0; i < rows.size(); i += 2)
+        weights.push_back({rows[i], rows[i + 1]});
+      return weights;
+    }
+
     /**
      * Rank 0's data without the points. HDF5 demands that all ranks write the
      * same attributes; wall times, for one, are not.
@@ -100,13 +140,14 @@ namespace Morula
       std::size_t n_point_values = 0;
       for (const auto *points : {&data.cells, &data.boundary_points})
         n_point_values += points->size() * (1 + dim) + points->numbers.size();
+      n_point_values += data.grid_weights.size(); // of half a double twice
       return (n_values + Utilities::MPI::sum(n_point_values, comm)) *
                sizeof(double) +
              shared.parameters.size() + shared.cell_columns.size() +
              shared.boundary_columns.size() + n_objects * n_bytes_an_object;
     }
 
-    /** The slice [n r / size, n (r + 1) / size) for rank r. */
+    /** This rank's slice of the points. */
     template <int dim>
     PointList<dim>
     read_points(const Hdf5Reader  &file,
@@ -121,10 +162,7 @@ namespace Morula
           positions[1] != dim)
         throw std::runtime_error("the points '" + group + "' do not fit");
 
-      const hsize_t rank    = Utilities::MPI::this_mpi_process(comm);
-      const hsize_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      const hsize_t begin   = ids[0] * rank / n_ranks;
-      const hsize_t end     = ids[0] * (rank + 1) / n_ranks;
+      const auto [begin, end] = slice(ids[0], comm);
 
       PointList<dim> points(properties[1]);
       const auto     local_ids = file.rows<Id>(group + "/ids", begin, end);
@@ -340,6 +378,7 @@ namespace Morula
                  data.boundary_points,
                  shared.boundary_columns,
                  comm);
+    write_weights(file, data.grid_weights);
     const bool written = file.close();
 
     on_root(comm, [&]() {
@@ -381,6 +420,7 @@ namespace Morula
       data.boundary_points  = read_points<dim>(file, "boundary points", comm);
       data.cell_columns     = read_columns(file, "cells");
       data.boundary_columns = read_columns(file, "boundary points");
+      data.grid_weights     = read_weights(file, comm);
     };
     on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() { read_checked(path, read); });

@@ -5,35 +5,77 @@
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 #include <deal.II/boost_adaptors/point.h>
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace Morula
 {
   namespace
   {
-    /** 1 for grid cells within a radius of a query of this rank, else 0. */
+    /** Grid cells by the rank that owns them, by number in order. */
+    using GridCellsOfRanks = std::map<unsigned int, std::vector<unsigned int>>;
+
+    /** The grid cells within a radius of a query. */
     template <int dim>
-    std::vector<unsigned int>
+    GridCellsOfRanks
     near_queries(const std::vector<Point<dim>> &queries,
-                 const GridBox<dim>            &box,
+                 const BackgroundGrid<dim>     &grid,
                  const int                      radius)
     {
-      std::vector<unsigned int> near(box.size(), 0);
+      const GridBox<dim>      &box = grid.box();
+      std::set<GridIndex<dim>> with_query; // many queries share a grid cell
       for (const Point<dim> &query : queries)
-        box.for_neighbors(box.locate(query),
+        with_query.insert(box.locate(query));
+      std::set<unsigned int> near;
+      for (const GridIndex<dim> &index : with_query)
+        box.for_neighbors(index,
                           radius,
                           [&](const unsigned int number, const auto &) {
-                            near[number] = 1;
+                            near.insert(number);
                           });
-      return near;
+      GridCellsOfRanks grid_cells;
+      for (const unsigned int number : near)
+        grid_cells[grid.owner(number)].push_back(number);
+      return grid_cells;
     }
 
-    /** Points that may be nearest: those near grid cells with a query. */
+    /** This rank's points in some of its grid cells. */
+    template <int dim>
+    PointList<dim>
+    points_in(const std::vector<unsigned int> &grid_cells,
+              const PointStore<dim>           &points,
+              const WantedNumbers             &wanted)
+    {
+      PointList<dim>      list(wanted.n);
+      std::vector<double> numbers;
+      auto                cell = points.grid_cells().begin();
+      for (const unsigned int number : grid_cells)
+        {
+          while (cell != points.grid_cells().end() && cell->number < number)
+            ++cell;
+          if (cell == points.grid_cells().end() || cell->number != number)
+            continue;
+          for (unsigned int p = cell->begin; p < cell->end; ++p)
+            {
+              numbers.clear();
+              wanted.append(p, numbers);
+              list.add(points.id(p),
+                       points.position(p),
+                       make_array_view(numbers));
+            }
+        }
+      return list;
+    }
+
+    /** Points that may be nearest: those in grid cells near a query. Ranks ask
+     *  the owners of these grid cells for them. */
     template <int dim>
     PointList<dim>
     candidates(const std::vector<Point<dim>> &queries,
@@ -42,34 +84,19 @@ namespace Morula
                const BackgroundGrid<dim>     &grid,
                const int                      radius)
     {
-      const GridBox<dim>             &box  = grid.box();
-      const std::vector<unsigned int> near = near_queries(queries, box, radius);
-      std::vector<unsigned int>       near_any(near.size());
-      Utilities::MPI::max(near, grid.communicator(), near_any);
-      PointList<dim>      near_points(wanted.n);
-      std::vector<double> numbers;
-      for (const auto &cell : points.grid_cells())
-        for (unsigned int p = cell.begin;
-             p < cell.end && near_any[cell.number] != 0;
-             ++p)
-          {
-            numbers.clear();
-            wanted.append(p, numbers);
-            near_points.add(points.id(p),
-                            points.position(p),
-                            make_array_view(numbers));
-          }
-      if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
-        return near_points;
-      PointList<dim> found(wanted.n);
-      const auto     add = [&](const PointList<dim> &from) {
-        for (std::size_t i = 0; i < from.size(); ++i)
-          if (near[box.number(box.locate(from.positions[i]))] != 0)
-            found.add(from.ids[i], from.positions[i], from.row(i));
-      };
-      add(near_points);
-      add(halo(near_points, grid, radius * box.spacing()));
-      return found;
+      const MPI_Comm     comm = grid.communicator();
+      const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+      GridCellsOfRanks   near = near_queries(queries, grid, radius);
+      PointList<dim>     list = points_in(near[rank], points, wanted);
+      if (Utilities::MPI::n_mpi_processes(comm) == 1)
+        return list;
+      near.erase(rank);
+      std::map<unsigned int, PointList<dim>> points_to;
+      for (const auto &[asking, grid_cells] :
+           Utilities::MPI::some_to_some(comm, near))
+        points_to.emplace(asking, points_in(grid_cells, points, wanted));
+      list.append(exchange(points_to, wanted.n, comm));
+      return list;
     }
 
     /** Positions of the nearest points in the list, by id, and their distance.

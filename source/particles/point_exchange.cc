@@ -62,9 +62,9 @@ namespace Morula
           return found->second;
         std::vector<unsigned int> &list = owners[number];
         grid.box().for_neighbors(
-          index, radius, [&](const unsigned int neighbor, const auto &) {
-            if (grid.owner(neighbor) != rank)
-              list.push_back(grid.owner(neighbor));
+          index, radius, [&](const unsigned int, const auto &neighbor) {
+            if (const unsigned int owner = grid.owner(neighbor); owner != rank)
+              list.push_back(owner);
           });
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -89,6 +89,21 @@ namespace Morula
         append_points(rows, points);
     }
   } // namespace
+
+  template <int dim>
+  PointList<dim>
+  exchange(const std::map<unsigned int, PointList<dim>> &points_to,
+           const unsigned int                            n_numbers,
+           const MPI_Comm                                comm)
+  {
+    std::map<unsigned int, std::vector<double>> rows_to;
+    for (const auto &[rank, points] : points_to)
+      for (std::size_t i = 0; i < points.size(); ++i)
+        append_row(points, i, rows_to[rank]);
+    PointList<dim> received(n_numbers);
+    exchange(rows_to, comm, received);
+    return received;
+  }
 
   template <int dim>
   PointList<dim>
@@ -135,7 +150,7 @@ namespace Morula
     for (std::size_t i = 0; i < points.size(); ++i)
       {
         const unsigned int owner =
-          grid.owner(grid.box().number(grid.box().locate(points.positions[i])));
+          grid.owner(grid.box().locate(points.positions[i]));
         append_row(points, i, owner == rank ? stay : rows_to[owner]);
       }
     append_points(stay, mine);
@@ -163,6 +178,14 @@ namespace Morula
     return others;
   }
 
+  template PointList<2>
+  exchange(const std::map<unsigned int, PointList<2>> &,
+           const unsigned int,
+           const MPI_Comm);
+  template PointList<3>
+  exchange(const std::map<unsigned int, PointList<3>> &,
+           const unsigned int,
+           const MPI_Comm);
   template PointList<2>
   of_all_ranks(const PointList<2> &, const MPI_Comm);
   template PointList<3>

@@ -85,14 +85,21 @@ namespace Morula
     if (!order.empty())
       n_disordered += points.size();
     reserve(order.size() + points.size());
-    const GridBox<dim> &box = grid.box();
+    const GridBox<dim>                        &box  = grid.box();
+    unsigned int                               last = box.size();
+    typename BackgroundGrid<dim>::CellIterator grid_cell;
     for (const unsigned int i : canonical_order(points, box))
       {
         const GridIndex<dim> index = box.locate(points.positions[i]);
+        if (const unsigned int number = box.number(index); number != last)
+          {
+            grid_cell = grid.grid_cell(number);
+            last      = number;
+          }
         handler.insert_particle(points.positions[i],
                                 box.unit_position(points.positions[i], index),
                                 points.ids[i],
-                                grid.grid_cell(box.number(index)),
+                                grid_cell,
                                 points.row(i));
       }
     sort(grid);
@@ -211,14 +218,10 @@ namespace Morula
   void
   PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
   {
-    const GridBox<dim> &box = grid.box();
     grid_cells_.clear();
     order.clear();
-    for (unsigned int number = 0; number < box.size(); ++number)
+    for (const auto &[number, cell] : grid.owned_grid_cells())
       {
-        const auto cell = grid.grid_cell(number);
-        if (cell == grid.triangulation().end())
-          continue;
         const unsigned int begin = order.size();
         auto               range = handler.particles_in_cell(cell);
         for (auto point = range.begin(); point != range.end(); ++point)
@@ -281,15 +284,20 @@ namespace Morula
   }
 
   template <int dim>
-  std::vector<unsigned int>
+  GridCellCounts
   count_points(const std::vector<Point<dim>> &positions,
                const BackgroundGrid<dim>     &grid)
   {
-    std::vector<unsigned int> counts(grid.box().size(), 0);
+    GridCellCounts counts;
     for (const Point<dim> &x : positions)
-      ++counts[grid.box().number(grid.box().locate(x))];
-    Utilities::MPI::sum(counts, grid.communicator(), counts);
-    return counts;
+      {
+        const unsigned int number = grid.box().number(grid.box().locate(x));
+        // In a store's order, points of one grid cell follow one another.
+        if (counts.empty() || counts.back().number != number)
+          counts.push_back({number, 0});
+        ++counts.back().n;
+      }
+    return grid.sum_at_owners(counts);
   }
 
   template class PointStore<2>;
@@ -300,8 +308,8 @@ namespace Morula
   template std::pair<GridIndex<3>, GridIndex<3>>
   extent(const std::vector<const std::vector<Point<3>> *> &,
          const BackgroundGrid<3> &);
-  template std::vector<unsigned int>
+  template GridCellCounts
   count_points(const std::vector<Point<2>> &, const BackgroundGrid<2> &);
-  template std::vector<unsigned int>
+  template GridCellCounts
   count_points(const std::vector<Point<3>> &, const BackgroundGrid<3> &);
 } // namespace Morula

@@ -55,25 +55,21 @@ namespace Morula
 
   template <int dim>
   bool
-  Tissue<dim>::balanced(const std::vector<unsigned int> &counts) const
+  Tissue<dim>::balanced(const GridCellCounts &counts) const
   {
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(grid_.communicator());
     if (n_ranks == 1)
       return true;
-    std::vector<double> loads(n_ranks, 0.);
-    for (unsigned int number = 0; number < counts.size(); ++number)
-      loads[grid_.owner(number)] += counts[number];
-    double total = 0., last_total = 0.;
-    for (const double load : loads)
-      total += load;
-    for (const unsigned int weight : grid_.weights())
-      last_total += weight;
+    double load = 0.;
+    for (const GridCellCount &count : counts)
+      load += count.n;
+    const auto loads = Utilities::MPI::min_max_avg(load, grid_.communicator());
+    const double last_total = grid_.total_weight();
     // A partition of few grid cells may not get better: try again only after
     // the tissue has changed.
-    return *std::max_element(loads.begin(), loads.end()) * n_ranks <=
-             worst_imbalance * total ||
-           std::abs(total - last_total) <= 0.05 * last_total;
+    return loads.max * n_ranks <= worst_imbalance * loads.sum ||
+           std::abs(loads.sum - last_total) <= 0.05 * last_total;
   }
 
   template <int dim>
@@ -90,8 +86,7 @@ namespace Morula
     bool made_anew = !grid_.covers(first, last);
     if (made_anew)
       grid_.enclose(first, last);
-    const std::vector<unsigned int> counts =
-      count_points(cells.positions, grid_);
+    const GridCellCounts counts = count_points(cells.positions, grid_);
     if (made_anew || !balanced(counts))
       {
         grid_.partition(counts);
@@ -144,11 +139,11 @@ namespace Morula
 
   template <int dim>
   void
-  Tissue<dim>::restore(const PointList<dim>            &cells,
-                       const PointList<dim>            &boundary_points,
-                       const GridIndex<dim>            &first,
-                       const GridIndex<dim>            &n,
-                       const std::vector<unsigned int> &weights)
+  Tissue<dim>::restore(const PointList<dim> &cells,
+                       const PointList<dim> &boundary_points,
+                       const GridIndex<dim> &first,
+                       const GridIndex<dim> &n,
+                       const GridCellCounts &weights)
   {
     grid_.make(first, n);
     grid_.partition(weights);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/simulation/run_state.h>
 
 namespace Morula
@@ -34,8 +35,7 @@ namespace Morula
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
     data.integer_tables["box_n"].assign(box.n().begin(), box.n().end());
-    data.integer_tables["box_weights"].assign(tissue.grid().weights().begin(),
-                                              tissue.grid().weights().end());
+    data.grid_weights     = tissue.grid().weights();
     data.cells            = tissue.cells().copy();
     data.boundary_points  = tissue.boundary_points().copy();
     data.cell_columns     = tissue.cells().columns().layout();
@@ -60,13 +60,14 @@ namespace Morula
           refuse_snapshot(data.file, "a snapshot whose grid has cells");
         n_grid_cells *= box_n[d];
       }
-    const std::vector<int> &weights =
-      data.integer_table("box_weights", n_grid_cells);
-    tissue.restore(data.cells,
-                   data.boundary_points,
-                   first,
-                   n,
-                   std::vector<unsigned int>(weights.begin(), weights.end()));
+    everywhere(tissue.communicator(), [&]() {
+      for (const GridCellCount &weight : data.grid_weights)
+        if (weight.number >= n_grid_cells)
+          refuse_snapshot(data.file,
+                          "a snapshot with weights of its own grid cells");
+    });
+    tissue.restore(
+      data.cells, data.boundary_points, first, n, data.grid_weights);
   }
 
 

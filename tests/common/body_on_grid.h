@@ -123,13 +123,13 @@ namespace Morula
     {
       const auto [first, last] = extent<dim>({&particles, &boundary}, grid);
       grid.enclose(first, last);
-      // All ranks count all particles.
-      std::vector<unsigned int> weights(grid.box().size(), 0);
-      for (const Point<dim> &x : particles)
-        ++weights[grid.box().number(grid.box().locate(x))];
+      const bool     first_rank = Utilities::MPI::this_mpi_process(comm) == 0;
+      GridCellCounts weights; // the first rank counts all particles
+      if (first_rank)
+        for (const Point<dim> &x : particles)
+          weights.push_back({grid.box().number(grid.box().locate(x)), 1});
       grid.partition(weights);
       Occupancy<dim> occupancy(grid.box());
-      const bool     first_rank = Utilities::MPI::this_mpi_process(comm) == 0;
       if (first_rank)
         {
           for (std::size_t i = 0; i < particles.size(); ++i)

@@ -1,4 +1,4 @@
-// ranks: 1 2 3
+// ranks: 1 2 3 5
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
@@ -126,7 +126,7 @@ namespace
     grid.make(first, n);
     EXPECT_EQ(grid.box().first(), first);
     EXPECT_EQ(grid.box().n(), n);
-    EXPECT_EQ(grid.weights(), std::vector<unsigned int>(grid.box().size(), 1));
+    EXPECT_TRUE(grid.weights().empty());
     expect_tables(grid);
     // The outermost layer is not covered: its neighbours lie outside.
     EXPECT_TRUE(grid.covers(index<dim>(-7, 5, 1), index<dim>(-2, 6, 10)));
@@ -144,6 +144,7 @@ namespace
     BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
     grid.make(index<dim>(0, 0, 0), index<dim>(16, 16, 16));
     std::vector<unsigned int> weights(grid.box().size(), 0);
+    GridCellCounts            given; // rank 0 gives all of them
     double                    total = 0.;
     for (unsigned int number = 0; number < weights.size(); ++number)
       {
@@ -152,11 +153,20 @@ namespace
           corner = corner && i < 8;
         if (corner)
           weights[number] = 1000;
+        if (corner && Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          given.push_back({number, 1000});
         total += weights[number];
       }
-    grid.partition(weights);
+    grid.partition(given);
     expect_tables(grid);
-    EXPECT_EQ(grid.weights(), weights);
+    EXPECT_EQ(grid.total_weight(), total);
+    unsigned int sum = 0;
+    for (const GridCellCount &weight : grid.weights())
+      {
+        EXPECT_EQ(weight.n, weights[weight.number]);
+        sum += weight.n;
+      }
+    EXPECT_EQ(Utilities::MPI::sum(sum, MPI_COMM_WORLD), total);
     std::vector<double> loads(n_ranks, 0.);
     for (unsigned int number = 0; number < weights.size(); ++number)
       loads[grid.owner(number)] += weights[number];
@@ -165,6 +175,30 @@ namespace
       EXPECT_NEAR(load,
                   total / n_ranks,
                   1000. * Utilities::pow(2, dim) + weights.size());
+  }
+
+  /** Boxes of few grid cells, all points in one of them: some ranks may own no
+   *  leaf at all. */
+  template <int dim>
+  void
+  check_few_grid_cells()
+  {
+    BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
+    for (const int n : {1, 2, 3, 5})
+      for (const int other : {1, 2})
+        {
+          grid.make(index<dim>(-1, 7, 2), index<dim>(n, other, 1));
+          expect_tables(grid);
+          for (unsigned int heavy = 0; heavy < grid.box().size(); ++heavy)
+            {
+              GridCellCounts weights;
+              for (const auto &grid_cell : grid.owned_grid_cells())
+                if (grid_cell.number == heavy)
+                  weights.push_back({heavy, 1000});
+              grid.partition(weights);
+              expect_tables(grid);
+            }
+        }
   }
 
   /** Two ranks part a box by a plane across its longest direction, the first of
@@ -182,7 +216,10 @@ namespace
           auto n     = index<dim>(other, other, other);
           n[longest] = 24;
           grid.make(index<dim>(-3, 5, 1), n);
-          grid.partition(std::vector<unsigned int>(grid.box().size(), 7));
+          GridCellCounts weights;
+          for (const auto &grid_cell : grid.owned_grid_cells())
+            weights.push_back({grid_cell.number, 7});
+          grid.partition(weights);
           const unsigned int across = other == 24 ? 0 : longest;
           const GridBox<dim> box    = grid.box();
           for (unsigned int number = 0; number < box.size(); ++number)
@@ -205,6 +242,10 @@ TEST(BackgroundGrid,
 
 TEST(BackgroundGrid,
      IsDistributedByPoints){MORULA_BOTH_DIMENSIONS(check_partition)}
+
+
+TEST(BackgroundGrid, MayLeaveRanksWithoutGridCells){
+  MORULA_BOTH_DIMENSIONS(check_few_grid_cells)}
 
 
 TEST(BackgroundGrid, IsCutAcrossItsLength){MORULA_BOTH_DIMENSIONS(check_cut)}

@@ -207,7 +207,16 @@ namespace
       }
     EXPECT_EQ(first, lowest);
     EXPECT_EQ(last, highest);
-    EXPECT_EQ(count_points(mine.positions, grid), counts);
+    unsigned int n_owned = 0;
+    for (const GridCellCount &count : count_points(mine.positions, grid))
+      {
+        EXPECT_EQ(grid.owner(count.number),
+                  Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+        EXPECT_EQ(count.n, counts[count.number]);
+        n_owned += count.n;
+      }
+    EXPECT_EQ(Utilities::MPI::sum(n_owned, MPI_COMM_WORLD),
+              all.positions.size());
   }
 } // namespace
 

@@ -123,9 +123,10 @@ namespace Morula
   {
     const auto [first, last] = extent<dim>({&all.positions}, grid);
     grid.enclose(first, last);
-    std::vector<unsigned int> weights(grid.box().size(), 0);
-    for (const Point<dim> &x : all.positions)
-      ++weights[grid.box().number(grid.box().locate(x))];
+    GridCellCounts weights; // rank 0 counts all points
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      for (const Point<dim> &x : all.positions)
+        weights.push_back({grid.box().number(grid.box().locate(x)), 1});
     grid.partition(weights);
   }
 } // namespace Morula

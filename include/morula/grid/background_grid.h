@@ -5,6 +5,8 @@
 #define morula_grid_background_grid_h
 
 #include <morula/grid/grid_box.h>
+#include <morula/grid/grid_cell_counts.h>
+#include <morula/grid/grid_owners.h>
 #include <morula/grid/grid_parameters.h>
 
 #include <deal.II/distributed/tria.h>
@@ -21,16 +23,21 @@ namespace Morula
    * The grid cells of the box are leaves in the middle of an octree; the tree's
    * other leaves stay coarse.
    *
-   * Every rank has tables over all grid cells of the box (owner, fill, ...).
-   * They are small, since grid cells are some hundred times fewer than points
-   * (8 MB for 10⁶ grid cells, 10⁸ points). With them every rank classifies and
-   * numbers the splines by itself, with the same result.
+   * A rank knows its own grid cells, and the owner of any other one (see
+   * GridOwners). It has no table over the box.
    */
   template <int dim>
   class BackgroundGrid
   {
   public:
     using CellIterator = typename Triangulation<dim>::active_cell_iterator;
+
+    /** A grid cell of the box that this rank owns. */
+    struct OwnedGridCell
+    {
+      unsigned int number; // in the box
+      CellIterator cell;   // of the triangulation
+    };
 
     BackgroundGrid(const GridParameters &parameters, const MPI_Comm comm);
 
@@ -57,25 +64,44 @@ namespace Morula
 
     /**
      * Distributes the grid cells over the ranks. Collective.
-     * @param weights points per grid cell of the box, equal on all ranks
+     * @param weights points in grid cells of the box, each counted by one rank,
+     *   which need not own it
      */
     void
-    partition(const std::vector<unsigned int> &weights);
+    partition(const GridCellCounts &weights);
 
-    /** Weights of the last partition. With them it can be made again. */
-    const std::vector<unsigned int> &
+    /** This rank's part of the weights of the last partition. With all parts
+     *  it can be made again. */
+    const GridCellCounts &
     weights() const;
+
+    /** Sum of the weights of the last partition over all ranks. */
+    double
+    total_weight() const;
 
     const GridBox<dim> &
     box() const;
 
-    /** Rank that owns the grid cell with this number. */
+    /** Rank that owns the grid cell of the box with this number. */
     unsigned int
     owner(const unsigned int number) const;
 
-    /** The triangulation's cell of a grid cell that this rank owns. */
+    /** Rank that owns a grid cell of the box. */
+    unsigned int
+    owner(const GridIndex<dim> &index) const;
+
+    /** This rank's grid cells of the box, in the order of their numbers. */
+    const std::vector<OwnedGridCell> &
+    owned_grid_cells() const;
+
+    /** The triangulation's cell of a grid cell that this rank owns; the
+     *  triangulation's end() for one of another rank. */
     CellIterator
     grid_cell(const unsigned int number) const;
+
+    /** Sums counts over all ranks, see sum_at_owners(). Collective. */
+    GridCellCounts
+    sum_at_owners(const GridCellCounts &counts) const;
 
     const Triangulation<dim> &
     triangulation() const;
@@ -89,8 +115,12 @@ namespace Morula
     locate(const Point<dim> &x) const;
 
   private:
+    unsigned int
+    weight(const unsigned int number) const;
+
+    /** Finds out who owns what. Collective. */
     void
-    tabulate();
+    find_owners();
 
     const MPI_Comm comm;
     const double   h;
@@ -98,9 +128,10 @@ namespace Morula
 
     GridBox<dim>                              box_;
     parallel::distributed::Triangulation<dim> tria;
-    std::vector<unsigned int>                 weights_;
-    std::vector<unsigned int>                 owners;
-    std::vector<CellIterator>                 grid_cells;
+    GridOwners<dim>                           owners;
+    std::vector<OwnedGridCell>                owned;
+    GridCellCounts                            weights_;
+    double                                    total_weight_ = 0.;
   };
 } // namespace Morula
 

@@ -4,6 +4,7 @@
 #ifndef morula_output_snapshot_h
 #define morula_output_snapshot_h
 
+#include <morula/grid/grid_cell_counts.h>
 #include <morula/particles/columns.h>
 #include <morula/particles/point_list.h>
 
@@ -16,11 +17,11 @@
 namespace Morula
 {
   /** Raised whenever older programs could not read the file. */
-  constexpr int snapshot_format = 2;
+  constexpr int snapshot_format = 3;
 
   /**
-   * Everything that outlives a step. The points are this rank's; of all else
-   * the file gets what rank 0 has. Names of tables hold no '/'.
+   * Everything that outlives a step. Points and weights are this rank's; of all
+   * else the file gets what rank 0 has. Names of tables hold no '/'.
    */
   template <int dim>
   struct SnapshotData
@@ -36,6 +37,8 @@ namespace Morula
     std::map<std::string, std::vector<int>>    integer_tables;
     PointList<dim>                             cells;
     PointList<dim>                             boundary_points;
+    /** Weights of the last partition, see BackgroundGrid. */
+    GridCellCounts grid_weights;
     /** What the rows of the points are, as Columns::layout() says; empty in
      *  files of programs that did not write it. */
     std::string cell_columns, boundary_columns;

@@ -6,6 +6,7 @@
 
 #include <morula/grid/grid_box.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -28,21 +29,26 @@ namespace Morula
     PointBins(const GridBox<dim> &box, const std::vector<Point<dim>> &positions)
       : box(box)
       , positions(positions)
-      , begins(box.size() + 1, 0)
-      , indices(positions.size())
     {
-      // A counting sort; the points of bin b are those from begins[b] on.
-      std::vector<unsigned int> numbers;
+      std::vector<unsigned int> numbers; // of the points' grid cells
       numbers.reserve(positions.size());
       for (const Point<dim> &x : positions)
-        {
-          numbers.push_back(box.number(box.locate(x)));
-          ++begins[numbers.back() + 1];
-        }
-      std::partial_sum(begins.begin(), begins.end(), begins.begin());
-      std::vector<unsigned int> next(begins.begin(), begins.end() - 1);
-      for (unsigned int i = 0; i < positions.size(); ++i)
-        indices[next[numbers[i]]++] = i;
+        numbers.push_back(box.number(box.locate(x)));
+      indices.resize(positions.size());
+      std::iota(indices.begin(), indices.end(), 0u);
+      if (!std::is_sorted(numbers.begin(), numbers.end()))
+        std::stable_sort(indices.begin(),
+                         indices.end(),
+                         [&](const unsigned int i, const unsigned int j) {
+                           return numbers[i] < numbers[j];
+                         });
+      for (unsigned int k = 0; k < indices.size(); ++k)
+        if (bins.empty() || bins.back() != numbers[indices[k]])
+          {
+            bins.push_back(numbers[indices[k]]);
+            begins.push_back(k);
+          }
+      begins.push_back(indices.size());
     }
 
     /** Calls @p visit(i) for the points within @p radius (µm) of @p center, in
@@ -56,22 +62,43 @@ namespace Morula
       Tensor<1, dim> corner;
       for (unsigned int d = 0; d < dim; ++d)
         corner[d] = radius;
-      box.for_overlap(box.locate(center - corner),
-                      box.locate(center + corner),
-                      [&](const unsigned int bin, const auto &) {
-                        for (unsigned int k = begins[bin]; k < begins[bin + 1];
-                             ++k)
-                          if (positions[indices[k]].distance_square(center) <=
-                              radius * radius)
-                            visit(indices[k]);
+      GridIndex<dim> lower = box.locate(center - corner);
+      GridIndex<dim> upper = box.locate(center + corner);
+      lower[0]             = std::max(lower[0], box.first()[0]);
+      upper[0] = std::min(upper[0], box.first()[0] + box.n()[0] - 1);
+      if (lower[0] > upper[0])
+        return;
+      // The numbers of a row of grid cells along x follow one another.
+      const unsigned int more = upper[0] - lower[0];
+      upper[0]                = lower[0];
+      box.for_overlap(lower,
+                      upper,
+                      [&](const unsigned int first, const auto &) {
+                        auto bin =
+                          std::lower_bound(bins.begin(), bins.end(), first);
+                        for (; bin != bins.end() && *bin <= first + more; ++bin)
+                          visit_bin(bin - bins.begin(), center, radius, visit);
                       });
     }
 
   private:
+    template <typename Visitor>
+    void
+    visit_bin(const std::size_t b,
+              const Point<dim> &center,
+              const double      radius,
+              const Visitor    &visit) const
+    {
+      for (unsigned int k = begins[b]; k < begins[b + 1]; ++k)
+        if (positions[indices[k]].distance_square(center) <= radius * radius)
+          visit(indices[k]);
+    }
+
     const GridBox<dim>            &box;
     const std::vector<Point<dim>> &positions;
-    std::vector<unsigned int>      begins;
-    std::vector<unsigned int>      indices;
+    std::vector<unsigned int>      bins;    // grid cells with points
+    std::vector<unsigned int>      begins;  // of the bins, and the end
+    std::vector<unsigned int>      indices; // of the points, by bin
   };
 } // namespace Morula
 

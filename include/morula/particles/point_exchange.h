@@ -7,6 +7,8 @@
 #include <morula/grid/background_grid.h>
 #include <morula/particles/point_list.h>
 
+#include <map>
+
 namespace Morula
 {
   /**
@@ -17,6 +19,17 @@ namespace Morula
   template <int dim>
   PointList<dim>
   send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+
+  /**
+   * Sends points to ranks; returns those that other ranks send to this one, in
+   * the order of these ranks. Collective.
+   * @param n_numbers length of the points' rows, equal on all ranks
+   */
+  template <int dim>
+  PointList<dim>
+  exchange(const std::map<unsigned int, PointList<dim>> &points_to,
+           const unsigned int                            n_numbers,
+           const MPI_Comm                                comm);
 
   /** The points of all ranks, by id. Collective. */
   template <int dim>

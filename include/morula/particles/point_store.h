@@ -194,11 +194,12 @@ namespace Morula
          const BackgroundGrid<dim>                          &grid);
 
   /**
-   * Number of points in each grid cell of the box, over all ranks; for
-   * balancing. Collective.
+   * Number of points in each of this rank's grid cells; for balancing.
+   * Collective.
+   * @param positions of points of any rank's grid cells, µm
    */
   template <int dim>
-  std::vector<unsigned int>
+  GridCellCounts
   count_points(const std::vector<Point<dim>> &positions,
                const BackgroundGrid<dim>     &grid);
 } // namespace Morula

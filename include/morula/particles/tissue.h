@@ -56,14 +56,15 @@ namespace Morula
 
     /**
      * The same as place() on a given box and partition, as they were when a
-     * snapshot was written. Collective.
+     * snapshot was written; this rank gives any part of the weights.
+     * Collective.
      */
     void
-    restore(const PointList<dim>            &cells,
-            const PointList<dim>            &boundary_points,
-            const GridIndex<dim>            &first,
-            const GridIndex<dim>            &n,
-            const std::vector<unsigned int> &weights);
+    restore(const PointList<dim> &cells,
+            const PointList<dim> &boundary_points,
+            const GridIndex<dim> &first,
+            const GridIndex<dim> &n,
+            const GridCellCounts &weights);
 
     /** Removes mothers, given by their positions in cells(), and inserts
      *  daughters. Collective. */
@@ -110,9 +111,10 @@ namespace Morula
     communicator() const;
 
   private:
-    /** Whether the ranks' loads are about equal. */
+    /** Whether the ranks' loads are about equal. @param counts cells in this
+     *  rank's grid cells. Collective. */
     bool
-    balanced(const std::vector<unsigned int> &counts) const;
+    balanced(const GridCellCounts &counts) const;
 
     const GridParameters parameters;
     BackgroundGrid<dim>  grid_;

@@ -55,14 +55,14 @@ namespace Morula
 
   template <int dim>
   bool
-  Tissue<dim>::balanced(const GridCellCounts &counts) const
+  Tissue<dim>::balanced(const std::vector<Point<dim>> &positions) const
   {
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(grid_.communicator());
     if (n_ranks == 1)
       return true;
     double load = 0.;
-    for (const GridCellCount &count : counts)
+    for (const GridCellCount &count : count_points(positions, grid_))
       load += count.n;
     const auto loads = Utilities::MPI::min_max_avg(load, grid_.communicator());
     const double last_total = grid_.total_weight();
@@ -86,10 +86,9 @@ namespace Morula
     bool made_anew = !grid_.covers(first, last);
     if (made_anew)
       grid_.enclose(first, last);
-    const GridCellCounts counts = count_points(cells.positions, grid_);
-    if (made_anew || !balanced(counts))
+    if (made_anew || !balanced(cells.positions))
       {
-        grid_.partition(counts);
+        grid_.partition(count_points(cells.positions, grid_));
         made_anew = true;
       }
     if (made_anew)
@@ -111,7 +110,7 @@ namespace Morula
         return std::as_const(cells_)[i];
       });
     const auto [first, last] = extent<dim>({&corners, &boundary_points}, grid_);
-    if (!grid_.covers(first, last) || !balanced(count_points(cells, grid_)))
+    if (!grid_.covers(first, last) || !balanced(cells))
       {
         PointList<dim> all = cells_.copy(), surface = boundary_points_.copy();
         all.positions     = cells;

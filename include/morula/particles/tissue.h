@@ -111,10 +111,10 @@ namespace Morula
     communicator() const;
 
   private:
-    /** Whether the ranks' loads are about equal. @param counts cells in this
-     *  rank's grid cells. Collective. */
+    /** Whether the ranks' loads are about equal with cells at @p positions
+     * (µm), of which each rank gives any part. Collective. */
     bool
-    balanced(const GridCellCounts &counts) const;
+    balanced(const std::vector<Point<dim>> &positions) const;
 
     const GridParameters parameters;
     BackgroundGrid<dim>  grid_;

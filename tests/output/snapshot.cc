@@ -85,6 +85,15 @@ namespace
 
   constexpr unsigned int n_points_a_rank = 11;
 
+  /** Rank 1 has no weights. */
+  GridCellCounts
+  weights_of(const unsigned int rank)
+  {
+    if (rank == 1)
+      return {};
+    return {{7 * rank, 1}, {7 * rank + 3, 4294967295u}, {7 * rank + 4, rank}};
+  }
+
   /** Rank 1 has no cells, and only rank 0 has boundary points. */
   template <int dim>
   SnapshotData<dim>
@@ -106,6 +115,7 @@ namespace
                                      points<dim>(0, 0) :
                                      points<dim>(4000000000u + 100 * rank, n_points_a_rank);
     data.boundary_points         = points<dim>(7, rank == 0 ? 1 : 0);
+    data.grid_weights            = weights_of(rank);
     return data;
   }
 
@@ -134,6 +144,19 @@ namespace
           EXPECT_EQ(bits(read.numbers[i * n_numbers + column]),
                     bits(property(read.ids[i], column)));
       }
+  }
+
+  /** Numbers and counts in turn. */
+  std::vector<unsigned int>
+  flat(const GridCellCounts &counts)
+  {
+    std::vector<unsigned int> list;
+    for (const GridCellCount &count : counts)
+      {
+        list.push_back(count.number);
+        list.push_back(count.n);
+      }
+    return list;
   }
 
   /** Written by the first @p n_writers ranks, read by all. */
@@ -170,6 +193,15 @@ namespace
         ids.push_back(4000000000u + 100 * writer + i);
     expect_points(read.cells, ids);
     expect_points(read.boundary_points, {7});
+    GridCellCounts weights, all_weights;
+    for (unsigned int writer = 0; writer < n_writers; ++writer)
+      for (const GridCellCount &weight : weights_of(writer))
+        weights.push_back(weight);
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(MPI_COMM_WORLD, flat(read.grid_weights)))
+      for (std::size_t i = 0; i < of_rank.size(); i += 2)
+        all_weights.push_back({of_rank[i], of_rank[i + 1]});
+    EXPECT_EQ(all_weights, weights);
     MPI_Barrier(MPI_COMM_WORLD); // before anyone looks for strangers
     EXPECT_EQ(directory.files(), std::vector<std::string>{"snapshot.h5"});
   }

@@ -10,8 +10,6 @@ TOLERANCE = 0.1
 # Sums of ranks' blocks precondition less well than the whole factorisation, by
 # far so on the few grid cells of these scenes.
 RANKS_FACTOR = 4.5
-# Of solves that go on until rounding stops them, fewer may do there.
-RANKS_LOWER = 0.75
 # What each of Newton's iterations, or each tangent, has many of.
 IN_EACH = {"linear_iterations": "newton_iterations", "tangent_kflop": "tangents"}
 
@@ -67,7 +65,7 @@ def excess(found, reference, ranks):
     for name, usual in usual_work.items():
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":
-            lower, upper = lower * RANKS_LOWER, upper * RANKS_FACTOR
+            upper *= RANKS_FACTOR
         # Two of whatever is counted. On more ranks than the reference has these
         # may be two of Newton's iterations or tangents, with what they take.
         few = 2

@@ -184,6 +184,13 @@ namespace Morula
   }
 
 
+  bool
+  ExpressionKey::differs_by_type() const
+  {
+    return !of_types.empty();
+  }
+
+
   void
   ExpressionKey::set_types(const std::map<std::string, double> &names)
   {

@@ -10,6 +10,15 @@
 namespace Morula
 {
   template <int dim>
+  const DivisionRule<dim> *
+  DevelopmentEffects<dim>::rule(const unsigned int type) const
+  {
+    if (!rule_of_type.empty())
+      return rule_of_type[type];
+    return rules.empty() ? nullptr : rules.front().get();
+  }
+
+  template <int dim>
   CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
                                         const CellColumns<dim>  &columns,
                                         const StateColumns<dim> &state,
@@ -45,7 +54,8 @@ namespace Morula
                             cycle->has_own_hazard());
     effects.law   = std::move(law);
     effects.cycle = std::move(cycle);
-    effects.rule  = std::move(rule);
+    if (rule)
+      effects.rules.push_back(std::move(rule));
   }
 
   template <int dim>
@@ -158,8 +168,9 @@ namespace Morula
           effects.death->check_cell(founder, step);
         if (effects.law)
           effects.law->check_cell(founder, step);
-        if (effects.rule && clock(cell).phase != CyclePhase::never)
-          effects.rule->check_cell(founder, step);
+        const DivisionRule<dim> *const rule = effects.rule(founder.type());
+        if (rule != nullptr && clock(cell).phase != CyclePhase::never)
+          rule->check_cell(founder, step);
         if (effects.contraction)
           effects.contraction->check_cell(founder, step);
         if (effects.relaxation)
@@ -196,16 +207,17 @@ namespace Morula
     // a founder whose file says that it is in G1
     const bool has_begun =
       before.phase == CyclePhase::never && after.phase == CyclePhase::divided;
-    if (!effects.rule || !(begins || has_begun))
+    const DivisionRule<dim> *const rule = effects.rule(cell.type());
+    if (rule == nullptr || !(begins || has_begun))
       return;
     const CellView<dim, const double> &view = cell.cell();
     Tensor<1, dim>                     axis =
-      effects.rule->axis({view.founder_position(),
-                          view.elastic_deformation(),
-                          after.axis,
-                          &cell,
-                          t,
-                          effects.cycle->least_anisotropy(cell, t)});
+      rule->axis({view.founder_position(),
+                  view.elastic_deformation(),
+                  after.axis,
+                  &cell,
+                  t,
+                  effects.cycle->least_anisotropy(cell, t)});
     const double spread = effects.cycle->axis_spread(cell, t);
     if (spread > 0.)
       axis = Random::direction_around(axis / axis.norm(),
@@ -215,7 +227,7 @@ namespace Morula
                                                                    after.key) :
                                                   after.key);
     // doc/theory.md (6.3e)
-    if (effects.rule->frame() == AxisFrame::present)
+    if (rule->frame() == AxisFrame::present)
       axis =
         invert(view.elastic_deformation() * growth_left_of_cycle(view, t)) *
         axis;
@@ -238,7 +250,7 @@ namespace Morula
           set_clock(after, next);
       }
     for (const Effect<dim> *effect : effects.with_state)
-      effect->advance(before.cell(), after, t0, t1);
+      effect->advance(before, after, t0, t1);
     if (!grows())
       return;
     const double end =
@@ -347,8 +359,10 @@ namespace Morula
   CellDevelopment<dim>::placement_axis(
     const CellView<dim, const double> &cell) const
   {
-    const CycleState<dim> state = clock(cell);
-    if (!effects.rule || effects.rule->frame() == AxisFrame::reference)
+    const CycleState<dim>          state = clock(cell);
+    const DivisionRule<dim> *const rule =
+      effects.rule(state_.type.exists() ? cell.get(state_.type) : 0);
+    if (rule == nullptr || rule->frame() == AxisFrame::reference)
       return effects.cycle->placement_axis(state, cell.elastic_deformation());
     // The running cycle stretches n_s along itself.
     const Tensor<1, dim> carried =
@@ -356,6 +370,8 @@ namespace Morula
     return carried / carried.norm();
   }
 
+  template struct DevelopmentEffects<2>;
+  template struct DevelopmentEffects<3>;
   template class CellDevelopment<2>;
   template class CellDevelopment<3>;
 } // namespace Morula

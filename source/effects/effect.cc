@@ -56,7 +56,7 @@ namespace Morula
 
   template <int dim>
   void
-  Effect<dim>::advance(const CellView<dim, const double> &,
+  Effect<dim>::advance(const PresentCell<dim> &,
                        const CellView<dim, double> &,
                        const double,
                        const double) const

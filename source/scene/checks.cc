@@ -22,8 +22,8 @@ namespace Morula
       const SceneEffects<dim> effects = effects_of<dim>(scene);
       if (effects.development.law)
         effects.development.law->check(at);
-      if (effects.development.rule)
-        effects.development.rule->check(at);
+      for (const auto &rule : effects.development.rules)
+        rule->check(at);
       for (const auto &fate : effects.fates)
         fate->check(at);
       for (const auto &[name, force] : effects.forces)

@@ -8,6 +8,7 @@
 #include <morula/seeding/limits.h>
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace Morula
@@ -118,17 +119,17 @@ namespace Morula
         scene.random_seed, scene.time.slack(), columns, state});
     }
 
-    /** Checks the effect that the scene names and makes it, for what it
-     *  refuses; refuses values of those that it does not name. */
+    /** Checks the effects that the scene names and makes them, for what they
+     *  refuse; refuses values of those that it does not name. */
     template <int dim, template <int> class Interface>
     void
-    check_named(const Scene              &scene,
-                const Choices<Interface> &choices,
-                const AnyKey             &switch_key,
-                const std::string        &chosen)
+    check_named(const Scene                 &scene,
+                const Choices<Interface>    &choices,
+                const AnyKey                &switch_key,
+                const std::set<std::string> &chosen)
     {
       for (const auto &choice : choices)
-        if (choice.name() == chosen)
+        if (chosen.count(choice.name()) > 0)
           {
             try_effect<dim>(scene, choice);
           }
@@ -179,13 +180,20 @@ namespace Morula
           check_named<dim>(scene,
                            scene.catalogue.division_rules,
                            cycle.division_axis,
-                           "none");
+                           {});
+          for (const CellTypeKeys &type : scene.cell_types.types)
+            if (!type.division_axis.empty())
+              type.division_axis.refuse("nothing, as no cell proliferates",
+                                        "Set " +
+                                          scene.proliferation_law.path() +
+                                          " = cell cycle, or remove this key.");
           return;
         }
       cycle.check_each(dim);
       for (const ExpressionKey *key :
            {&cycle.axis_spread, &cycle.least_anisotropy})
-        if (!key->is_default() && !scene.has_set(cycle.division_axis))
+        if (!key->is_default() && !scene.has_set(cycle.division_axis) &&
+            scene.division_axes().size() == 1)
           key->refuse("its default, as " + cycle.division_axis.path() +
                         " is not set",
                       "Say by " + cycle.division_axis.path() +
@@ -194,7 +202,7 @@ namespace Morula
       check_named<dim>(scene,
                        scene.catalogue.division_rules,
                        cycle.division_axis,
-                       cycle.division_axis);
+                       scene.division_axes());
     }
 
     /** Refuses types of cells with laws that differ, and daughters of types
@@ -324,7 +332,7 @@ namespace Morula
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,
-                       scene.law_of_growth());
+                       {scene.law_of_growth()});
       check_proliferation<dim>(scene);
       check_contraction<dim>(scene);
       check_death<dim>(scene);

@@ -3,9 +3,7 @@
 
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
-#include <morula/effects/division/axis_rules.h>
 #include <morula/scene/scene.h>
-#include <morula/seeding/shape.h>
 
 #include <boost/algorithm/string.hpp>
 
@@ -99,6 +97,28 @@ namespace Morula
   }
 
 
+  const std::string &
+  Scene::division_axis(const unsigned int type) const
+  {
+    const bool has_own =
+      cell_types.present() && !cell_types.types[type].division_axis.empty();
+    return has_own ? cell_types.types[type].division_axis :
+                     cell_cycle.division_axis;
+  }
+
+
+  std::set<std::string>
+  Scene::division_axes() const
+  {
+    std::set<std::string> axes;
+    for (unsigned int type = 0;
+         type < std::max<std::size_t>(1, cell_types.types.size());
+         ++type)
+      axes.insert(division_axis(type));
+    return axes;
+  }
+
+
   bool
   Scene::has_growth() const
   {
@@ -151,9 +171,10 @@ namespace Morula
     fields.declare_fields(names_in(fields.names));
     for (const std::string &field : fields.name_list())
       cell_cycle.division_axis.add_word("gradient of " + field);
-    std::string laws;
+    LawsOfCells laws;
     for (const auto &law : catalogue.growth_laws)
-      laws += (laws.empty() ? "" : "|") + law.name();
+      laws.growth += (laws.growth.empty() ? "" : "|") + law.name();
+    laws.division_axes = boost::join(cell_cycle.division_axis.choices(), "|");
     const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
     cell_types.declare_types(names_in(cell_types.names),
                              {of_cells.begin(), of_cells.end()},
@@ -314,137 +335,4 @@ namespace Morula
                            ParameterHandler::KeepDeclarationOrder);
     return out.str();
   }
-
-
-  namespace
-  {
-    /** Where the tissue has its centre, µm. */
-    template <int dim>
-    Point<dim>
-    center_of(const TissueParameters &tissue)
-    {
-      return tissue.shape == "mesh" || tissue.shape == "points" ?
-               Point<dim>() :
-               leading_components<dim>(tissue.center);
-    }
-  } // namespace
-
-
-  template <int dim>
-  SceneEffects<dim>
-  effects_of(const Scene &scene)
-  {
-    SceneEffects<dim> effects;
-    effects.state =
-      StateColumns<dim>(scene.cell_types.name_list(), scene.fields.name_list());
-    effects.state.declare_types(effects.columns);
-    effects.state.use(scene.material.youngs_modulus);
-    effects.state.use(scene.material.poissons_ratio);
-    DevelopmentEffects<dim> &development = effects.development;
-    if (scene.has_growth())
-      effects.columns.need_growth();
-    if (scene.has_proliferation())
-      {
-        const auto &cycle = development.cycle.emplace(scene.cell_cycle,
-                                                      scene.random_seed,
-                                                      scene.time.slack(),
-                                                      effects.state);
-        development.clock.emplace(effects.columns,
-                                  cycle.has_own_duration(),
-                                  cycle.has_own_hazard());
-      }
-    const EffectSetting<dim> setting{scene.random_seed,
-                                     scene.time.slack(),
-                                     effects.columns,
-                                     effects.state,
-                                     center_of<dim>(scene.tissue)};
-    const auto               make = [&](const auto &choice) {
-      const unsigned int n = effects.columns.n_numbers();
-      auto               effect = choice.template make<dim>(setting);
-      if (effects.columns.n_numbers() > n)
-        development.with_state.push_back(effect.get());
-      return effect;
-    };
-
-    if (scene.cell_types.present())
-      {
-        development.types.emplace(scene.cell_types, setting);
-        for (unsigned int type = 0; type < development.types->size(); ++type)
-          development.grows.push_back(scene.grows(type));
-      }
-    const Catalogue &catalogue = scene.catalogue;
-    if (scene.has_growth())
-      development.law =
-        make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
-    if (scene.has_proliferation())
-      {
-        const std::string &axis  = scene.cell_cycle.division_axis;
-        const std::string  field = field_of_gradient(axis);
-        if (!field.empty())
-          development.rule =
-            std::make_unique<GradientAxis<dim>>(field, setting);
-        else if (const auto *rule = find_choice(catalogue.division_rules, axis))
-          development.rule = make(*rule);
-      }
-    if (scene.has_contraction())
-      {
-        development.contraction =
-          std::make_unique<Contraction<dim>>(scene.contraction, setting);
-        if (scene.has_growth())
-          development.law_growth = effects.columns.template add<Tensor<2, dim>>(
-            {"law_growth",
-             "",
-             "F_g of the growth law",
-             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
-      }
-    if (scene.material.relaxes())
-      {
-        effects.columns.need_growth();
-        development.relaxation =
-          std::make_unique<Relaxation<dim>>(scene.material, effects.state);
-      }
-    development.forgets_stress =
-      scene.cell_types.present() && scene.material.forgets_stress();
-    if ((development.relaxation || development.forgets_stress) &&
-        !scene.has_proliferation())
-      {
-        effects.columns.need_growth();
-        development.relaxed = effects.columns.template add<Tensor<2, dim>>(
-          {"relaxed",
-           "",
-           "F_r, what has relaxed of F_g",
-           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
-      }
-    if (scene.has_death())
-      development.death.emplace(scene.death, setting);
-    for (const auto &choice : catalogue.fates)
-      if (choice.keys().is_on())
-        effects.fates.push_back(make(choice));
-    for (const auto &choice : catalogue.forces)
-      if (choice.keys().is_on())
-        effects.forces.push_back({choice.name(), make(choice)});
-    for (const auto &choice : catalogue.boundary_conditions)
-      if (choice.keys().is_on())
-        effects.conditions.push_back({choice.name(), make(choice)});
-    if (scene.fields.present())
-      effects.fields = Fields<dim>(scene.fields, setting);
-    effects.state.declare(effects.columns);
-    return effects;
-  }
-
-
-  template <int dim>
-  BoundaryConditions<dim>
-  boundary_conditions_of(const Scene &scene)
-  {
-    return {effects_of<dim>(scene).conditions, scene.nitsche};
-  }
-
-
-#define INSTANTIATE(dim)                                      \
-  template SceneEffects<dim>       effects_of(const Scene &); \
-  template BoundaryConditions<dim> boundary_conditions_of(const Scene &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/scene/estimates.h>
+#include <morula/scene/rate_warnings.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/grid_warnings.h>
 #include <morula/seeding/near_bodies.h>
@@ -84,8 +85,9 @@ namespace Morula
       effects.development.relaxation->review(at, review);
     if (scene.has_proliferation())
       review_cell_cycle(scene.cell_cycle, at, review);
-    if (effects.development.rule)
-      effects.development.rule->review(at, review);
+    for (const auto &rule : effects.development.rules)
+      rule->review(at, review);
+    review_rates(scene, founders, comm, review);
     for (const auto &fate : effects.fates)
       fate->review(at, review);
     for (const auto &[name, force] : effects.forces)

@@ -67,8 +67,12 @@ namespace Morula
                              cell,
                              model.scene.time.step,
                              given_state(founders, i));
-      if (model.fields.present())
-        model.fields.check_cell({cell, id, X, reader});
+      const PresentCell<dim> founder(cell, id, X, reader);
+      model.fields.check_cell(founder);
+      for (const auto &fate : model.fates)
+        fate->check_cell(founder, model.scene.time.step);
+      for (const auto &named : model.forces)
+        named.force->check_cell(founder, model.scene.time.step);
       points.cells.add(id, X, make_array_view(row));
       points.births.push_back({id,
                                -1,

@@ -185,7 +185,10 @@ namespace Morula
     };
     for (const auto &named : model.forces)
       add(named.name, [&]() {
-        return named.force->term(tissue, cell_positions(tissue, space), t);
+        return named.force->term(tissue,
+                                 model.development.reader(attempt.t),
+                                 cell_positions(tissue, space),
+                                 t);
       });
     if (model.boundary_conditions.has_dirichlet())
       add("nitsche", [&]() {

@@ -174,17 +174,17 @@ namespace Step7
     }
 
     void
-    advance(const CellView<dim, const double> &before,
-            const CellView<dim, double>       &after,
-            const double                       t0,
-            const double                       t1) const override
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const override
     {
       if (!remembered.exists())
         return;
-      const Tensor<2, dim> F_e  = before.elastic_deformation();
+      const Tensor<2, dim> F_e  = before.cell().elastic_deformation();
       const double         kept = std::exp(-(t1 - t0) / memory);
       after.set(remembered,
-                kept * before.get(remembered) +
+                kept * before.cell().get(remembered) +
                   (1. - kept) * (transpose(F_e) * F_e));
     }
 

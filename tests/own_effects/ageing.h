@@ -14,7 +14,11 @@ namespace Own
 
   struct AgeingKeys : public EffectKeys
   {
-    Key<bool> record{"Record", false, "Whether cells have an age."};
+    Key<bool>     record{"Record", false, "Whether cells have an age."};
+    ExpressionKey pace{"Pace",
+                       "1",
+                       "Of growing old: an expression of the cell's state.",
+                       Evaluated::step};
 
     bool
     is_on() const override
@@ -26,7 +30,7 @@ namespace Own
     KeyList
     list() override
     {
-      return {&record};
+      return {&record, &pace};
     }
   };
 
@@ -36,8 +40,9 @@ namespace Own
   public:
     using Parameters = AgeingKeys;
 
-    Ageing(const Parameters &, const EffectSetting<dim> &setting)
-      : age(setting.columns.template add<double>(
+    Ageing(const Parameters &parameters, const EffectSetting<dim> &setting)
+      : pace(setting.state.use(parameters.pace))
+      , age(setting.columns.template add<double>(
           {"age", "day", "time since birth", 0., AtDivision::reset, true}))
       , dose(setting.columns.template find<double>("dose"))
       , earlier_dose(setting.columns.template add<double>(
@@ -50,17 +55,25 @@ namespace Own
     {}
 
     void
-    advance(const CellView<dim, const double> &before,
-            const CellView<dim, double>       &after,
-            const double                       t0,
-            const double                       t1) const override
+    check_cell(const PresentCell<dim> &founder, const double) const override
     {
-      after.set(age, before.get(age) + t1 - t0);
+      founder.value(pace, 0.);
+    }
+
+    void
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const override
+    {
+      after.set(age,
+                before.cell().get(age) + before.value(pace, t0) * (t1 - t0));
       // That of t0, although the law has written the one of t1 already.
-      after.set(earlier_dose, before.get(dose));
+      after.set(earlier_dose, before.cell().get(dose));
     }
 
   private:
+    const Expression     pace;
     const Column<double> age, dose, earlier_dose;
   };
 } // namespace Own

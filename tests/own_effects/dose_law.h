@@ -63,14 +63,14 @@ namespace Own
     }
 
     void
-    advance(const CellView<dim, const double> &before,
-            const CellView<dim, double>       &after,
-            const double                       t0,
-            const double                       t1) const override
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const override
     {
       after.set(dose,
-                before.get(dose) +
-                  taken_up(before.founder_position(), t1 - t0));
+                before.cell().get(dose) +
+                  taken_up(before.cell().founder_position(), t1 - t0));
     }
 
   private:

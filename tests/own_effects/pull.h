@@ -19,7 +19,7 @@ namespace Own
     ExpressionKey density{"Density",
                           "0; 0; 0",
                           "Force per initial volume. Units: kPa/um.",
-                          Evaluated::place,
+                          Evaluated::step,
                           3};
 
     bool
@@ -42,23 +42,30 @@ namespace Own
   public:
     using Parameters = PullKeys;
 
-    explicit Pull(const Parameters &parameters)
-      : density(parameters.density.expression(dim))
+    Pull(const Parameters &parameters, const EffectSetting<dim> &setting)
+      : density(setting.state.use(parameters.density))
     {}
 
     std::unique_ptr<Term<dim>>
     term(const Tissue<dim>        &tissue,
+         const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
          const double              t) const override
     {
       std::vector<Tensor<1, dim>> forces;
       for (unsigned int p = 0; p < tissue.cells().size(); ++p)
         {
-          const auto cell = tissue.cells()[p];
-          forces.push_back(cell.initial_volume() *
-                           density.vector(cell.founder_position(), t));
+          const auto cell = present_cell(tissue, p, reader);
+          forces.push_back(cell.cell().initial_volume() *
+                           cell.vector(density, t));
         }
       return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
+    }
+
+    void
+    check_cell(const PresentCell<dim> &founder, const double) const override
+    {
+      founder.vector(density, 0.);
     }
 
   private:

@@ -12,7 +12,7 @@ from program import ProgramTest, main, overrides, read_csv, without_wall_time
 
 SCENE = Path(__file__).resolve().parents[1] / "own_effects" / "own.prm"
 LIBRARY = overrides({
-    "Pull/Density": "0; 0", "Body force/Force density": "0; 1e-4*t",
+    "Pull/Density": "0; 0", "Body force/Force density": "0; 1e-4*t*volume/100",
     "Boundary conditions/Drag/Where": "", "Boundary conditions/Drag/Load":
     "0; 0", "Boundary conditions/Traction where": "Y > 49",
     "Boundary conditions/Traction": "0.01*t; 0"})
@@ -54,7 +54,8 @@ class OwnEffects(ProgramTest):
         self.assertEqual(list(rows["cells"]), [100] * 4 + [200] * 3)
         for number, time in enumerate(t):
             cells = read_csv(output / f"cells-{number:04d}.csv")
-            age = time if time < DIVISION - 1e-9 else time - DIVISION
+            # Daughters grow old twice as fast: the pace is 1 + generation.
+            age = time if time < DIVISION - 1e-9 else 2 * (time - DIVISION)
             numpy.testing.assert_allclose(cells["age"], age, atol=1e-12)
             # An effect sees what others had at the beginning of the step.
             numpy.testing.assert_allclose(
@@ -114,12 +115,19 @@ class OwnEffects(ProgramTest):
         text = self.execute("--explain").text
         for line in ("dose, Uptake = 0.5, Response = 0.1",
                      "axis = along, Direction = 0, 1, 0",
-                     ", Record = true", ", Density = 0; 1e-4*t",
+                     ", Record = true, Pace = 1 + generation",
+                     ", Density = 0; 1e-4*t*volume/100",
                      "at 10 boundary points, where Y > 49"):
             self.assertIn(line, text)
         text = self.execute("-s", "Boundary conditions/Drag/Where=Y > 999",
                             code=1).text
         self.assertIn("Boundary conditions/Drag/Where = 'Y > 999'", text)
+        # Forces and fates are asked at all founders, before the run.
+        for key, value in (("Pull/Density", "log(J_e - 1); 0"),
+                           ("Ageing/Pace", "log(J_e - 1)")):
+            text = self.execute("-s", f"{key}={value}", code=1).text
+            self.assertIn(f"{key} = '{value}'", text)
+            self.assertIn("a finite value", text)
         text = self.execute("-s", "Growth/Dose/Uptake=t", code=1).text
         self.assertIn("Growth/Dose/Uptake = 't'", text)
 

@@ -140,6 +140,44 @@ TEST(SceneWarnings, OfFilesInAnotherUnit)
 }
 
 
+// A rate that other cells change is asked for small steps; one that grows with
+// age, one that is constant and one that is a switch are not.
+TEST(SceneWarnings, OfRatesThatAreFastForTheStep)
+{
+  const TemporaryFile empty(".prm", "");
+  const auto          rates_of = [&](const std::string &leaving,
+                            const std::string &dying) {
+    const Scene scene =
+      Scene::read(empty.path,
+                           {"Tissue/Shape=box",
+                   "Tissue/Size=100, 100, 100",
+                   "Time/Step=0.1",
+                   "Death/Shrinking time=0",
+                   "Cell types/Names=stem, leaf",
+                   "Cell types/leaf/Where=X > 0",
+                   "Cell types/stem/Transitions/To leaf=" + leaving,
+                   "Death/Rate=" + dying});
+    std::string all;
+    for (const std::string &text : warnings_of<3>(scene))
+      if (text.find("rate times step") != std::string::npos)
+        all += text + '\n';
+    return all;
+  };
+  EXPECT_EQ(rates_of("50", "50*age + noise"), "");
+  EXPECT_EQ(rates_of("1000*(pressure >= 0)", "2.9*J_e"), "");
+  // 40 - X/2 at stem cells, whose X < 0: 40 + 45/2 at most
+  const std::string leaving = rates_of("(40 - X/2)/J_e", "0");
+  EXPECT_NE(leaving.find("Cell types/stem/Transitions/To leaf = "),
+            std::string::npos)
+    << leaving;
+  EXPECT_NE(leaving.find("up to 62.5 /day, 6.25 in a step of 0.1 day"),
+            std::string::npos)
+    << leaving;
+  EXPECT_NE(rates_of("0", "3.1*J_e").find("at most 0.0967742 day"),
+            std::string::npos);
+}
+
+
 TEST(SceneWarnings, OfKeysThatTheShapeDoesNotUse)
 {
   Scene scene                     = good_scene();

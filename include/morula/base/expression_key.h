@@ -153,6 +153,10 @@ namespace Morula
     void
     check(const unsigned int dim) const override;
 
+    /** Whether some type of cells has another value. */
+    bool
+    differs_by_type() const;
+
     /** Compares the text. */
     friend bool
     operator==(const ExpressionKey &key, const std::string &text)

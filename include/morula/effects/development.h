@@ -57,10 +57,13 @@ namespace Morula
     std::optional<CellCycle<dim>>         cycle;
     /** Where the cycle keeps its clock; as present as the cycle. */
     std::optional<CycleColumns<dim>> clock;
-    /** Of the axes of cycles; null: those that the cycle draws. */
-    std::unique_ptr<const DivisionRule<dim>> rule;
-    std::optional<CellTypes<dim>>            types = {};
-    std::optional<Death<dim>>                death = {};
+    /** Of the axes of cycles, each of them once. */
+    std::vector<std::unique_ptr<const DivisionRule<dim>>> rules;
+    /** Which of them a type of cells has, or null; empty: all have the first.
+     */
+    std::vector<const DivisionRule<dim> *> rule_of_type = {};
+    std::optional<CellTypes<dim>>          types        = {};
+    std::optional<Death<dim>>              death        = {};
     /** Whether cells grow by the law, by type; empty: all do. */
     std::vector<bool> grows = {};
     /** Or null. */
@@ -75,6 +78,11 @@ namespace Morula
     Column<Tensor<2, dim>> relaxed;
     /** All effects that have columns of their own; they stand elsewhere. */
     std::vector<const Effect<dim> *> with_state = {};
+
+    /** The rule of a type of cells, or null: its axes are those that the cycle
+     *  draws. */
+    const DivisionRule<dim> *
+    rule(const unsigned int type) const;
   };
 
   /**

@@ -119,15 +119,15 @@ namespace Morula
     /**
      * Sets the effect's columns of a cell at the end @p t1 (day) of a step.
      * Only called where the effect has columns, in every attempt of a step.
-     * @param before the cell at @p t0
+     * @param before the cell at @p t0, which evaluates expressions, too
      * @param after  the same cell: what this effect does not write, others may
      *               have written already
      */
     virtual void
-    advance(const CellView<dim, const double> &before,
-            const CellView<dim, double>       &after,
-            const double                       t0,
-            const double                       t1) const;
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const;
 
     /** Refuses what the effect cannot do with a founder in its state at t = 0,
      *  in steps of @p step days. @throws InputError */

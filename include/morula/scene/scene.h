@@ -21,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,14 @@ namespace Morula
     /** The growth law of all types of cells that have one; "none" without. */
     std::string
     law_of_growth() const;
+
+    /** `Division axis` of the type of cells number @p type. */
+    const std::string &
+    division_axis(const unsigned int type) const;
+
+    /** Those of all types. */
+    std::set<std::string>
+    division_axes() const;
 
     /** Whether there is a growth law. */
     bool

@@ -53,13 +53,6 @@ namespace Morula
   private:
     TissueModel(const Scene &scene, SceneEffects<dim> &&effects);
   };
-
-  /** Cell number @p p of the tissue as it is now. */
-  template <int dim>
-  PresentCell<dim>
-  present_cell(const Tissue<dim>     &tissue,
-               const unsigned int     p,
-               const CellReader<dim> &reader);
 } // namespace Morula
 
 #endif

@@ -17,7 +17,7 @@ namespace Morula
   CellTypeKeys::CellTypeKeys(const std::string                        &name,
                              const std::vector<std::string>           &others,
                              const std::vector<const ExpressionKey *> &of_cells,
-                             const std::string &growth_laws)
+                             const LawsOfCells                        &laws)
     : name(name)
     , where("Where",
             "",
@@ -33,7 +33,7 @@ namespace Morula
                  "",
                  "none, or the law by which cells of this type grow; empty: "
                  "that of all.",
-                 {"|none|" + growth_laws})
+                 {"|none|" + laws.growth})
     , proliferation_law(
         "Proliferation/Law",
         "",
@@ -41,6 +41,11 @@ namespace Morula
         "as all. Cells that are past the onset of S divide, and "
         "then wait.",
         {"|none|cell cycle"})
+    , division_axis("Proliferation/Cell cycle/Division axis",
+                    "",
+                    "What n_s of cells of this type is when they enter S; "
+                    "empty: that of all.",
+                    {"|" + laws.division_axes})
   {
     for (const std::string &other : others)
       {
@@ -75,6 +80,7 @@ namespace Morula
       list.push_back(&key);
     list.push_back(&growth_law);
     list.push_back(&proliferation_law);
+    list.push_back(&division_axis);
     for (ExpressionKey &key : overrides)
       list.push_back(&key);
     return list;
@@ -110,7 +116,7 @@ namespace Morula
   CellTypesParameters::declare_types(
     const std::string                        &text,
     const std::vector<const ExpressionKey *> &of_cells,
-    const std::string                        &growth_laws,
+    const LawsOfCells                        &laws,
     const std::vector<std::string>           &fields)
   {
     const std::vector<std::string> list =
@@ -126,7 +132,7 @@ namespace Morula
                      list.end(),
                      std::back_inserter(others),
                      [&](const std::string &other) { return other != name; });
-        types.emplace_back(name, others, of_cells, growth_laws);
+        types.emplace_back(name, others, of_cells, laws);
       }
   }
 

@@ -124,6 +124,17 @@ namespace Morula
 
 
   template <int dim>
+  std::vector<const Expression *>
+  CellTypes<dim>::rates(const unsigned int type) const
+  {
+    std::vector<const Expression *> list;
+    for (const Transition &way : transitions[type])
+      list.push_back(&way.rate);
+    return list;
+  }
+
+
+  template <int dim>
   unsigned int
   CellTypes<dim>::size() const
   {

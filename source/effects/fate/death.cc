@@ -21,12 +21,12 @@ namespace Morula
   template <int dim>
   Death<dim>::Death(const Parameters         &parameters,
                     const EffectSetting<dim> &setting)
-    : rate(setting.state.use(parameters.rate))
+    : rate_(setting.state.use(parameters.rate))
     , when(setting.state.use(parameters.when))
     , shrinking_time(setting.state.use(parameters.shrinking_time))
     , final_volume(setting.state.use(parameters.final_volume))
     , keep_debris(setting.state.use(parameters.keep_debris))
-    , has_rate(!rate.is_always(0.))
+    , has_rate(!rate_.is_always(0.))
     , has_condition(!when.is_always(0.))
     , random_seed(setting.random_seed)
     , slack(setting.slack)
@@ -96,7 +96,7 @@ namespace Morula
   {
     if (!has_rate)
       return {};
-    return Hazard{cell.value(rate, 0.5 * (t0 + t1)),
+    return Hazard{cell.value(rate_, 0.5 * (t0 + t1)),
                   row.get(integral),
                   Random::death_threshold(random_seed, cell.lineage_key())};
   }
@@ -153,6 +153,14 @@ namespace Morula
 
 
   template <int dim>
+  const Expression &
+  Death<dim>::rate() const
+  {
+    return rate_;
+  }
+
+
+  template <int dim>
   bool
   Death<dim>::shrinks(const CellView<dim, const double> &cell) const
   {
@@ -174,7 +182,7 @@ namespace Morula
   Death<dim>::check_cell(const PresentCell<dim> &founder, const double) const
   {
     for (const Expression *expression :
-         {&rate, &when, &shrinking_time, &final_volume, &keep_debris})
+         {&rate_, &when, &shrinking_time, &final_volume, &keep_debris})
       founder.value(*expression, 0.);
   }
 

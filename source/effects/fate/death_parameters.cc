@@ -58,8 +58,7 @@ namespace Morula
   DeathParameters::shrinks() const
   {
     return !shrinking_time.expression(3).is_always(0.) ||
-           !keep_debris.is_default() ||
-           !keep_debris.expression(3).types().empty();
+           !keep_debris.is_default() || keep_debris.differs_by_type();
   }
 
 

@@ -12,9 +12,9 @@ namespace Morula
   BodyForceParameters::BodyForceParameters()
     : force_density("Body force/Force density",
                     "0; 0; 0",
-                    "Force per initial volume: functions of X, Y, Z, t "
-                    "separated by ';'. Units: kPa/um.",
-                    Evaluated::place,
+                    "Force per initial volume: an expression for each "
+                    "direction, separated by ';'. Units: kPa/um.",
+                    Evaluated::step,
                     3)
   {}
 
@@ -22,7 +22,7 @@ namespace Morula
   bool
   BodyForceParameters::is_on() const
   {
-    return !force_density.is_default();
+    return !force_density.is_default() || force_density.differs_by_type();
   }
 
 
@@ -41,14 +41,16 @@ namespace Morula
 
 
   template <int dim>
-  BodyForce<dim>::BodyForce(const Parameters &parameters)
-    : density(parameters.force_density.expression(dim))
+  BodyForce<dim>::BodyForce(const Parameters         &parameters,
+                            const EffectSetting<dim> &setting)
+    : density(setting.state.use(parameters.force_density))
   {}
 
 
   template <int dim>
   std::unique_ptr<Term<dim>>
   BodyForce<dim>::term(const Tissue<dim>        &tissue,
+                       const CellReader<dim>    &reader,
                        const GroupedPoints<dim> &positions,
                        const double              t) const
   {
@@ -56,7 +58,7 @@ namespace Morula
     std::vector<Tensor<1, dim>> forces;
     for (unsigned int p = 0; p < cells.size(); ++p)
       forces.push_back(cells.initial_volume(p) *
-                       density.vector(cells.founder_position(p), t));
+                       present_cell(tissue, p, reader).vector(density, t));
     return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
   }
 
@@ -65,9 +67,20 @@ namespace Morula
   void
   BodyForce<dim>::check(const Preview<dim> &scene) const
   {
+    if (density.depends_on_state())
+      return;
     for (const Point<dim> &X : scene.founders)
       for (const double t : {0., scene.end_time})
         density.vector(X, t);
+  }
+
+
+  template <int dim>
+  void
+  BodyForce<dim>::check_cell(const PresentCell<dim> &founder,
+                             const double) const
+  {
+    founder.vector(density, 0.);
   }
 
 

@@ -274,8 +274,23 @@ namespace Morula
   }
 
 
+  template <int dim>
+  PresentCell<dim>
+  present_cell(const Tissue<dim>     &tissue,
+               const unsigned int     p,
+               const CellReader<dim> &reader)
+  {
+    const Cells<dim> &cells = tissue.cells();
+    return {cells[p], cells.id(p), cells.position(p), reader};
+  }
+
+
   template struct CellReader<2>;
   template struct CellReader<3>;
   template class PresentCell<2>;
   template class PresentCell<3>;
+  template PresentCell<2>
+  present_cell(const Tissue<2> &, const unsigned int, const CellReader<2> &);
+  template PresentCell<3>
+  present_cell(const Tissue<3> &, const unsigned int, const CellReader<3> &);
 } // namespace Morula

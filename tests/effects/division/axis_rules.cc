@@ -113,9 +113,10 @@ namespace
                       Rule<dim>,
                       const typename Rule<dim>::Parameters &,
                       const EffectSetting<dim> &>::value)
-        effects.rule = std::make_unique<const Rule<dim>>(keys, setting);
+        effects.rules.push_back(
+          std::make_unique<const Rule<dim>>(keys, setting));
       else
-        effects.rule = std::make_unique<const Rule<dim>>(keys);
+        effects.rules.push_back(std::make_unique<const Rule<dim>>(keys));
       effects.cycle.emplace(cycle_keys, seed, slack, state);
       effects.clock.emplace(columns);
       state.declare(columns);

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/random.h>
 #include <morula/scene/scene.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -123,6 +124,60 @@ TEST(CellTypes, HaveValuesOfTheirOwn)
       EXPECT_DOUBLE_EQ(present.lame().mu, expected.mu);
       EXPECT_DOUBLE_EQ(present.lame().lambda, expected.lambda);
     }
+}
+
+
+// Axes of leaves are given, also after a change of type; those of stem cells
+// are drawn.
+TEST(CellTypes, HaveAxesOfTheirOwn)
+{
+  auto settings = two_types;
+  for (const std::string setting :
+       {"Proliferation/Cell cycle/Start=together",
+        "Proliferation/Cell cycle/Fixed axis=X; -Y; 0",
+        "Cell types/leaf/Where=X > 50",
+        "Cell types/leaf/Proliferation/Law=cell cycle",
+        "Cell types/leaf/Proliferation/Cell cycle/Division axis=fixed",
+        "Time/Step=0.002"})
+    settings.push_back(setting);
+  const Scene scene = scene_of(settings);
+  EXPECT_NO_THROW(scene.check());
+  EXPECT_EQ(effects_of<2>(scene).development.rules.size(), 1u);
+  const CellDevelopment<2> development = development_of(scene);
+  for (const double X : {0., 80.})
+    {
+      std::vector<double> row =
+        development.columns().founder(Point<2>(X, 60.), 1.);
+      const CellView<2, double> cell(make_array_view(row),
+                                     development.columns());
+      development.initialize(3, cell);
+      const Tensor<1, 2> expected =
+        X > 50. ?
+          Tensor<1, 2>({0.8, -0.6}) :
+          Random::direction<2>(scene.random_seed,
+                               Random::founder_key(scene.random_seed, 3));
+      EXPECT_LT((development.clock(cell).axis - expected).norm(), 1e-15);
+    }
+}
+
+
+TEST(CellTypes, RefuseAxesThatDoNothing)
+{
+  EXPECT_NE(complaint({"Cell types/leaf/Proliferation/Cell cycle/"
+                       "Division axis=upwards"})
+              .find("Division axis = 'upwards'"),
+            std::string::npos);
+  // Keys of a rule that some type has are in use.
+  EXPECT_EQ(complaint({"Cell types/stem/Proliferation/Cell cycle/"
+                       "Division axis=fixed",
+                       "Proliferation/Cell cycle/Fixed axis=1; 0; 0",
+                       "Proliferation/Cell cycle/Axis spread=3"}),
+            "");
+  EXPECT_NE(complaint({"Proliferation/Law=none",
+                       "Cell types/leaf/Proliferation/Cell cycle/"
+                       "Division axis=fixed"})
+              .find("nothing, as no cell proliferates"),
+            std::string::npos);
 }
 
 

@@ -13,6 +13,12 @@
 
 namespace Morula
 {
+  /** What a type of cells may choose from by name, separated by '|'. */
+  struct LawsOfCells
+  {
+    std::string growth, division_axes;
+  };
+
   /** Section "Cell types/NAME". */
   struct CellTypeKeys : public Keys
   {
@@ -20,18 +26,19 @@ namespace Morula
      * @param name   of the type
      * @param others names of the other types
      * @param of_cells keys of cells, which the type may have otherwise
-     * @param growth_laws names of the laws that there are
+     * @param laws that there are
      */
     CellTypeKeys(const std::string                        &name,
                  const std::vector<std::string>           &others,
                  const std::vector<const ExpressionKey *> &of_cells,
-                 const std::string                        &growth_laws);
+                 const LawsOfCells                        &laws);
 
     std::string      name;
     ExpressionKey    where;
     Key<std::string> daughters;
     Key<std::string> growth_law;
     Key<std::string> proliferation_law;
+    Key<std::string> division_axis;
     /** Rates of becoming one of the other types, in their order. */
     std::deque<ExpressionKey> transitions;
     /** Values of keys for this type; empty: those of all. */
@@ -66,7 +73,7 @@ namespace Morula
      * Makes the sections of the types.
      * @param names as `Names` has them
      * @param of_cells keys of cells, which types may have otherwise
-     * @param growth_laws names of the laws that there are
+     * @param laws that there are
      * @param fields names that are taken
      * @throws InputError for names that expressions cannot have, or that are
      *         given twice
@@ -74,7 +81,7 @@ namespace Morula
     void
     declare_types(const std::string                        &names,
                   const std::vector<const ExpressionKey *> &of_cells,
-                  const std::string                        &growth_laws,
+                  const LawsOfCells                        &laws,
                   const std::vector<std::string>           &fields);
 
     /** Tells the keys of cells which types there are, and what these have

@@ -69,6 +69,10 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder) const;
 
+    /** The rates with which cells of a type leave it. */
+    std::vector<const Expression *>
+    rates(const unsigned int type) const;
+
     /** Number of types. */
     unsigned int
     size() const;

@@ -103,6 +103,10 @@ namespace Morula
     double
     removal_time(const CellView<dim, const double> &cell) const;
 
+    /** With which living cells die, 1/day. */
+    const Expression &
+    rate() const;
+
     /** Whether a dead cell has a time to shrink before it goes. */
     bool
     shrinks(const CellView<dim, const double> &cell) const;
@@ -116,7 +120,7 @@ namespace Morula
                const double            step) const override;
 
   private:
-    Expression           rate, when, shrinking_time, final_volume;
+    Expression           rate_, when, shrinking_time, final_volume;
     Expression           keep_debris;
     bool                 has_rate, has_condition;
     std::uint64_t        random_seed;

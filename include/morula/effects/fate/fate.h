@@ -5,6 +5,7 @@
 #define morula_effects_fate_fate_h
 
 #include <morula/effects/effect.h>
+#include <morula/effects/state/present_cell.h>
 
 namespace Morula
 {
@@ -18,10 +19,10 @@ namespace Morula
   {
   public:
     void
-    advance(const CellView<dim, const double> &before,
-            const CellView<dim, double>       &after,
-            const double                       t0,
-            const double                       t1) const override = 0;
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const override = 0;
   };
 } // namespace Morula
 

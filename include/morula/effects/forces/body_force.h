@@ -26,7 +26,7 @@ namespace Morula
   };
 
   /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
-   *  paper. */
+   *  paper. It may depend on the state of cells at the beginning of a step. */
   template <int dim>
   class BodyForce : public Force<dim>
   {
@@ -34,15 +34,20 @@ namespace Morula
     using Parameters = BodyForceParameters;
 
     /** @throws InputError for an expression that cannot be parsed */
-    explicit BodyForce(const Parameters &parameters);
+    BodyForce(const Parameters &parameters, const EffectSetting<dim> &setting);
 
     std::unique_ptr<Term<dim>>
     term(const Tissue<dim>        &tissue,
+         const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
          const double              t) const override;
 
     void
     check(const Preview<dim> &scene) const override;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
 
   private:
     const Expression density;

@@ -5,6 +5,7 @@
 #define morula_effects_forces_force_h
 
 #include <morula/effects/effect.h>
+#include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/tissue.h>
@@ -21,12 +22,15 @@ namespace Morula
     /**
      * The term at the end @p t (day) of a step. Not collective.
      * @param tissue    at the beginning of the step
+     * @param reader    for its cells: present_cell(tissue, p, reader) is cell p
+     *                  with its state, which evaluates expressions
      * @param positions of the cells in their grid cells, in the order of
      *                  Tissue::cells()
      * @throws InputError where an expression has no value
      */
     virtual std::unique_ptr<Term<dim>>
     term(const Tissue<dim>        &tissue,
+         const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
          const double              t) const = 0;
   };

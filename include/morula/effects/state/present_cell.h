@@ -8,6 +8,7 @@
 #include <morula/effects/state/state_columns.h>
 #include <morula/mechanics/cell_quantities.h>
 #include <morula/mechanics/tissue_material.h>
+#include <morula/particles/tissue.h>
 
 #include <deal.II/particles/property_pool.h>
 
@@ -144,6 +145,13 @@ namespace Morula
     mutable CellQuantities      quantities_;
     mutable bool                has_quantities = false;
   };
+
+  /** Cell number @p p of the tissue as it is now. */
+  template <int dim>
+  PresentCell<dim>
+  present_cell(const Tissue<dim>     &tissue,
+               const unsigned int     p,
+               const CellReader<dim> &reader);
 } // namespace Morula
 
 #endif

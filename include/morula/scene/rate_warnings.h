@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_scene_rate_warnings_h
+#define morula_scene_rate_warnings_h
+
+#include <morula/base/review.h>
+#include <morula/scene/scene.h>
+#include <morula/seeding/seeding.h>
+
+#include <mpi.h>
+
+namespace Morula
+{
+  /**
+   * Warns of rates of death and of leaving a type that are fast for the step.
+   * Such a rate is taken for the cell's state at the beginning of a step, so
+   * what other cells become in the step is not felt: an error of first order in
+   * rate times step. Rates that no other cell can change are integrated
+   * exactly, and not looked at. Collective.
+   */
+  template <int dim>
+  void
+  review_rates(const Scene         &scene,
+               const Founders<dim> &founders,
+               const MPI_Comm       comm,
+               Review              &review);
+} // namespace Morula
+
+#endif

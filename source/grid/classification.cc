@@ -42,16 +42,20 @@ namespace Morula
   {
     std::vector<GridCellClass> classes(occupancy.box().size(),
                                        GridCellClass::empty);
-    for (unsigned int number = 0; number < classes.size(); ++number)
-      if (!occupancy.active(number))
-        {
-          if (occupancy.fill(number) > 0.)
-            classes[number] = GridCellClass::reached;
-        }
-      else
-        classes[number] = is_inner(occupancy, number, occupation_parameter) ?
-                            GridCellClass::inner :
-                            GridCellClass::cut;
+    const GridRange<dim>       known =
+      occupancy.window().inner(reach_of_classes<dim>());
+    occupancy.box().for_range(
+      known.first, known.last, [&](const unsigned int number, const auto &) {
+        if (!occupancy.active(number))
+          {
+            if (occupancy.fill(number) > 0.)
+              classes[number] = GridCellClass::reached;
+          }
+        else
+          classes[number] = is_inner(occupancy, number, occupation_parameter) ?
+                              GridCellClass::inner :
+                              GridCellClass::cut;
+      });
     return classes;
   }
 

@@ -151,6 +151,13 @@ namespace Morula
     std::size_t               n_before = 0;
     for (int radius = 2;; ++radius)
       {
+        // The blocks' splines have copies, too.
+        if (!occupancy.window().holds(center,
+                                      radius + 1 + SplineCopies<dim>::reach()))
+          {
+            met_edge = true;
+            return {};
+          }
         const auto list = connected(copy, radius);
         best.clear(); // the larger window finds them again
         for (const unsigned int number : list)
@@ -171,6 +178,13 @@ namespace Morula
           return fullest(center, best);
         n_before = list.size();
       }
+  }
+
+  template <int dim>
+  bool
+  ExtensionSearch<dim>::needs_wider_window() const
+  {
+    return met_edge;
   }
 
   template std::array<double, 9>

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace Morula
 {
   namespace
@@ -16,6 +18,9 @@ namespace Morula
     /** Tissue thinner than so many cells counts as one or two cells thick. */
     constexpr double one_layer = 1.5, two_layers = 2.5;
 
+    /** A row of so many grid cells is as thick as the grid along itself. */
+    constexpr std::size_t long_row = 8;
+
     /** A row of tissue shorter than so many grid spacings is thin. */
     constexpr double thin_row = 1.5;
 
@@ -25,18 +30,31 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  Occupancy<dim>::Occupancy(const GridBox<dim> &box,
-                            const unsigned int  points_per_cell,
-                            const bool          share_points)
-    : box_(box)
+  Occupancy<dim>::Occupancy(const GridWindow<dim> &window,
+                            const unsigned int     points_per_cell,
+                            const bool             share_points)
+    : window_(window)
     , points_per_cell(points_per_cell)
     , share_points(share_points)
-    , volumes(box.size(), 0)
-    , quadrature_points(box.size(), 0)
-    , particles(box.size(), 0)
-    , boundary_points(box.size(), 0)
-    , reaches(box.size() * 2 * dim, 0.f)
+  {
+    resize();
+  }
+
+  template <int dim>
+  Occupancy<dim>::Occupancy(const GridBox<dim> &box)
+    : Occupancy(GridWindow<dim>(box))
   {}
+
+  template <int dim>
+  void
+  Occupancy<dim>::resize()
+  {
+    box_ = window_.box();
+    for (auto *table :
+         {&volumes, &quadrature_points, &particles, &boundary_points})
+      table->assign(box_.size(), 0);
+    reaches.assign(box_.size() * 2 * dim, 0.f);
+  }
 
   template <int dim>
   void
@@ -78,12 +96,159 @@ namespace Morula
 
   template <int dim>
   void
-  Occupancy<dim>::sum(const MPI_Comm comm)
+  Occupancy<dim>::sum()
   {
-    for (auto *table : {&volumes, &particles, &boundary_points})
-      Utilities::MPI::sum(*table, comm, *table);
-    Utilities::MPI::max(reaches, comm, reaches);
+    find_own();
+    find_crowded();
     measure_rows();
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::sum(const BackgroundGrid<dim> &grid)
+  {
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return sum();
+    spread(window_.to_owners(records(), grid));
+    find_crowded();
+    measure_rows();
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
+  {
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return;
+    struct Count
+    {
+      unsigned int number, n;
+    };
+    std::vector<Count> counts, own;
+    for (unsigned int number = 0; number < box_.size(); ++number)
+      if (quadrature_points[number] > 0)
+        counts.push_back(
+          {window_.whole().number(box_.index(number)),
+           static_cast<unsigned int>(quadrature_points[number])});
+    const auto place = [&](const Count &count) {
+      return box_.number(window_.whole().index(count.number));
+    };
+    std::fill(quadrature_points.begin(), quadrature_points.end(), 0);
+    for (const Count &count : window_.to_owners(counts, grid))
+      quadrature_points[place(count)] += count.n;
+    for (unsigned int number = 0; number < box_.size(); ++number)
+      if (quadrature_points[number] > 0)
+        own.push_back({window_.whole().number(box_.index(number)),
+                       static_cast<unsigned int>(quadrature_points[number])});
+    for (const Count &count : window_.to_windows(own))
+      quadrature_points[place(count)] = count.n;
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::widen(const BackgroundGrid<dim> &grid)
+  {
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    std::vector<Record> own;
+    for (const Record &record : records())
+      if (grid.owner(record.number) == rank)
+        own.push_back(record);
+    window_.widen();
+    spread(own);
+    measure_rows();
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::spread(const std::vector<Record> &list)
+  {
+    resize();
+    for (const Record &record : list)
+      add(record);
+    find_own();
+    for (const Record &record : window_.to_windows(records()))
+      add(record);
+  }
+
+  /** Takes all that is there for this rank's. */
+  template <int dim>
+  void
+  Occupancy<dim>::find_own()
+  {
+    own_.clear();
+    for (unsigned int number = 0; number < box_.size(); ++number)
+      if (holds_something(number))
+        own_.push_back(number);
+  }
+
+  template <int dim>
+  bool
+  Occupancy<dim>::holds_something(const unsigned int number) const
+  {
+    const auto reach = reaches.begin() + number * 2 * dim;
+    return volumes[number] > 0 || active(number) ||
+           std::any_of(reach, reach + 2 * dim, [](const float r) {
+             return r > 0.f;
+           });
+  }
+
+  template <int dim>
+  typename Occupancy<dim>::Record
+  Occupancy<dim>::record(const unsigned int number) const
+  {
+    Record record{window_.whole().number(box_.index(number)),
+                  {},
+                  {{volumes[number],
+                    quadrature_points[number],
+                    particles[number],
+                    boundary_points[number]}}};
+    std::copy_n(reaches.begin() + number * 2 * dim,
+                2 * dim,
+                record.reaches.begin());
+    return record;
+  }
+
+  template <int dim>
+  std::vector<typename Occupancy<dim>::Record>
+  Occupancy<dim>::records() const
+  {
+    std::vector<Record> list;
+    for (unsigned int number = 0; number < box_.size(); ++number)
+      if (holds_something(number))
+        list.push_back(record(number));
+    return list;
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::add(const Record &record)
+  {
+    const unsigned int number =
+      box_.number(window_.whole().index(record.number));
+    volumes[number] += record.counts[0];
+    quadrature_points[number] += record.counts[1];
+    particles[number] += record.counts[2];
+    boundary_points[number] += record.counts[3];
+    for (unsigned int k = 0; k < 2 * dim; ++k)
+      {
+        float &reach = reaches[number * 2 * dim + k];
+        reach        = std::max(reach, record.reaches[k]);
+      }
+  }
+
+  template <int dim>
+  void
+  Occupancy<dim>::find_crowded()
+  {
+    std::vector<unsigned int> found;
+    for (const unsigned int number : own_)
+      if (boundary_points[number] > Utilities::pow(4, dim))
+        found.push_back(window_.whole().number(box_.index(number)));
+    crowded_.clear();
+    for (const auto &list : gather_everywhere(found, window_.communicator()))
+      crowded_.insert(crowded_.end(), list.begin(), list.end());
+    std::sort(crowded_.begin(), crowded_.end());
   }
 
   template <int dim>
@@ -135,7 +300,8 @@ namespace Morula
     bool        found      = false;
     for (const unsigned int number : row)
       {
-        thicknesses[number] = std::min(thicknesses[number], thickness);
+        if (row.size() < long_row)
+          thicknesses[number] = std::min(thicknesses[number], thickness);
         if (!(row_length < thin_row))
           continue;
         lengths[number] = std::min(lengths[number], row_length);
@@ -186,13 +352,6 @@ namespace Morula
           ++quadrature_points[box_.number(box_.locate(share))];
         });
       });
-  }
-
-  template <int dim>
-  void
-  Occupancy<dim>::sum_quadrature_points(const MPI_Comm comm)
-  {
-    Utilities::MPI::sum(quadrature_points, comm, quadrature_points);
   }
 
   template <int dim>
@@ -284,9 +443,11 @@ namespace Morula
   bool
   Occupancy<dim>::crowded(const Point<dim> &x) const
   {
-    const GridIndex<dim> index = box_.locate(x);
-    return box_.contains(index) &&
-           boundary_points[box_.number(index)] > Utilities::pow(4, dim);
+    const GridBox<dim>  &whole = window_.whole();
+    const GridIndex<dim> index = whole.locate(x);
+    return whole.contains(index) && std::binary_search(crowded_.begin(),
+                                                       crowded_.end(),
+                                                       whole.number(index));
   }
 
   template <int dim>
@@ -309,6 +470,20 @@ namespace Morula
   Occupancy<dim>::box() const
   {
     return box_;
+  }
+
+  template <int dim>
+  const GridWindow<dim> &
+  Occupancy<dim>::window() const
+  {
+    return window_;
+  }
+
+  template <int dim>
+  const std::vector<unsigned int> &
+  Occupancy<dim>::own() const
+  {
+    return own_;
   }
 
   template class Occupancy<2>;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/grid/piece_watch.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace Morula
 {
@@ -14,40 +17,74 @@ namespace Morula
   {
     constexpr unsigned int no_former = numbers::invalid_unsigned_int;
 
-    /** Whether a piece of @p space holds grid cells of two former pieces. */
+    /** A grid cell that is active now and was active before. */
     template <int dim>
-    bool
-    any_joined(const SplineSpace<dim>          &space,
-               const std::vector<unsigned int> &former)
+    struct Kept
     {
-      std::vector<unsigned int> former_of(space.n_pieces(), no_former);
-      for (unsigned int number = 0; number < former.size(); ++number)
-        if (former[number] != no_former)
-          {
-            unsigned int &first = former_of[space.piece(number)];
-            if (first == no_former)
-              first = former[number];
-            if (first != former[number])
-              return true;
-          }
-      return false;
+      GridIndex<dim> grid_cell;
+      unsigned int   piece, former;
+    };
+
+    /** For each piece whether it holds grid cells of two former pieces.
+     *  Collective. */
+    template <int dim>
+    std::vector<bool>
+    pieces_that_joined(const std::vector<Kept<dim>> &kept,
+                       const unsigned int            n_pieces,
+                       const MPI_Comm                comm)
+    {
+      std::vector<unsigned int> lowest(n_pieces, no_former),
+        highest(n_pieces, 0);
+      for (const Kept<dim> &grid_cell : kept)
+        {
+          unsigned int &low  = lowest[grid_cell.piece];
+          unsigned int &high = highest[grid_cell.piece];
+          low                = std::min(low, grid_cell.former);
+          high               = std::max(high, grid_cell.former);
+        }
+      Utilities::MPI::min(lowest, comm, lowest);
+      Utilities::MPI::max(highest, comm, highest);
+      std::vector<bool> joined;
+      for (unsigned int piece = 0; piece < n_pieces; ++piece)
+        joined.push_back(lowest[piece] != no_former &&
+                         lowest[piece] != highest[piece]);
+      return joined;
     }
 
     /** The middle between the two nearest grid cells of one piece that belonged
      *  to two former pieces. There must be such grid cells. */
     template <int dim>
     Point<dim>
-    middle(const SplineSpace<dim>          &space,
-           const std::vector<unsigned int> &former)
+    middle(const std::vector<Kept<dim>> &kept, const GridBox<dim> &lines)
     {
-      const GridBox<dim> &box      = space.box();
-      double              shortest = std::numeric_limits<double>::max();
-      Point<dim>          place;
+      GridIndex<dim> first = kept[0].grid_cell, last = first, n;
+      for (const Kept<dim> &one : kept)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            first[d] = std::min(first[d], one.grid_cell[d]);
+            last[d]  = std::max(last[d], one.grid_cell[d]);
+          }
+      for (unsigned int d = 0; d < dim; ++d)
+        n[d] = last[d] - first[d] + 1;
+      const GridBox<dim>        box(first,
+                             n,
+                             lines.spacing(),
+                             lines.corner(GridIndex<dim>{}));
+      std::vector<unsigned int> former(box.size(), no_former),
+        piece(box.size(), no_former);
+      for (const Kept<dim> &one : kept)
+        {
+          former[box.number(one.grid_cell)] = one.former;
+          piece[box.number(one.grid_cell)]  = one.piece;
+        }
+
+      double     shortest = std::numeric_limits<double>::max();
+      Point<dim> place;
       // A pair found at one radius can be farther apart, by the diagonal, than
       // a pair of the next radius. So the search goes one radius further than
       // the first that finds a pair.
-      int last = std::numeric_limits<int>::max();
-      for (int radius = 1; radius <= last; ++radius)
+      int last_radius = std::numeric_limits<int>::max();
+      for (int radius = 1; radius <= last_radius; ++radius)
         for (unsigned int number = 0; number < former.size(); ++number)
           if (former[number] != no_former)
             {
@@ -58,14 +95,15 @@ namespace Morula
                                     const GridIndex<dim> &index) {
                                   if (former[other] == no_former ||
                                       former[other] == former[number] ||
-                                      space.piece(other) != space.piece(number))
+                                      piece[other] != piece[number])
                                     return;
                                   const Point<dim> there = box.center(index);
                                   if (here.distance(there) < shortest)
                                     {
                                       shortest = here.distance(there);
                                       place    = here + 0.5 * (there - here);
-                                      last     = std::min(last, radius + 1);
+                                      last_radius =
+                                        std::min(last_radius, radius + 1);
                                     }
                                 });
             }
@@ -74,50 +112,82 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  std::vector<unsigned int>
-  PieceWatch<dim>::former_pieces(const SplineSpace<dim> &space) const
+  std::vector<typename PieceWatch<dim>::Former>
+  PieceWatch<dim>::former_pieces(const BackgroundGrid<dim> &grid) const
   {
-    std::vector<unsigned int> former(space.box().size(), no_former);
-    for (unsigned int number = 0; number < former.size(); ++number)
-      {
-        const GridIndex<dim> index = space.box().index(number);
-        if (space.piece(number) != no_former && box.contains(index))
-          former[number] = pieces[box.number(index)];
-      }
-    return former;
+    std::map<unsigned int, std::vector<Former>> by_owner;
+    for (const Former &one : remembered)
+      if (grid.box().contains(one.grid_cell))
+        by_owner[grid.owner(one.grid_cell)].push_back(one);
+    std::vector<Former> list;
+    for (const auto &[sender, theirs] :
+         send_records(by_owner, grid.communicator()))
+      list.insert(list.end(), theirs.begin(), theirs.end());
+    return list;
   }
 
   template <int dim>
   std::optional<Point<dim>>
-  PieceWatch<dim>::joined(const SplineSpace<dim> &space)
+  PieceWatch<dim>::joined(const SplineSpace<dim>    &space,
+                          const BackgroundGrid<dim> &grid)
   {
+    const MPI_Comm            comm = grid.communicator();
+    const GridBox<dim>       &box  = space.box();
     std::optional<Point<dim>> place;
-    if (!pieces.empty())
-      if (const auto former = former_pieces(space); any_joined(space, former))
-        place = middle(space, former);
-    box = space.box();
-    pieces.resize(box.size());
-    for (unsigned int number = 0; number < pieces.size(); ++number)
-      pieces[number] = space.piece(number);
+    if (n_pieces > 1) // else nothing can join
+      {
+        std::map<unsigned int, unsigned int> former; // by grid cell
+        for (const Former &one : former_pieces(grid))
+          former[box.number(one.grid_cell)] = one.piece;
+        std::vector<Kept<dim>> kept;
+        for (const auto &grid_cell : space.grid_cells())
+          if (const auto found = former.find(grid_cell.number);
+              found != former.end())
+            kept.push_back({box.index(grid_cell.number),
+                            space.piece(grid_cell.number),
+                            found->second});
+        const auto joined = pieces_that_joined(kept, space.n_pieces(), comm);
+        if (std::find(joined.begin(), joined.end(), true) != joined.end())
+          {
+            kept.erase(std::remove_if(kept.begin(),
+                                      kept.end(),
+                                      [&](const Kept<dim> &one) {
+                                        return !joined[one.piece];
+                                      }),
+                       kept.end());
+            // Rare: all ranks look at the grid cells of the joined pieces.
+            std::vector<Kept<dim>> all;
+            for (const auto &list : gather_everywhere(kept, comm))
+              all.insert(all.end(), list.begin(), list.end());
+            place = middle(all, box);
+          }
+      }
+    remembered.clear();
+    n_pieces = space.n_pieces();
+    for (const auto &grid_cell : space.grid_cells())
+      remembered.push_back(
+        {box.index(grid_cell.number), space.piece(grid_cell.number)});
     return place;
   }
 
   template <int dim>
   unsigned int
-  pieces_with_cells(const SplineSpace<dim> &space)
+  pieces_with_cells(const SplineSpace<dim> &space, const MPI_Comm comm)
   {
-    std::vector<char> holds_cells(space.n_pieces(), false);
-    for (unsigned int number = 0; number < space.box().size(); ++number)
-      if (space.piece(number) != no_former &&
-          space.occupancy().n_particles(number) > 0)
-        holds_cells[space.piece(number)] = true;
-    return std::count(holds_cells.begin(), holds_cells.end(), true);
+    const Occupancy<dim>     &occupancy = space.occupancy();
+    std::vector<unsigned int> holds_cells(space.n_pieces(), 0);
+    for (const auto &grid_cell : space.grid_cells())
+      if (occupancy.n_particles(
+            occupancy.box().number(space.box().index(grid_cell.number))) > 0)
+        holds_cells[space.piece(grid_cell.number)] = 1;
+    Utilities::MPI::max(holds_cells, comm, holds_cells);
+    return std::count(holds_cells.begin(), holds_cells.end(), 1);
   }
 
   template class PieceWatch<2>;
   template class PieceWatch<3>;
   template unsigned int
-  pieces_with_cells(const SplineSpace<2> &);
+  pieces_with_cells(const SplineSpace<2> &, const MPI_Comm);
   template unsigned int
-  pieces_with_cells(const SplineSpace<3> &);
+  pieces_with_cells(const SplineSpace<3> &, const MPI_Comm);
 } // namespace Morula

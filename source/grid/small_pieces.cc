@@ -3,54 +3,64 @@
 
 #include <morula/grid/small_pieces.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace Morula
 {
   namespace
   {
-    /** Extent and content of a piece. */
+    /** Extents and contents of all pieces. */
     template <int dim>
-    struct Extent
+    struct Extents
     {
-      bool           inner        = false;
-      std::uint64_t  n_particles  = 0;
-      unsigned int   n_grid_cells = 0;
-      Point<dim>     lower, upper;   // of the tissue, µm
-      Tensor<1, dim> sum_of_centers; // of the grid cells, µm
+      /** Of the tissue, µm: for each piece the upper corner, and the lower one
+       *  with a minus. */
+      std::vector<double> corners;
+      /** For each piece the numbers of inner grid cells, of particles, of grid
+       *  cells, and the sum of the coordinates of these: integers, so that the
+       *  order of the ranks does not matter. */
+      std::vector<std::int64_t> counts;
+
+      static constexpr unsigned int n_counts = 3 + dim;
     };
 
-    /** The extent of each piece. */
     template <int dim>
-    std::vector<Extent<dim>>
+    Extents<dim>
     extents(const Occupancy<dim>             &occupancy,
             const std::vector<GridCellClass> &classes,
-            const SplineCopies<dim>          &copies)
+            const SplineCopies<dim>          &copies,
+            const MPI_Comm                    comm)
     {
-      const GridBox<dim>      &box = occupancy.box();
-      std::vector<Extent<dim>> list(copies.n_pieces());
-      for (unsigned int number = 0; number < box.size(); ++number)
-        if (is_active(classes[number]))
-          {
-            Extent<dim> &extent       = list[copies.piece(number)];
-            const auto [lower, upper] = occupancy.bounds(number);
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                extent.lower[d] = extent.n_grid_cells == 0 ?
-                                    lower[d] :
-                                    std::min(extent.lower[d], lower[d]);
-                extent.upper[d] = extent.n_grid_cells == 0 ?
-                                    upper[d] :
-                                    std::max(extent.upper[d], upper[d]);
-              }
-            extent.inner |= classes[number] == GridCellClass::inner;
-            extent.n_particles += occupancy.n_particles(number);
-            extent.sum_of_centers +=
-              box.center(box.index(number)) - Point<dim>();
-            ++extent.n_grid_cells;
-          }
-      return list;
+      const GridBox<dim> &box = occupancy.box();
+      Extents<dim>        all;
+      all.corners.assign(copies.n_pieces() * 2 * dim,
+                         std::numeric_limits<double>::lowest());
+      all.counts.assign(copies.n_pieces() * Extents<dim>::n_counts, 0);
+      for (const unsigned int number : copies.own_grid_cells())
+        {
+          const unsigned int   piece  = copies.piece(number);
+          const GridIndex<dim> index  = box.index(number);
+          const auto [lower, upper]   = occupancy.bounds(number);
+          double *const       corners = &all.corners[piece * 2 * dim];
+          std::int64_t *const counts =
+            &all.counts[piece * Extents<dim>::n_counts];
+          counts[0] += classes[number] == GridCellClass::inner;
+          counts[1] += occupancy.n_particles(number);
+          ++counts[2];
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              corners[d]       = std::max(corners[d], upper[d]);
+              corners[dim + d] = std::max(corners[dim + d], -lower[d]);
+              counts[3 + d] += index[d];
+            }
+        }
+      Utilities::MPI::max(all.corners, comm, all.corners);
+      Utilities::MPI::sum(all.counts, comm, all.counts);
+      return all;
     }
   } // namespace
 
@@ -83,23 +93,28 @@ namespace Morula
   std::map<unsigned int, PiecePolynomial<dim>>
   find_small_pieces(const Occupancy<dim>             &occupancy,
                     const std::vector<GridCellClass> &classes,
-                    const SplineCopies<dim>          &copies)
+                    const SplineCopies<dim>          &copies,
+                    const MPI_Comm                    comm)
   {
-    const double h    = occupancy.box().spacing();
-    const auto   list = extents(occupancy, classes, copies);
+    const double     h         = occupancy.box().spacing();
+    const Point<dim> grid_line = occupancy.box().corner(GridIndex<dim>{});
+    const auto       all       = extents(occupancy, classes, copies, comm);
     std::map<unsigned int, PiecePolynomial<dim>> result;
-    for (unsigned int piece = 0; piece < list.size(); ++piece)
+    for (unsigned int piece = 0; piece < copies.n_pieces(); ++piece)
       {
-        const Extent<dim> &extent  = list[piece];
-        double             largest = 0.;
+        const auto corners = all.corners.begin() + piece * 2 * dim;
+        const auto counts = all.counts.begin() + piece * Extents<dim>::n_counts;
+        double     largest = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          largest = std::max(largest, extent.upper[d] - extent.lower[d]);
-        const bool few = extent.n_particles < BSpline<dim>::n;
-        if (!extent.inner || largest < (few ? 2. : 1.) * h)
+          largest = std::max(largest, corners[d] + corners[dim + d]);
+        const bool has_inner = counts[0] > 0;
+        const bool few       = counts[1] < std::int64_t(BSpline<dim>::n);
+        if (!has_inner || largest < (few ? 2. : 1.) * h)
           {
             PiecePolynomial<dim> &polynomial = result[piece];
-            polynomial.center =
-              Point<dim>(extent.sum_of_centers / extent.n_grid_cells);
+            for (unsigned int d = 0; d < dim; ++d)
+              polynomial.center[d] =
+                grid_line[d] + (1. * counts[3 + d] / counts[2] + 0.5) * h;
             polynomial.quadratic = !few && largest < h;
           }
       }
@@ -111,9 +126,11 @@ namespace Morula
   template std::map<unsigned int, PiecePolynomial<2>>
   find_small_pieces(const Occupancy<2> &,
                     const std::vector<GridCellClass> &,
-                    const SplineCopies<2> &);
+                    const SplineCopies<2> &,
+                    const MPI_Comm);
   template std::map<unsigned int, PiecePolynomial<3>>
   find_small_pieces(const Occupancy<3> &,
                     const std::vector<GridCellClass> &,
-                    const SplineCopies<3> &);
+                    const SplineCopies<3> &,
+                    const MPI_Comm);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/grid/parts_on_ranks.h>
 #include <morula/grid/spline_copies.h>
 
 #include <deal.II/base/types.h>
@@ -75,18 +76,61 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  SplineCopies<dim>::SplineCopies(const GridBox<dim>               &box,
-                                  const std::vector<GridCellClass> &classes)
-    : box(box)
+  SplineCopies<dim>::SplineCopies(const GridWindow<dim>            &window,
+                                  const std::vector<GridCellClass> &classes,
+                                  const BackgroundGrid<dim>        &grid)
+    : box(window.box())
     , first(box.size() + 1, 0)
     , pieces(box.size(), no_piece)
   {
+    find_own(classes, grid);
+    const GridRange<dim> known = window.inner(reach());
     for (unsigned int spline = 0; spline < box.size(); ++spline)
       {
-        add_copies(spline, classes);
+        if (known.contains(box.index(spline)))
+          add_copies(spline, classes);
         first[spline + 1] = copies.size();
       }
-    find_pieces();
+    const unsigned int n_parts = find_parts();
+    join_parts(n_parts, window.whole(), grid);
+    for (SplineCopy &copy : copies)
+      if (is_used(copy))
+        for_support(box,
+                    copy.spline,
+                    [&](const unsigned int a, const unsigned int number) {
+                      if (copy.support & (1u << a))
+                        copy.piece = pieces[number];
+                    });
+  }
+
+  template <int dim>
+  void
+  SplineCopies<dim>::find_own(const std::vector<GridCellClass> &classes,
+                              const BackgroundGrid<dim>        &grid)
+  {
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    const bool alone =
+      Utilities::MPI::n_mpi_processes(grid.communicator()) == 1;
+    own.assign(box.size(), alone);
+    // A spline with active grid cells stands on one of their neighbours.
+    for (unsigned int number = 0; number < box.size(); ++number)
+      if (is_active(classes[number]))
+        {
+          if (!alone)
+            box.for_neighbors(box.index(number),
+                              1,
+                              [&](const unsigned int other, const auto &) {
+                                own[other] = 2;
+                              });
+        }
+    if (!alone)
+      for (unsigned int number = 0; number < box.size(); ++number)
+        if (own[number] == 2)
+          own[number] = grid.owner(box.index(number)) == rank;
+    for (unsigned int number = 0; number < box.size(); ++number)
+      if (own[number] && is_active(classes[number]))
+        own_active.push_back(number);
   }
 
   template <int dim>
@@ -114,47 +158,86 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  SplineCopies<dim>::find_pieces()
+  bool
+  SplineCopies<dim>::is_used(const SplineCopy &copy) const
+  {
+    bool used = is_own(copy);
+    if (!used)
+      for_support(box,
+                  copy.spline,
+                  [&](const unsigned int a, const unsigned int number) {
+                    used = used || ((copy.support & (1u << a)) && own[number]);
+                  });
+    return used;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::find_parts()
   {
     std::vector<unsigned int> rank(box.size(), 0), parent(box.size());
     std::iota(parent.begin(), parent.end(), 0u);
     boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
                                                               parent.data());
-    std::vector<char>                                    active(box.size(), 0);
+    std::vector<char>                                    used(box.size(), 0);
     for (const SplineCopy &copy : copies)
       {
+        if (!is_used(copy))
+          continue;
         unsigned int one = no_piece;
         for_support(box,
                     copy.spline,
                     [&](const unsigned int a, const unsigned int number) {
                       if (!(copy.support & (1u << a)))
                         return;
-                      active[number] = 1;
+                      used[number] = 1;
                       if (one == no_piece)
                         one = number;
                       sets.union_set(one, number);
                     });
       }
-    std::vector<unsigned int> piece_of_root(box.size(), no_piece);
+    unsigned int              n_parts = 0;
+    std::vector<unsigned int> part_of_root(box.size(), no_piece);
     for (unsigned int number = 0; number < box.size(); ++number)
-      if (active[number])
+      if (used[number])
         {
-          unsigned int &piece = piece_of_root[sets.find_set(number)];
-          if (piece == no_piece)
-            {
-              piece = lowest.size();
-              lowest.push_back(number);
-            }
-          pieces[number] = piece;
+          unsigned int &part = part_of_root[sets.find_set(number)];
+          if (part == no_piece)
+            part = n_parts++;
+          pieces[number] = part;
         }
-    for (SplineCopy &copy : copies)
-      for_support(box,
-                  copy.spline,
-                  [&](const unsigned int a, const unsigned int number) {
-                    if (copy.support & (1u << a))
-                      copy.piece = pieces[number];
-                  });
+    return n_parts;
+  }
+
+  template <int dim>
+  void
+  SplineCopies<dim>::join_parts(const unsigned int         n_parts,
+                                const GridBox<dim>        &whole,
+                                const BackgroundGrid<dim> &grid)
+  {
+    std::vector<unsigned int> lowest_of_parts(n_parts, no_piece);
+    PartsOnRanks::Seen        seen;
+    for (unsigned int number = 0; number < box.size(); ++number)
+      if (pieces[number] != no_piece)
+        {
+          const GridIndex<dim> index = box.index(number);
+          const unsigned int   there = whole.number(index);
+          unsigned int        &low   = lowest_of_parts[pieces[number]];
+          low                        = std::min(low, there);
+          if (!own[number])
+            seen[grid.owner(index)].push_back({there, pieces[number]});
+        }
+    const PartsOnRanks joined(
+      lowest_of_parts,
+      seen,
+      [&](const unsigned int there) {
+        return pieces[box.number(whole.index(there))];
+      },
+      grid.communicator());
+    lowest = joined.lowest();
+    for (unsigned int &piece : pieces)
+      if (piece != no_piece)
+        piece = joined.whole_of(piece);
   }
 
   template <int dim>
@@ -180,6 +263,36 @@ namespace Morula
       ++copy;
     Assert(copy < first[number + 1], ExcInternalError());
     return copy;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::place(const unsigned int copy) const
+  {
+    return copy - first[copies[copy].spline];
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::copy_at(const unsigned int spline,
+                             const unsigned int place) const
+  {
+    AssertThrow(first[spline] + place < first[spline + 1], ExcInternalError());
+    return first[spline] + place;
+  }
+
+  template <int dim>
+  bool
+  SplineCopies<dim>::is_own(const SplineCopy &copy) const
+  {
+    return own[copy.spline];
+  }
+
+  template <int dim>
+  const std::vector<unsigned int> &
+  SplineCopies<dim>::own_grid_cells() const
+  {
+    return own_active;
   }
 
   template <int dim>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/grid/spline_space.h>
 
-#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 
 #include <algorithm>
 #include <numeric>
@@ -31,24 +32,58 @@ namespace Morula
                                 Occupancy<dim>             occupancy,
                                 const GridParameters      &parameters)
     : occupancy_(std::move(occupancy))
-    , box_(occupancy_.box())
     , extend(parameters.extension)
-    , classes(classify(occupancy_, parameters.occupation_parameter))
-    , copies(box_, classes)
   {
-    if (extend)
-      small_pieces = find_small_pieces(occupancy_, classes, copies);
-    n_active = std::count_if(classes.begin(), classes.end(), is_active);
-    n_inner =
-      std::count_if(copies.list().begin(),
-                    copies.list().end(),
-                    [&](const SplineCopy &copy) {
-                      return copy.inner && small_pieces.count(copy.piece) == 0;
-                    });
-    n_outer = copies.list().size() - n_inner;
+    while (!find_splines(grid, parameters))
+      occupancy_.widen(grid);
+    count(grid.communicator());
     number_unknowns(grid);
-    express_grid_cells(grid);
+    ask_for_numbers(grid);
+    express_grid_cells();
     find_relevant();
+  }
+
+  template <int dim>
+  bool
+  SplineSpace<dim>::find_splines(const BackgroundGrid<dim> &grid,
+                                 const GridParameters      &parameters)
+  {
+    box_    = occupancy_.box();
+    classes = classify(occupancy_, parameters.occupation_parameter);
+    copies  = SplineCopies<dim>(occupancy_.window(), classes, grid);
+    if (!extend)
+      return true;
+    small_pieces =
+      find_small_pieces(occupancy_, classes, copies, grid.communicator());
+    blocks.clear();
+    ExtensionSearch<dim> search(occupancy_, classes);
+    for (const unsigned int number : copies.own_grid_cells())
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        {
+          const unsigned int c    = copy_at(box_.index(number), a);
+          const SplineCopy  &copy = copies.list()[c];
+          // many grid cells share a spline
+          if (!is_unknown(copy) && small_pieces.count(copy.piece) == 0 &&
+              blocks.count(c) == 0)
+            blocks[c] = search.blocks(copy);
+        }
+    return !Utilities::MPI::logical_or(search.needs_wider_window(),
+                                       grid.communicator());
+  }
+
+  template <int dim>
+  void
+  SplineSpace<dim>::count(const MPI_Comm comm)
+  {
+    std::vector<unsigned int> n{
+      static_cast<unsigned int>(copies.own_grid_cells().size()), 0, 0};
+    for (const SplineCopy &copy : copies.list())
+      if (copies.is_own(copy))
+        ++n[copy.inner && small_pieces.count(copy.piece) == 0 ? 1 : 2];
+    Utilities::MPI::sum(n, comm, n);
+    n_active = n[0];
+    n_inner  = n[1];
+    n_outer  = n[2];
   }
 
   template <int dim>
@@ -59,54 +94,136 @@ namespace Morula
   }
 
   template <int dim>
+  unsigned int
+  SplineSpace<dim>::copy_at(const GridIndex<dim> &grid_cell,
+                            const unsigned int    a) const
+  {
+    return copies.at(neighbor(grid_cell, a), grid_cell);
+  }
+
+  template <int dim>
   void
   SplineSpace<dim>::number_unknowns(const BackgroundGrid<dim> &grid)
   {
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(grid.communicator());
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(grid.communicator());
-    const auto &list = copies.list();
+    const MPI_Comm     comm = grid.communicator();
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    const auto        &list = copies.list();
 
-    std::vector<unsigned int> next(n_ranks + 1, 0);
+    unsigned int n_own = 0;
     for (const SplineCopy &copy : list)
-      if (is_unknown(copy))
-        ++next[grid.owner(copy.spline) + 1];
+      n_own += copies.is_own(copy) && is_unknown(copy);
     for (const auto &[piece, polynomial] : small_pieces)
-      next[grid.owner(copies.lowest_grid_cell(piece)) + 1] +=
-        polynomial.n_unknowns();
-    std::partial_sum(next.begin(), next.end(), next.begin());
+      if (grid.owner(copies.lowest_grid_cell(piece)) == rank)
+        n_own += polynomial.n_unknowns();
 
-    n_unknowns_ = next[n_ranks];
+    const auto   of_ranks = Utilities::MPI::all_gather(comm, n_own);
+    unsigned int next =
+      std::accumulate(of_ranks.begin(), of_ranks.begin() + rank, 0u);
+    n_unknowns_ = std::accumulate(of_ranks.begin(), of_ranks.end(), 0u);
     owned_      = IndexSet(n_unknowns_);
-    owned_.add_range(next[rank], next[rank + 1]);
+    owned_.add_range(next, next + n_own);
 
-    pieces_of_unknowns_.resize(owned_.n_elements());
-    const auto set_piece = [&](const unsigned int number,
-                               const unsigned int piece) {
-      if (owned_.is_element(number))
-        pieces_of_unknowns_[owned_.index_within_set(number)] = piece;
-    };
+    pieces_of_unknowns_.clear();
+    pieces_of_unknowns_.reserve(n_own);
     numbers.assign(list.size(), none);
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (is_unknown(list[c]))
+      if (copies.is_own(list[c]) && is_unknown(list[c]))
         {
-          numbers[c] = next[grid.owner(list[c].spline)]++;
-          set_piece(numbers[c], list[c].piece);
+          numbers[c] = next++;
+          pieces_of_unknowns_.push_back(list[c].piece);
         }
-    for (auto &[piece, polynomial] : small_pieces)
+    number_small_pieces(grid, next);
+  }
+
+  template <int dim>
+  void
+  SplineSpace<dim>::number_small_pieces(const BackgroundGrid<dim> &grid,
+                                        unsigned int               next)
+  {
+    const MPI_Comm            comm = grid.communicator();
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+    std::vector<unsigned int> first(small_pieces.size(), 0);
+    std::size_t               k = 0;
+    for (const auto &[piece, polynomial] : small_pieces)
       {
-        unsigned int &first = next[grid.owner(copies.lowest_grid_cell(piece))];
-        polynomial.first_unknown = first;
-        for (unsigned int k = 0; k < polynomial.n_unknowns(); ++k)
-          set_piece(first++, piece);
+        if (grid.owner(copies.lowest_grid_cell(piece)) == rank)
+          {
+            first[k] = next;
+            next += polynomial.n_unknowns();
+            pieces_of_unknowns_.insert(pieces_of_unknowns_.end(),
+                                       polynomial.n_unknowns(),
+                                       piece);
+          }
+        ++k;
       }
+    Utilities::MPI::sum(first, comm, first);
+    k = 0;
+    for (auto &[piece, polynomial] : small_pieces)
+      polynomial.first_unknown = first[k++];
+  }
+
+  /** Unknowns of other ranks that this rank's grid cells need. */
+  template <int dim>
+  std::vector<unsigned int>
+  SplineSpace<dim>::copies_of_others() const
+  {
+    std::vector<unsigned int> wanted;
+    for (const unsigned int number : copies.own_grid_cells())
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        {
+          const unsigned int c    = copy_at(box_.index(number), a);
+          const SplineCopy  &copy = copies.list()[c];
+          if (!copies.is_own(copy) && is_unknown(copy))
+            wanted.push_back(c);
+        }
+    for (const auto &[copy, inner] : blocks)
+      for (const unsigned int block : inner)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          if (const unsigned int c = copy_at(box_.index(block), a);
+              !copies.is_own(copies.list()[c]))
+            wanted.push_back(c);
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    return wanted;
+  }
+
+  template <int dim>
+  void
+  SplineSpace<dim>::ask_for_numbers(const BackgroundGrid<dim> &grid)
+  {
+    const MPI_Comm comm = grid.communicator();
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    struct Question
+    {
+      unsigned int spline; // number in the grid's box
+      unsigned int place;  // of the copy
+    };
+    std::map<unsigned int, std::vector<Question>>     questions;
+    std::map<unsigned int, std::vector<unsigned int>> asked, answers;
+    for (const unsigned int c : copies_of_others())
+      {
+        const GridIndex<dim> index = box_.index(copies.list()[c].spline);
+        const unsigned int   owner = grid.owner(index);
+        questions[owner].push_back({grid.box().number(index), copies.place(c)});
+        asked[owner].push_back(c);
+      }
+    for (const auto &[rank, list] : send_records(questions, comm))
+      for (const auto &[spline, place] : list)
+        answers[rank].push_back(
+          numbers[copies.copy_at(box_.number(grid.box().index(spline)),
+                                 place)]);
+    for (const auto &[rank, list] : send_records(answers, comm))
+      for (std::size_t i = 0; i < list.size(); ++i)
+        {
+          AssertThrow(list[i] != none, ExcInternalError());
+          numbers[asked.at(rank)[i]] = list[i];
+        }
   }
 
   template <int dim>
   typename SplineSpace<dim>::Terms
-  SplineSpace<dim>::expression(const unsigned int    c,
-                               ExtensionSearch<dim> &search) const
+  SplineSpace<dim>::expression(const unsigned int c) const
   {
     if (numbers[c] != none)
       return {{numbers[c], 1.}};
@@ -116,50 +233,46 @@ namespace Morula
     if (const auto found = small_pieces.find(copy.piece);
         found != small_pieces.end())
       return found->second.expression(box_.center(index), box_.spacing());
-    const std::vector<unsigned int> blocks = search.blocks(copy);
-    AssertThrow(!blocks.empty(), ExcInternalError());
+    const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
+    AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
     // doc/theory.md (3.3b); sums of integers, exact in any order
     std::map<unsigned int, double> sums;
-    for (const unsigned int block : blocks)
+    for (const unsigned int block : inner_grid_cells)
       {
         const GridIndex<dim> inner   = box_.index(block);
         const auto           weights = extension_weights(index, inner);
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           if (weights[a] != 0.)
-            sums[numbers[copies.at(neighbor(inner, a), inner)]] += weights[a];
+            sums[numbers[copy_at(inner, a)]] += weights[a];
       }
     Terms terms;
     for (const auto &[unknown, sum] : sums)
       if (sum != 0.)
-        terms.emplace_back(unknown, sum / blocks.size());
+        terms.emplace_back(unknown, sum / inner_grid_cells.size());
     return terms;
   }
 
   template <int dim>
   void
-  SplineSpace<dim>::express_grid_cells(const BackgroundGrid<dim> &grid)
+  SplineSpace<dim>::express_grid_cells()
   {
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(grid.communicator());
-    ExtensionSearch<dim>          search(occupancy_, classes);
     std::map<unsigned int, Terms> outer; // many grid cells share a spline
     const auto                    terms_of = [&](const unsigned int copy) {
       if (numbers[copy] != none)
         return Terms{{numbers[copy], 1.}};
       auto found = outer.find(copy);
       if (found == outer.end())
-        found = outer.emplace(copy, expression(copy, search)).first;
+        found = outer.emplace(copy, expression(copy)).first;
       return found->second;
     };
-    for (unsigned int number = 0; number < box_.size(); ++number)
-      if (is_active(classes[number]) && grid.owner(number) == rank)
-        {
-          const GridIndex<dim> index = box_.index(number);
-          std::vector<Terms>   rows;
-          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-            rows.push_back(terms_of(copies.at(neighbor(index, a), index)));
-          add_grid_cell(number, rows);
-        }
+    for (const unsigned int number : copies.own_grid_cells())
+      {
+        const GridIndex<dim> index = box_.index(number);
+        std::vector<Terms>   rows;
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          rows.push_back(terms_of(copy_at(index, a)));
+        add_grid_cell(occupancy_.window().whole().number(index), rows);
+      }
   }
 
   template <int dim>
@@ -307,7 +420,7 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::piece(const unsigned int number) const
   {
-    return copies.piece(number);
+    return copies.piece(box_.number(box().index(number)));
   }
 
   template <int dim>
@@ -321,7 +434,7 @@ namespace Morula
   const GridBox<dim> &
   SplineSpace<dim>::box() const
   {
-    return box_;
+    return occupancy_.window().whole();
   }
 
   template <int dim>

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/particles/even_fill.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
 
 namespace Morula
 {
@@ -12,19 +16,63 @@ namespace Morula
     /** Least fill of grid cells inside the tissue. */
     constexpr double nearly_full = 0.6;
 
-    /** Whether the grid cell and all its neighbours are nearly full: the
-     *  neighbours of GridBox are with the grid cell itself. */
+    /** A grid cell that is nearly full, or more. */
     template <int dim>
-    bool
-    is_inside(const Occupancy<dim> &occupancy, const GridIndex<dim> &index)
+    struct FullGridCell
     {
-      unsigned int n_full = 0;
-      occupancy.box().for_neighbors(
-        index, 1, [&](const unsigned int number, const auto &) {
-          n_full += occupancy.fill(number) >= nearly_full;
-        });
-      // at the edge of the box there are fewer
-      return n_full == Utilities::fixed_power<dim>(3u);
+      GridIndex<dim> grid_cell;
+      double         fill;
+    };
+
+    /** The nearly full grid cells in and around those that this rank owns now,
+     *  by their numbers in the box of the time of @p occupancy. Collective. */
+    template <int dim>
+    std::unordered_map<unsigned int, double>
+    nearly_full_around(const Occupancy<dim>      &occupancy,
+                       const BackgroundGrid<dim> &grid)
+    {
+      std::map<unsigned int, std::vector<FullGridCell<dim>>> by_rank;
+      for (const unsigned int number : occupancy.own())
+        if (const double fill = occupancy.fill(number); fill >= nearly_full)
+          {
+            const GridIndex<dim>   index = occupancy.box().index(number);
+            std::set<unsigned int> ranks;
+            grid.box().for_neighbors(
+              index, 1, [&](const unsigned int, const GridIndex<dim> &other) {
+                ranks.insert(grid.owner(other));
+              });
+            for (const unsigned int rank : ranks)
+              by_rank[rank].push_back({index, fill});
+          }
+      std::unordered_map<unsigned int, double> fills;
+      for (const auto &[sender, list] :
+           send_records(by_rank, grid.communicator()))
+        for (const FullGridCell<dim> &one : list)
+          fills[occupancy.window().whole().number(one.grid_cell)] = one.fill;
+      return fills;
+    }
+
+    /** Those of them whose neighbours are nearly full, too: the neighbours of
+     *  GridBox are with the grid cell itself. */
+    template <int dim>
+    std::unordered_map<unsigned int, double>
+    inside(const std::unordered_map<unsigned int, double> &fills,
+           const GridBox<dim>                             &box)
+    {
+      std::unordered_map<unsigned int, double> result;
+      for (const auto &[number, fill] : fills)
+        {
+          unsigned int n_full = 0;
+          box.for_neighbors(box.index(number),
+                            1,
+                            [&](const unsigned int other, const auto &) {
+                              n_full += fills.count(other);
+                            });
+          // at the edge of the box there are fewer
+          if (n_full == Utilities::fixed_power<dim>(3u))
+            result[number] = fill;
+        }
+      return result;
     }
   } // namespace
 
@@ -34,16 +82,20 @@ namespace Morula
                 const Occupancy<dim> &occupancy,
                 const double          part)
   {
-    const GridBox<dim> &box = occupancy.box();
+    const GridBox<dim> &box = occupancy.window().whole();
+    const auto          fills =
+      inside(nearly_full_around(occupancy, tissue.grid()), box);
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const GridIndex<dim> index = box.locate(tissue.cells().position(p));
-        if (!box.contains(index) || !is_inside(occupancy, index))
+        if (!box.contains(index))
           continue;
-        const double                fill = occupancy.fill(box.number(index));
+        const auto found = fills.find(box.number(index));
+        if (found == fills.end())
+          continue;
         const CellView<dim, double> cell = tissue.cell(p);
         cell.set(cell.columns().deformation,
-                 std::pow(fill, -part / dim) * cell.F());
+                 std::pow(found->second, -part / dim) * cell.F());
       }
   }
 

@@ -207,17 +207,31 @@ namespace Morula
   SplineSpace<dim>
   Tissue<dim>::splines(const bool share_points) const
   {
-    Occupancy<dim> occupancy(grid_.box(),
+    std::vector<ParticleDomain<dim>> domains;
+    domains.reserve(cells_.size());
+    for (unsigned int p = 0; p < cells_.size(); ++p)
+      domains.push_back(domain(p));
+    std::vector<typename GridWindow<dim>::Extent> extents;
+    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
+      {
+        extents.reserve(cells_.size() + boundary_points_.size());
+        for (const ParticleDomain<dim> &domain : domains)
+          extents.push_back(domain.bounds());
+        for (unsigned int p = 0; p < boundary_points_.size(); ++p)
+          extents.emplace_back(boundary_points_.position(p),
+                               boundary_points_.position(p));
+      }
+    Occupancy<dim> occupancy(GridWindow<dim>(grid_, extents),
                              parameters.points_per_cell,
                              share_points);
-    for (unsigned int p = 0; p < cells_.size(); ++p)
-      occupancy.add_particle(domain(p));
+    for (const ParticleDomain<dim> &domain : domains)
+      occupancy.add_particle(domain);
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
       occupancy.add_boundary_point(boundary_points_.position(p));
-    occupancy.sum(grid_.communicator());
-    for (unsigned int p = 0; p < cells_.size(); ++p)
-      occupancy.add_quadrature_points(domain(p));
-    occupancy.sum_quadrature_points(grid_.communicator());
+    occupancy.sum(grid_);
+    for (const ParticleDomain<dim> &domain : domains)
+      occupancy.add_quadrature_points(domain);
+    occupancy.sum_quadrature_points(grid_);
     return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
   }
 

@@ -5,39 +5,51 @@
 #include <morula/simulation/elastic_volumes.h>
 #include <morula/simulation/step_points.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <cmath>
 
 namespace Morula
 {
   namespace
   {
-    /** ϑ of all grid cells of all ranks, by number; 0 where there is no point.
-     *  On all ranks: a cell may have part in grid cells of others. */
+    /** ϑ of a grid cell, by its number in the grid's box. */
+    struct Value
+    {
+      unsigned int number;
+      double       theta;
+    };
+
+    /** ϑ of the grid cells in this rank's window, by number there; 0 where
+     * there is no point. A cell may have part in grid cells of other ranks.
+     *  Collective. */
     template <int dim>
     std::vector<double>
     log_volume_ratios(const InternalForce<dim>     &force,
                       const SplineSpace<dim>       &space,
-                      const DisplacementField<dim> &displacement,
-                      const MPI_Comm                comm)
+                      const DisplacementField<dim> &displacement)
     {
-      std::vector<double> theta(space.box().size(), 0.);
+      const GridBox<dim> &box = space.occupancy().box();
+      std::vector<Value>  values;
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-        theta[space.grid_cells()[c].number] =
-          force.log_volume_ratio(c, displacement.on_grid_cell(c));
-      Utilities::MPI::sum(theta, comm, theta);
+        values.push_back(
+          {space.grid_cells()[c].number,
+           force.log_volume_ratio(c, displacement.on_grid_cell(c))});
+      const auto of_others = space.occupancy().window().to_windows(values);
+      values.insert(values.end(), of_others.begin(), of_others.end());
+      std::vector<double> theta(box.size(), 0.);
+      for (const Value &value : values)
+        theta[box.number(space.box().index(value.number))] = value.theta;
       return theta;
     }
 
-    /** Mean over the grid cells that share a point. @param values by number */
+    /** Mean over the grid cells that share a point. @param values by number in
+     *  the window */
     template <int dim>
     double
     mean_of_shares(const Point<dim>          &x,
                    const SplineSpace<dim>    &space,
                    const std::vector<double> &values)
     {
-      const GridBox<dim> &box  = space.box();
+      const GridBox<dim> &box  = space.occupancy().box();
       double              mean = 0.;
       space.occupancy().for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
@@ -46,7 +58,8 @@ namespace Morula
       return mean;
     }
 
-    /** Mean over the parts of a cell. @param values by grid cell's number */
+    /** Mean over the parts of a cell. @param values by grid cell's number in
+     * the window */
     template <int dim>
     double
     mean_of_parts(const ParticleDomain<dim> &domain,
@@ -82,8 +95,7 @@ namespace Morula
     std::vector<double> values =
       log_volume_ratios(*internal_force(points, form, kernel),
                         space,
-                        displacement,
-                        tissue.communicator());
+                        displacement);
     if (form == VolumetricStrain::pooled) // else the mean is that of ϑ
       for (double &value : values)
         value = std::exp(value);

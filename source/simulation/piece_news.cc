@@ -16,9 +16,11 @@ namespace Morula
 
   template <int dim>
   void
-  PieceNews<dim>::look(const SplineSpace<dim> &space, const double t)
+  PieceNews<dim>::look(const SplineSpace<dim>    &space,
+                       const BackgroundGrid<dim> &grid,
+                       const double               t)
   {
-    if (const auto place = watch.joined(space); place && !has_joined)
+    if (const auto place = watch.joined(space, grid); place && !has_joined)
       {
         has_joined = true;
         std::ostringstream text;
@@ -32,17 +34,19 @@ namespace Morula
                 "not told of.";
         announce(text.str());
       }
-    count(space, t);
+    count(space, grid.communicator(), t);
   }
 
 
   template <int dim>
   void
-  PieceNews<dim>::count(const SplineSpace<dim> &space, const double t)
+  PieceNews<dim>::count(const SplineSpace<dim> &space,
+                        const MPI_Comm          comm,
+                        const double            t)
   {
     if (!counts)
       return;
-    const unsigned int n = pieces_with_cells(space);
+    const unsigned int n = pieces_with_cells(space, comm);
     if (n_pieces_ > 0 && n > n_pieces_ && !has_parted)
       {
         has_parted = true;

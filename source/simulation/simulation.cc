@@ -29,7 +29,7 @@ namespace Morula
     fields.begin_step();
 
     const SplineSpace<dim> space = splines();
-    pieces.look(space, time_steps.time());
+    pieces.look(space, tissue.grid(), time_steps.time());
     // Those of t = 0 stand in the first row.
     if (run_state.n_steps > 1)
       find_fields(

@@ -151,7 +151,7 @@ namespace Morula
           fields.set_steady(tissue, *first_splines, time_steps.time());
         });
         fields.forget_configuration(); // the splines will stand elsewhere
-        pieces.count(*first_splines, time_steps.time());
+        pieces.count(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
         write_rows();

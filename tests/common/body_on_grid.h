@@ -129,7 +129,16 @@ namespace Morula
         for (const Point<dim> &x : particles)
           weights.push_back({grid.box().number(grid.box().locate(x)), 1});
       grid.partition(weights);
-      Occupancy<dim> occupancy(grid.box());
+      std::vector<std::pair<Point<dim>, Point<dim>>> extents;
+      if (first_rank)
+        {
+          for (std::size_t i = 0; i < particles.size(); ++i)
+            extents.push_back(
+              ParticleDomain<dim>(particles[i], volumes[i]).bounds());
+          for (const Point<dim> &x : boundary)
+            extents.emplace_back(x, x);
+        }
+      Occupancy<dim> occupancy(GridWindow<dim>(grid, extents));
       if (first_rank)
         {
           for (std::size_t i = 0; i < particles.size(); ++i)
@@ -137,11 +146,11 @@ namespace Morula
           for (const Point<dim> &x : boundary)
             occupancy.add_boundary_point(x);
         }
-      occupancy.sum(comm);
+      occupancy.sum(grid);
       if (first_rank)
         for (std::size_t i = 0; i < particles.size(); ++i)
           occupancy.add_quadrature_points({particles[i], volumes[i]});
-      occupancy.sum_quadrature_points(comm);
+      occupancy.sum_quadrature_points(grid);
       space.emplace(grid, std::move(occupancy), parameters);
     }
 

@@ -40,35 +40,63 @@ namespace
     return particles;
   }
 
-  /** Both rounds, of what this rank adds. */
+  /** Both rounds, on one rank. */
   template <int dim>
   Occupancy<dim>
   occupancy_of(const GridBox<dim>            &box,
                const Particles<dim>          &particles,
-               const std::vector<Point<dim>> &boundary = {},
-               const MPI_Comm                 comm     = MPI_COMM_SELF)
+               const std::vector<Point<dim>> &boundary = {})
   {
     Occupancy<dim> occupancy(box);
     for (const auto &[x, V] : particles)
       occupancy.add_particle({x, V});
     for (const Point<dim> &x : boundary)
       occupancy.add_boundary_point(x);
-    occupancy.sum(comm);
+    occupancy.sum();
     for (const auto &[x, V] : particles)
       occupancy.add_quadrature_points({x, V});
-    occupancy.sum_quadrature_points(comm);
     return occupancy;
   }
 
+  /** Both rounds, of what this rank adds, on all ranks. */
   template <int dim>
-  std::vector<double>
-  fills(const Occupancy<dim> &occupancy)
+  Occupancy<dim>
+  occupancy_of_all(const BackgroundGrid<dim> &grid,
+                   const Particles<dim>      &particles)
   {
-    std::vector<double> list;
-    for (unsigned int number = 0; number < occupancy.box().size(); ++number)
-      list.push_back(occupancy.fill(number));
-    return list;
+    std::vector<std::pair<Point<dim>, Point<dim>>> extents;
+    for (const auto &[x, V] : particles)
+      extents.push_back(ParticleDomain<dim>(x, V).bounds());
+    Occupancy<dim> occupancy(GridWindow<dim>(grid, extents));
+    for (const auto &[x, V] : particles)
+      occupancy.add_particle({x, V});
+    occupancy.sum(grid);
+    for (const auto &[x, V] : particles)
+      occupancy.add_quadrature_points({x, V});
+    occupancy.sum_quadrature_points(grid);
+    return occupancy;
   }
+
+  /** A grid with this box, shared evenly. */
+  template <int dim>
+  struct GridOf : public BackgroundGrid<dim>
+  {
+    explicit GridOf(const GridBox<dim> &box)
+      : BackgroundGrid<dim>(parameters(box.spacing()), MPI_COMM_WORLD)
+    {
+      this->make(box.first(), box.n());
+      this->partition({});
+    }
+
+  private:
+    static GridParameters
+    parameters(const double h)
+    {
+      GridParameters keys;
+      keys.spacing = h;
+      return keys;
+    }
+  };
 
   /** Five particles per grid spacing, grown by θ. */
   template <int dim>
@@ -87,12 +115,9 @@ namespace
                               3.4 * h - spacing,
                               spacing,
                               [](const auto &) { return true; });
-        Occupancy<dim> occupancy(box);
-        double         volume = 0.;
-        if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-          for (const Point<dim> &x : points)
-            occupancy.add_particle({x, std::pow(spacing, dim)});
-        occupancy.sum(MPI_COMM_WORLD);
+        const auto occupancy =
+          occupancy_of(box, of_volume(points, std::pow(spacing, dim)));
+        double volume = 0.;
         for (unsigned int number = 0; number < box.size(); ++number)
           {
             bool interior = true;
@@ -110,6 +135,39 @@ namespace
       }
   }
 
+  /** Cells here and there in a box that is longer than all ranks' windows
+   *  together: sparse, dense, in sheets and in rows. */
+  template <int dim>
+  Particles<dim>
+  strange_tissue(const double length)
+  {
+    std::mt19937   generator(4);
+    Particles<dim> cells;
+    for (unsigned int i = 0; i < 3000; ++i)
+      {
+        Point<dim> x(150. * random_tensor<1, dim>(generator));
+        x[0] += 75. * (generator() % 2) - 0.5 * length + 180.;
+        cells.emplace_back(x, std::pow(5. + generator() % 20, dim));
+      }
+    for (double along = -0.45 * length; along < 0.45 * length; along += 7.)
+      for (double across = 0.; across < 60.; across += 7.)
+        {
+          Point<dim> x; // a sheet, not along the grid
+          x[0]       = along;
+          x[1]       = 60. + 0.15 * along * along / length;
+          x[dim - 1] = dim == 3 ? across - 30. : x[1];
+          cells.emplace_back(x, std::pow(7., dim));
+          if (across == 0.) // a row
+            {
+              x[1] = -200. + 0.1 * along;
+              if (dim == 3)
+                x[dim - 1] = 120.;
+              cells.emplace_back(x, std::pow(7., dim));
+            }
+        }
+    return cells;
+  }
+
   template <int dim>
   void
   check_order()
@@ -117,25 +175,69 @@ namespace
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const GridBox<dim> box  = cube<dim>(8, 50.);
-    std::mt19937       generator(4);
-    Particles<dim>     cells;
-    for (unsigned int i = 0; i < 3000; ++i)
-      {
-        Point<dim> x(150. * random_tensor<1, dim>(generator));
-        cells.emplace_back(x, std::pow(5. + generator() % 20, dim));
-      }
-    const Occupancy<dim> alone = occupancy_of(box, cells);
+    constexpr double   h = 50., length = 96 * h;
+    GridIndex<dim>     first, size;
+    first.fill(-12);
+    size.fill(24);
+    first[0] = -56;
+    size[0]  = 112;
+    const GridBox<dim> box(first, size, h, Point<dim>());
+    const GridOf<dim>  grid(box);
+    auto               cells   = strange_tissue<dim>(length);
+    const auto         alone   = occupancy_of(box, cells);
+    const auto         classes = classify(alone, 0.85);
+    std::mt19937       generator(5);
     std::shuffle(cells.begin(), cells.end(), generator);
     Particles<dim> mine;
-    for (std::size_t i = rank; i < cells.size(); i += n_ranks)
-      mine.push_back(cells[i]);
-    const Occupancy<dim> together = occupancy_of(box, mine, {}, MPI_COMM_WORLD);
-    EXPECT_EQ(fills(alone), fills(together)); // bitwise
-    EXPECT_EQ(classify(alone, 0.85), classify(together, 0.85));
-    for (unsigned int number = 0; number < box.size(); ++number)
-      EXPECT_EQ(alone.n_quadrature_points(number),
-                together.n_quadrature_points(number));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        // Most cells are told of by their owner.
+        const unsigned int teller =
+          i % 50 == 0 ? i % n_ranks : grid.owner(box.locate(cells[i].first));
+        if (teller == rank)
+          mine.push_back(cells[i]);
+      }
+    Occupancy<dim> together = occupancy_of_all(grid, mine);
+    for (const bool wide : {false, true})
+      {
+        SCOPED_TRACE(wide ? "wide" : "narrow");
+        if (wide && n_ranks > 1)
+          together.widen(grid);
+        const auto   mine_of_classes = classify(together, 0.85);
+        const auto   known  = together.window().inner(reach_of_classes<dim>());
+        unsigned int n_thin = 0, n_own = 0;
+        for (unsigned int number = 0; number < box.size(); ++number)
+          if (const auto index = box.index(number);
+              together.box().contains(index))
+            {
+              const unsigned int here = together.box().number(index);
+              EXPECT_EQ(alone.fill(number), together.fill(here)); // bitwise
+              EXPECT_EQ(alone.n_quadrature_points(number),
+                        together.n_quadrature_points(here));
+              EXPECT_EQ(alone.bounds(number), together.bounds(here));
+              if (known.contains(index))
+                {
+                  EXPECT_EQ(classes[number], mine_of_classes[here]);
+                  EXPECT_EQ(alone.is_thin(number), together.is_thin(here));
+                }
+              n_thin += alone.is_thin(number);
+              if (grid.owner(index) == rank)
+                n_own += alone.fill(number) > 0.;
+            }
+          else
+            {
+              EXPECT_FALSE(grid.owner(index) == rank && alone.active(number));
+            }
+        EXPECT_EQ(together.own().size(), n_own);
+        EXPECT_GT(Utilities::MPI::sum(n_thin, MPI_COMM_WORLD), 20u);
+      }
+    for (const auto &[x, V] : mine)
+      if (grid.owner(box.locate(x)) == rank)
+        {
+          EXPECT_EQ(alone.n_points_per_edge({x, V}),
+                    together.n_points_per_edge({x, V}));
+          EXPECT_EQ(alone.crowded(x), together.crowded(x));
+        }
   }
 
   /** Classes of a slab 0 < x < thickness of ten particles per spacing. */

@@ -36,18 +36,25 @@ namespace
   }
 
   template <int dim>
+  std::optional<Point<dim>>
+  joined(PieceWatch<dim> &watch, const BodyOnGrid<dim> &body)
+  {
+    return watch.joined(*body.space, body.grid);
+  }
+
+  template <int dim>
   void
   check_joining()
   {
     PieceWatch<dim> watch;
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-12., 0.}).space).has_value());
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-6., 1.}).space).has_value());
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-5., -1.}).space).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-12., 0.})).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-6., 1.})).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-5., -1.})).has_value());
 
     // The gap is a quarter of h now: no empty layer between them.
     const auto near = blocks<dim>({-4.25, -1.});
     ASSERT_EQ(near.space->n_pieces(), 1u);
-    const auto place = watch.joined(*near.space);
+    const auto place = joined(watch, near);
     ASSERT_TRUE(place.has_value());
     EXPECT_LE(std::abs((*place)[0] + h), h) << *place;
     for (unsigned int d = 1; d < dim; ++d)
@@ -56,10 +63,10 @@ namespace
         EXPECT_LT((*place)[d], 3. * h);
       }
     // Told once.
-    EXPECT_FALSE(watch.joined(*near.space).has_value());
+    EXPECT_FALSE(joined(watch, near).has_value());
     // It tears, and joins again.
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-6., -1.}).space).has_value());
-    EXPECT_TRUE(watch.joined(*near.space).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-6., -1.})).has_value());
+    EXPECT_TRUE(joined(watch, near).has_value());
   }
 
   template <int dim>
@@ -67,14 +74,14 @@ namespace
   check_other_pieces()
   {
     PieceWatch<dim> watch;
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-14., -4., 2.}).space).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-14., -4., 2.})).has_value());
     // The first one moves on, the others stay apart.
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-13., -4., 2.}).space).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-13., -4., 2.})).has_value());
     // Two join while a fourth body comes into being: as many pieces as before.
-    EXPECT_FALSE(watch.joined(*blocks<dim>({-13., -3., 2.}).space).has_value());
+    EXPECT_FALSE(joined(watch, blocks<dim>({-13., -3., 2.})).has_value());
     const auto changed = blocks<dim>({-13., -1.5, 2., 8.});
     EXPECT_EQ(changed.space->n_pieces(), 3u);
-    const auto place = watch.joined(*changed.space);
+    const auto place = joined(watch, changed);
     ASSERT_TRUE(place.has_value());
     EXPECT_LE(std::abs((*place)[0] - 2. * h), 1.5 * h) << *place;
   }
@@ -91,6 +98,8 @@ TEST(PieceWatch,
 
 TEST(PieceWatch, CountsPiecesThatHoldCells)
 {
-  EXPECT_EQ(pieces_with_cells(*blocks<2>({0.}).space), 1u);
-  EXPECT_EQ(pieces_with_cells(*blocks<3>({-14., -4., 2.}).space), 3u);
+  EXPECT_EQ(pieces_with_cells(*blocks<2>({0.}).space, MPI_COMM_WORLD), 1u);
+  EXPECT_EQ(pieces_with_cells(*blocks<3>({-14., -4., 2.}).space,
+                              MPI_COMM_WORLD),
+            3u);
 }

@@ -11,49 +11,12 @@
 #include <set>
 #include <vector>
 
-#include "common/body_on_grid.h"
+#include "grid/cut_bodies.h"
 
 using namespace Morula;
 
 namespace
 {
-  constexpr double h = 50.;
-
-  template <int dim>
-  double
-  cell_spacing()
-  {
-    return dim == 2 ? h / 6. : h / 3.5;
-  }
-
-  /** A ball cut by a half space: any cut, one piece with inner grid cells. */
-  template <int dim>
-  std::vector<Point<dim>>
-  random_body(const unsigned int seed)
-  {
-    std::mt19937                           generator(seed);
-    std::uniform_real_distribution<double> uniform(0., 1.);
-    const double radius = h * (2. + 0.8 * uniform(generator));
-    const double spacing =
-      cell_spacing<dim>() * (1. + 0.3 * uniform(generator));
-    const Point<dim> center(2. * h * random_tensor<1, dim>(generator));
-    Tensor<1, dim>   normal = random_tensor<1, dim>(generator);
-    normal /= normal.norm();
-    const double cut = radius * 0.8 * uniform(generator);
-    return lattice_points<dim>(center, radius, spacing, [&](const auto &x) {
-      return x.distance(center) < radius && normal * (x - center) < cut;
-    });
-  }
-
-  template <int dim>
-  BodyOnGrid<dim>
-  body(const std::vector<Point<dim>> &points,
-       const MPI_Comm                 comm = MPI_COMM_WORLD)
-  {
-    return BodyOnGrid<dim>(
-      points, std::pow(cell_spacing<dim>(), dim), GridParameters(), {}, comm);
-  }
-
   /** u_i(x) = a_i + A_ij x_j + x·C_i x */
   template <int dim>
   struct Quadratic
@@ -262,56 +225,6 @@ namespace
                      });
   }
 
-  /** Every number of ranks gives the same splines. */
-  template <int dim>
-  void
-  check_ranks()
-  {
-    for (unsigned int seed = 1; seed <= 3; ++seed)
-      {
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        const auto  points = random_body<dim>(seed);
-        const auto  shared = body<dim>(points);
-        const auto  alone  = body<dim>(points, MPI_COMM_SELF);
-        const auto &space  = *shared.space;
-        EXPECT_EQ(space.n_unknowns(), alone.space->n_unknowns());
-        EXPECT_EQ(space.n_active_grid_cells(),
-                  alone.space->n_active_grid_cells());
-        EXPECT_EQ(space.n_inner_splines(), alone.space->n_inner_splines());
-        EXPECT_EQ(space.n_outer_splines(), alone.space->n_outer_splines());
-        EXPECT_EQ(space.n_pieces(), alone.space->n_pieces());
-        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.grid_cells().size(),
-                                                    MPI_COMM_WORLD),
-                  alone.space->n_active_grid_cells());
-        EXPECT_EQ(Utilities::MPI::sum<unsigned int>(space.owned().n_elements(),
-                                                    MPI_COMM_WORLD),
-                  space.n_unknowns());
-        EXPECT_EQ((space.owned() & space.relevant()), space.owned());
-
-        // Coefficients that tell the splines apart.
-        const auto wild = [](const Point<dim> &c) {
-          Tensor<1, dim> value;
-          for (unsigned int d = 0; d < dim; ++d)
-            value[d] = std::sin(0.7 * c[0] + (d + 1.3) * c[1] + c[dim - 1]);
-          return value;
-        };
-        const auto   fields = shared.fields(shared.interpolate(wild));
-        const auto   whole  = alone.fields(alone.interpolate(wild));
-        unsigned int k      = 0;
-        for (unsigned int c = 0; c < fields.size(); ++c)
-          {
-            while (alone.space->grid_cells()[k].number !=
-                   space.grid_cells()[c].number)
-              ++k;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
-                EXPECT_NEAR(fields[c].coefficient[i][b],
-                            whole[k].coefficient[i][b],
-                            1e-10);
-          }
-      }
-  }
-
   /** The field with the coefficients wild(Qᵀ c) of the splines centred at c, at
    *  all particles. */
   template <int dim>
@@ -422,10 +335,6 @@ TEST(SplineSpace,
 
 
 TEST(SplineSpace, PiecesMoveIndependently){MORULA_BOTH_DIMENSIONS(check_pieces)}
-
-
-TEST(SplineSpace,
-     IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
 
 
 TEST(SplineSpace, IsTheSameInAnyFrame){MORULA_BOTH_DIMENSIONS(check_frames)}

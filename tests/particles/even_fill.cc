@@ -54,7 +54,7 @@ namespace
     Occupancy<dim> occupancy(GridBox<dim>(first, size, h, Point<dim>()));
     for (const Point<dim> &x : cells.positions)
       occupancy.add_particle({x, V});
-    occupancy.sum(MPI_COMM_SELF);
+    occupancy.sum();
     return occupancy;
   }
 

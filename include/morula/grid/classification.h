@@ -30,8 +30,17 @@ namespace Morula
     return grid_cell >= GridCellClass::cut;
   }
 
+  /** How far around a grid cell its class depends on others. */
+  template <int dim>
+  constexpr int
+  reach_of_classes()
+  {
+    return Occupancy<dim>::reach_of_thin_rows + 1;
+  }
+
   /**
-   * Classifies the grid cells of the box. An active grid cell is *inner* if
+   * Classifies the grid cells of this rank's window that are reach_of_classes()
+   * inside of it; the others count as empty. An active grid cell is *inner* if
    *
    * - its fill is at least C_C min(1, largest fill of it and its neighbours):
    *   doc/theory.md (3.2). The minimum gives thin sheets and small clusters

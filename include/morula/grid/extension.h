@@ -49,10 +49,15 @@ namespace Morula
      * cells that extrapolate in the same directions by the same distances form
      * a group. Of several groups the fullest is taken; where the fills of
      * several agree to 1e-6, all of these. So the choice turns with the tissue.
-     * The list is empty if no inner grid cell is connected.
+     * The list is empty if no inner grid cell is connected, or where the window
+     * of this rank is too narrow to tell.
      */
     std::vector<unsigned int>
     blocks(const SplineCopy &copy);
+
+    /** Whether some search has met the window's edge. */
+    bool
+    needs_wider_window() const;
 
   private:
     std::vector<unsigned int>
@@ -65,6 +70,7 @@ namespace Morula
     const GridBox<dim>               &box;
     const std::vector<GridCellClass> &classes;
     std::vector<char>                 reached; // scratch, all 0 between calls
+    bool                              met_edge = false;
   };
 } // namespace Morula
 

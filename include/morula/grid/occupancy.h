@@ -4,12 +4,11 @@
 #ifndef morula_grid_occupancy_h
 #define morula_grid_occupancy_h
 
-#include <morula/grid/grid_box.h>
+#include <morula/grid/grid_window.h>
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/shared_points.h>
 
-#include <mpi.h>
-
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -26,6 +25,9 @@ namespace Morula
    * and ends with sum(). The second adds the particles' quadrature points,
    * whose number depends on the first round.
    *
+   * It is known in the window of this rank: there, a `number` is that of a grid
+   * cell in box().
+   *
    * Volumes are summed as integers. So the result, and with it the
    * classification, does not depend on the order of the points or on the
    * number of ranks.
@@ -40,9 +42,12 @@ namespace Morula
      * @param share_points whether a quadrature point on a grid line belongs to
      *        all grid cells around it; see SharedPoint
      */
-    explicit Occupancy(const GridBox<dim> &box,
-                       const unsigned int  points_per_cell = 1,
-                       const bool          share_points    = false);
+    explicit Occupancy(const GridWindow<dim> &window,
+                       const unsigned int     points_per_cell = 1,
+                       const bool             share_points    = false);
+
+    /** On one rank. */
+    explicit Occupancy(const GridBox<dim> &box);
 
     /** Adds a particle. */
     void
@@ -52,9 +57,13 @@ namespace Morula
     void
     add_boundary_point(const Point<dim> &x);
 
+    /** Ends the first round on one rank. */
+    void
+    sum();
+
     /** Sums the first round over all ranks. Collective. */
     void
-    sum(const MPI_Comm comm);
+    sum(const BackgroundGrid<dim> &grid);
 
     /** Adds the quadrature points (see ParticleDomain) of a particle that was
      *  added before. */
@@ -63,7 +72,11 @@ namespace Morula
 
     /** Sums the second round over all ranks. Collective. */
     void
-    sum_quadrature_points(const MPI_Comm comm);
+    sum_quadrature_points(const BackgroundGrid<dim> &grid);
+
+    /** Looks twice as far, after both rounds. Collective. */
+    void
+    widen(const BackgroundGrid<dim> &grid);
 
     /**
      * Quadrature points per edge of a particle. The particle's box and the
@@ -104,9 +117,11 @@ namespace Morula
      * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
      * A row is a connected row of grid cells with tissue along one coordinate.
      * Its thickness is its volume divided by its cross-section, the smallest
-     * rectangle around its tissue. A grid cell has the smallest thickness of
-     * its rows. The result is the largest among the grid cell and its
-     * neighbours with tissue, so that the tip of a large body is not thin.
+     * rectangle around its tissue; a row of eight grid cells or more is not
+     * thin along itself, so that no rank must know all of it. A grid cell has
+     * the smallest thickness of its rows. The result is the largest among the
+     * grid cell and its neighbours with tissue, so that the tip of a large body
+     * is not thin.
      */
     double
     thickness(const unsigned int number) const;
@@ -153,10 +168,53 @@ namespace Morula
     bool
     active(const unsigned int number) const;
 
+    /** Of this rank's window. */
     const GridBox<dim> &
     box() const;
 
+    /** How far thickness() and the questions about thin tissue depend on
+     *  others: they have an answer in GridWindow::inner() of so many rings. */
+    static constexpr int reach_of_thin_rows = 4;
+
+    const GridWindow<dim> &
+    window() const;
+
+    /** Grid cells with tissue or points that this rank owned when they were
+     *  summed. */
+    const std::vector<unsigned int> &
+    own() const;
+
   private:
+    /** What ranks tell each other of a grid cell. */
+    struct Record
+    {
+      unsigned int                number; // in the grid's box
+      std::array<float, 2 * dim>  reaches;
+      std::array<std::int64_t, 4> counts;
+    };
+
+    void
+    resize();
+    bool
+    holds_something(const unsigned int number) const;
+    Record
+    record(const unsigned int number) const;
+    void
+    add(const Record &record);
+
+    /** Replaces what this rank has counted by what all have, from @p records of
+     *  its grid cells. Collective. */
+    void
+    spread(const std::vector<Record> &records);
+
+    /** Records of all grid cells with something. */
+    std::vector<Record>
+    records() const;
+
+    void
+    find_own();
+    void
+    find_crowded();
     void
     measure_rows();
     void
@@ -172,7 +230,8 @@ namespace Morula
     largest_around(const std::vector<float> &values,
                    const unsigned int        number) const;
 
-    GridBox<dim>              box_;
+    GridWindow<dim>           window_;
+    GridBox<dim>              box_; // the window's
     unsigned int              points_per_cell;
     bool                      share_points;
     std::vector<std::int64_t> volumes;
@@ -186,6 +245,9 @@ namespace Morula
     std::vector<float> lengths;     // of rows, in h; 2 where no row is thin
     std::vector<char>  n_thin;      // number of directions with a thin row
     std::vector<char>  candidates;  // see is_inner_candidate()
+
+    std::vector<unsigned int> own_;
+    std::vector<unsigned int> crowded_; // of all ranks, by number in the grid
   };
 } // namespace Morula
 

@@ -14,35 +14,42 @@ namespace Morula
   /**
    * Notices when two pieces of the tissue begin to share a spline. From then on
    * they stick together, at a distance of up to a grid spacing, though their
-   * cells do not touch. All ranks get the same answer without communication.
+   * cells do not touch. A rank remembers the pieces of its own grid cells. All
+   * ranks get the same answer.
    */
   template <int dim>
   class PieceWatch
   {
   public:
     /**
-     * Compares the pieces with those of the last call.
+     * Compares the pieces with those of the last call. Collective.
+     * @param grid on which @p space stands
      * @return if two pieces have become one, the point (µm) in the middle
      *   between their nearest grid cells. Nothing in the first call.
      */
     std::optional<Point<dim>>
-    joined(const SplineSpace<dim> &space);
+    joined(const SplineSpace<dim> &space, const BackgroundGrid<dim> &grid);
 
   private:
-    /** For each grid cell of the box of @p space, its piece in the last call,
-     * if the grid cell was active then and is active now. */
-    std::vector<unsigned int>
-    former_pieces(const SplineSpace<dim> &space) const;
+    /** A grid cell and its piece in the last call. */
+    struct Former
+    {
+      GridIndex<dim> grid_cell;
+      unsigned int   piece;
+    };
 
-    GridBox<dim>              box;
-    std::vector<unsigned int> pieces; // by grid cell
+    /** What all ranks remember of this rank's grid cells. Collective. */
+    std::vector<Former>
+    former_pieces(const BackgroundGrid<dim> &grid) const;
+
+    std::vector<Former> remembered;   // of grid cells that were this rank's
+    unsigned int        n_pieces = 0; // in the last call
   };
 
-  /** How many pieces of the tissue hold cells. All ranks get the same answer
-   *  without communication. */
+  /** How many pieces of the tissue hold cells. Collective. */
   template <int dim>
   unsigned int
-  pieces_with_cells(const SplineSpace<dim> &space);
+  pieces_with_cells(const SplineSpace<dim> &space, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

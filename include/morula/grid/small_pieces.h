@@ -37,7 +37,8 @@ namespace Morula
   };
 
   /**
-   * The small pieces and their polynomials, without numbers of unknowns. Small
+   * The small pieces of all ranks and their polynomials, without numbers of
+   * unknowns. Collective. Small
    * is a piece without an inner grid cell, a piece smaller than h in every
    * direction, and a piece smaller than 2h with fewer than 3^dim particles. The
    * polynomial is quadratic if the piece is smaller than h and has at least
@@ -47,7 +48,8 @@ namespace Morula
   std::map<unsigned int, PiecePolynomial<dim>>
   find_small_pieces(const Occupancy<dim>             &occupancy,
                     const std::vector<GridCellClass> &classes,
-                    const SplineCopies<dim>          &copies);
+                    const SplineCopies<dim>          &copies,
+                    const MPI_Comm                    comm);
 } // namespace Morula
 
 #endif

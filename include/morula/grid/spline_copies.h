@@ -20,7 +20,9 @@ namespace Morula
      *  spline's centre + BSpline::offset(a). */
     std::uint32_t support;
     bool          inner; // whether an inner grid cell is among them
-    unsigned int  piece; // see SplineCopies
+    /** See SplineCopies. Only known of copies that this rank's grid cells use,
+     *  and of those whose splines it owns. */
+    unsigned int piece;
   };
 
   /**
@@ -30,8 +32,9 @@ namespace Morula
    * bodies, or arms of one body, with an empty layer of grid cells between them
    * do not feel each other (doc/theory.md, section 3.3).
    *
-   * Grid cells that share a copy belong to the same *piece*. All ranks compute
-   * the same, without communication.
+   * Grid cells that share a copy belong to the same *piece*. A rank knows the
+   * copies in its window, of splines that are reach() inside of it. Copies of a
+   * spline have the same order on all ranks that know it.
    */
   template <int dim>
   class SplineCopies
@@ -39,8 +42,17 @@ namespace Morula
   public:
     SplineCopies() = default;
 
-    SplineCopies(const GridBox<dim>               &box,
-                 const std::vector<GridCellClass> &classes);
+    /** @param classes in the window. Collective. */
+    SplineCopies(const GridWindow<dim>            &window,
+                 const std::vector<GridCellClass> &classes,
+                 const BackgroundGrid<dim>        &grid);
+
+    /** How far around a spline its copies depend on grid cells. */
+    static constexpr int
+    reach()
+    {
+      return reach_of_classes<dim>() + 1;
+    }
 
     /** All copies, in the order of their splines; copies of one spline in the
      *  order of their lowest grid cells. */
@@ -52,30 +64,61 @@ namespace Morula
     unsigned int
     at(const GridIndex<dim> &spline, const GridIndex<dim> &grid_cell) const;
 
-    /** The piece of the active grid cell @p number: 0, ..., n_pieces() - 1 in
-     *  the order of the pieces' lowest grid cells. */
+    /** Copies that stand before this one in list() and have the same spline. */
+    unsigned int
+    place(const unsigned int copy) const;
+
+    /** The copy of the spline with this number that has that place. */
+    unsigned int
+    copy_at(const unsigned int spline, const unsigned int place) const;
+
+    /** Whether this rank owns the spline: the grid cell on which it stands. */
+    bool
+    is_own(const SplineCopy &copy) const;
+
+    /** The piece of an active grid cell that this rank owns: 0, ...,
+     *  n_pieces() - 1 in the order of the pieces' lowest grid cells. */
     unsigned int
     piece(const unsigned int number) const;
 
     unsigned int
     n_pieces() const;
 
-    /** Lowest grid cell of a piece. */
+    /** Lowest grid cell of a piece: its number in the grid's box. */
     unsigned int
     lowest_grid_cell(const unsigned int piece) const;
+
+    /** The active grid cells that this rank owns, in order. */
+    const std::vector<unsigned int> &
+    own_grid_cells() const;
 
   private:
     void
     add_copies(const unsigned int                spline,
                const std::vector<GridCellClass> &classes);
     void
-    find_pieces();
+    find_own(const std::vector<GridCellClass> &classes,
+             const BackgroundGrid<dim>        &grid);
+    /** Whether this rank's grid cells or splines need the copy. */
+    bool
+    is_used(const SplineCopy &copy) const;
+    /** Connects grid cells by the copies that this rank uses. @return number
+     *  of parts, which stand in `pieces` */
+    unsigned int
+    find_parts();
+    /** Joins the parts of all ranks. Collective. */
+    void
+    join_parts(const unsigned int         n_parts,
+               const GridBox<dim>        &whole,
+               const BackgroundGrid<dim> &grid);
 
-    GridBox<dim>              box;
+    GridBox<dim>              box; // the window's
+    std::vector<char>         own; // by grid cell of the window
+    std::vector<unsigned int> own_active;
     std::vector<SplineCopy>   copies;
     std::vector<unsigned int> first;  // copy of each spline, and the end
-    std::vector<unsigned int> pieces; // by grid cell
-    std::vector<unsigned int> lowest; // by piece
+    std::vector<unsigned int> pieces; // by grid cell of the window
+    std::vector<unsigned int> lowest; // by piece, in the grid's box
   };
 } // namespace Morula
 

@@ -39,7 +39,7 @@ namespace Morula
     /** One of this rank's active grid cells. */
     struct GridCell
     {
-      unsigned int number; // of the grid cell in the box
+      unsigned int number; // of the grid cell in the grid's box
       /** The unknowns, as positions in relevant(), increasing. */
       std::vector<unsigned int> unknowns;
       /** Weights of the unknowns (columns) in the splines (3^dim rows). Empty
@@ -47,7 +47,7 @@ namespace Morula
       std::vector<double> weights;
     };
 
-    /** All ranks construct it with the same @p occupancy. No communication. */
+    /** @param occupancy after both rounds. Collective. */
     SplineSpace(const BackgroundGrid<dim> &grid,
                 Occupancy<dim>             occupancy,
                 const GridParameters      &parameters);
@@ -75,13 +75,15 @@ namespace Morula
     unsigned int
     n_outer_splines() const;
 
-    /** The piece of an active grid cell; see SplineCopies. */
+    /** The piece of an active grid cell of this rank, by its number in the
+     *  grid's box; see SplineCopies. */
     unsigned int
     piece(const unsigned int number) const;
 
     unsigned int
     n_pieces() const;
 
+    /** That of the grid. */
     const GridBox<dim> &
     box() const;
 
@@ -106,26 +108,54 @@ namespace Morula
   private:
     using Terms = std::vector<std::pair<unsigned int, double>>;
 
+    /** The inner grid cells that outer copies are expressed by. */
+    using Blocks = std::map<unsigned int, std::vector<unsigned int>>;
+
+    /** Classes, copies and small pieces, and where this rank's outer copies
+     *  find inner grid cells. @return whether all ranks' windows are wide
+     *  enough for that. Collective. */
+    bool
+    find_splines(const BackgroundGrid<dim> &grid,
+                 const GridParameters      &parameters);
+    void
+    count(const MPI_Comm comm);
     bool
     is_unknown(const SplineCopy &copy) const;
     void
     number_unknowns(const BackgroundGrid<dim> &grid);
+
+    /** Numbers the small pieces' unknowns behind @p next, which are this
+     *  rank's. Collective. */
     void
-    express_grid_cells(const BackgroundGrid<dim> &grid);
+    number_small_pieces(const BackgroundGrid<dim> &grid, unsigned int next);
+
+    /** Asks the owners for the numbers of the other unknowns that this rank's
+     *  grid cells need. Collective. */
+    void
+    ask_for_numbers(const BackgroundGrid<dim> &grid);
+    std::vector<unsigned int>
+    copies_of_others() const;
+    void
+    express_grid_cells();
     void
     add_grid_cell(const unsigned int number, const std::vector<Terms> &rows);
     void
     find_relevant();
 
+    /** The copy of spline @p a of a grid cell. */
+    unsigned int
+    copy_at(const GridIndex<dim> &grid_cell, const unsigned int a) const;
+
     /** The global unknowns of one spline and their weights. */
     Terms
-    expression(const unsigned int copy, ExtensionSearch<dim> &search) const;
+    expression(const unsigned int copy) const;
 
     Occupancy<dim>             occupancy_;
-    GridBox<dim>               box_;
+    GridBox<dim>               box_; // the window's
     bool                       extend;
     std::vector<GridCellClass> classes;
     SplineCopies<dim>          copies;
+    Blocks                     blocks;
     std::vector<unsigned int>  numbers; // by copy: unknown's number
     std::vector<unsigned int>  pieces_of_unknowns_;
     std::map<unsigned int, PiecePolynomial<dim>> small_pieces;

@@ -20,11 +20,13 @@ namespace Morula
 
     /** Looks at the splines of a step that begins at @p t (day). */
     void
-    look(const SplineSpace<dim> &space, const double t);
+    look(const SplineSpace<dim>    &space,
+         const BackgroundGrid<dim> &grid,
+         const double               t);
 
     /** Counts the pieces, and tells if the tissue has parted. */
     void
-    count(const SplineSpace<dim> &space, const double t);
+    count(const SplineSpace<dim> &space, const MPI_Comm comm, const double t);
 
     /** The last count. */
     unsigned int

@@ -253,8 +253,7 @@ namespace Morula
         field.check(dim);
       if (!scene.fields.present())
         return;
-      if (scene.fields.have_surface() && scene.tissue.shape == "points" &&
-          scene.tissue.points_surface == "none")
+      if (scene.fields.have_surface() && scene.tissue.has_no_surface())
         scene.fields.names.refuse(
           "fields that nothing is done to at the surface, as " +
             scene.tissue.points_surface.path() + " = none",
@@ -301,8 +300,7 @@ namespace Morula
     check_boundary_conditions(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (choice.keys().is_on() && scene.tissue.shape == "points" &&
-            scene.tissue.points_surface == "none")
+        if (choice.keys().is_on() && scene.tissue.has_no_surface())
           {
             choice.keys().check_each(dim);
             const AnyKey *const key = choice.keys().switch_key();

@@ -18,9 +18,8 @@ namespace Morula
     Point<dim>
     center_of(const TissueParameters &tissue)
     {
-      return tissue.shape == "mesh" || tissue.shape == "points" ?
-               Point<dim>() :
-               leading_components<dim>(tissue.center);
+      return tissue.is_from_file() ? Point<dim>() :
+                                     leading_components<dim>(tissue.center);
     }
 
     /** Makes each of the rules that types of cells have once. @param make makes

@@ -32,7 +32,7 @@ namespace Morula
             const Founders<dim> &founders,
             const MPI_Comm       comm)
     {
-      if (scene.tissue.shape != "points")
+      if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
       return needs_surface<dim>(scene) ?
                seed_points_surface(scene.tissue, founders, comm) :

@@ -34,8 +34,7 @@ namespace Morula
   SceneSize
   initial_size(const Scene &scene)
   {
-    const std::string &shape = scene.tissue.shape;
-    if (shape == "mesh" || shape == "points")
+    if (scene.tissue.is_from_file())
       return {};
     const double volume = scene.dimension == 2 ?
                             make_shape<2>(scene.tissue)->volume() :

@@ -51,16 +51,15 @@ namespace Morula
                     const MPI_Comm             comm)
     {
       double smallest = std::numeric_limits<double>::infinity();
-      if (tissue.shape == "sphere" || tissue.shape == "cylinder")
+      if (tissue.has_radius())
         smallest = 2. * tissue.radius;
-      if (tissue.shape == "cylinder")
-        return std::min(smallest, tissue.size[2]);
-      if (tissue.shape == "sphere")
-        return tissue.inner_radius > 0. ? tissue.radius - tissue.inner_radius :
-                                          smallest;
-      if (tissue.shape == "box" || tissue.shape == "ellipsoid")
-        return *std::min_element(tissue.size.begin(),
-                                 tissue.size.begin() + dim);
+      if (tissue.shape == "sphere" && tissue.inner_radius > 0.)
+        smallest = tissue.radius - tissue.inner_radius;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (tissue.has_size(d))
+          smallest = std::min(smallest, tissue.size[d]);
+      if (!tissue.is_from_file())
+        return smallest;
 
       // from a file: as far as its points reach
       const bool  has_surface = surface.n_global > 0;

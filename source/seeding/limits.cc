@@ -57,7 +57,7 @@ namespace Morula
       if (n <= most_per_cell *
                  std::max({few_cells, cells, volume / std::pow(h, dim)}))
         return;
-      const bool              is_mesh = tissue.shape == "mesh";
+      const bool              is_mesh = tissue.is_mesh();
       const Key<std::string> &file =
         is_mesh ? tissue.surface_mesh : tissue.points_file;
       std::ostringstream remedy;
@@ -78,19 +78,17 @@ namespace Morula
                 const double            h,
                 const unsigned int      dim)
   {
-    if (tissue.shape != "points" && tissue.cell_spacing > longest_cell * h)
+    if (!tissue.is_points() && tissue.cell_spacing > longest_cell * h)
       tissue.cell_spacing.refuse(
         "a spacing of at most " + as_text(longest_cell) +
           " times Grid/Spacing, " + as_text(longest_cell * h) + " um",
         "Choose a smaller spacing, or a larger Grid/Spacing: a "
         "cell deforms as a whole.");
-    if (tissue.shape == "sphere" || tissue.shape == "cylinder")
+    if (tissue.has_radius())
       refuse_long(tissue.radius, 2. * tissue.radius, tissue.radius, h);
-    if (tissue.shape == "box" || tissue.shape == "ellipsoid" ||
-        tissue.shape == "cylinder")
-      for (unsigned int d = tissue.shape == "cylinder" ? 2 : 0;
-           d < std::min<std::size_t>(dim, tissue.size.size());
-           ++d)
+    for (unsigned int d = 0; d < std::min<std::size_t>(dim, tissue.size.size());
+         ++d)
+      if (tissue.has_size(d))
         refuse_long(tissue.size, tissue.size[d], tissue.size[d], h);
   }
 

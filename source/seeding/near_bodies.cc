@@ -134,8 +134,7 @@ namespace Morula
                 const MPI_Comm          comm,
                 Review                 &review)
   {
-    const std::string shape = tissue.shape;
-    if (shape != "points" && shape != "mesh")
+    if (!tissue.is_from_file())
       return;
     const BodyCounts counts = count_bodies(grid, founders, comm);
     if (counts.bodies > counts.pieces)

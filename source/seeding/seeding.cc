@@ -151,7 +151,7 @@ namespace Morula
         below = 0; // MPI_Exscan leaves it undefined
 
       const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
-      if (n == 0 && parameters.shape == "mesh")
+      if (n == 0 && parameters.is_mesh())
         throw_wrong_size(parameters, box, false);
       if (n == 0)
         throw_no_cell_fits(parameters);
@@ -167,12 +167,12 @@ namespace Morula
                 const SeedingLimits<dim> &limits)
   {
     const double volume = std::pow(parameters.cell_spacing.value(), dim);
-    if (parameters.shape == "points")
+    if (parameters.is_points())
       return read_points<dim>(parameters.points_file, volume, comm, limits);
 
     const std::unique_ptr<Shape<dim>> shape =
       make_shape_everywhere<dim>(parameters, comm);
-    if (parameters.shape == "mesh")
+    if (parameters.is_mesh())
       check_extent(parameters, *shape, limits);
     const Lattice<dim> lattice(parameters, shape->bounding_box());
     const auto [begin, end] = share(lattice.n_sites(), comm);
@@ -203,7 +203,7 @@ namespace Morula
   seed_surface(const TissueParameters &parameters, const MPI_Comm comm)
   {
     SurfacePatches<dim> patches;
-    if (parameters.shape == "points")
+    if (parameters.is_points())
       return patches;
 
     const std::unique_ptr<Shape<dim>> shape =

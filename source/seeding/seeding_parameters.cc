@@ -226,6 +226,43 @@ namespace Morula
     }
   } // namespace
 
+  bool
+  TissueParameters::has_radius() const
+  {
+    return shape == "sphere" || shape == "cylinder";
+  }
+
+  bool
+  TissueParameters::has_size(const unsigned int d) const
+  {
+    return shape == "box" || shape == "ellipsoid" ||
+           (shape == "cylinder" && d == 2); // its axis
+  }
+
+  bool
+  TissueParameters::is_mesh() const
+  {
+    return shape == "mesh";
+  }
+
+  bool
+  TissueParameters::is_points() const
+  {
+    return shape == "points";
+  }
+
+  bool
+  TissueParameters::is_from_file() const
+  {
+    return is_mesh() || is_points();
+  }
+
+  bool
+  TissueParameters::has_no_surface() const
+  {
+    return is_points() && points_surface == "none";
+  }
+
   void
   TissueParameters::check(const unsigned int dim) const
   {
@@ -236,26 +273,23 @@ namespace Morula
     check_file(surface_mesh, "mesh", shape);
     check_file(points_file, "points", shape);
 
-    if (shape == "sphere" || shape == "cylinder")
+    if (has_radius())
       require_positive(radius, radius);
     if (shape == "sphere" && !(inner_radius >= 0. && inner_radius < radius))
       inner_radius.refuse("a length >= 0 um and less than " + radius.path(),
                           "The tissue is what lies between the two.");
-    if (shape == "box" || shape == "ellipsoid" || shape == "cylinder")
+    if (has_size(dim - 1))
       check_vector(size, dim);
-    if (shape == "box" || shape == "ellipsoid")
-      for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int d = 0; d < dim; ++d)
+      if (has_size(d))
         require_positive(size, size[d]);
-    if (shape == "cylinder")
-      require_positive(size, size[2]);
-    if (shape == "mesh")
+    if (is_mesh())
       check_mesh_format(surface_mesh);
-    const bool no_surface = shape == "points" && points_surface == "none";
-    if (no_surface && boundary_points > 0)
+    if (has_no_surface() && boundary_points > 0)
       boundary_points.refuse("0, as Tissue/Points surface = none",
                              "Set Boundary points = 0, or Points surface = "
                              "automatic.");
-    if (no_surface && refine_surface)
+    if (has_no_surface() && refine_surface)
       refine_surface.refuse("false, as Tissue/Points surface = none",
                             "Set Refine surface = false, or Points surface = "
                             "automatic.");
@@ -268,7 +302,7 @@ namespace Morula
                            "Between two renewals patches are split and merged: "
                            "set Coarsen surface = true.");
 
-    if (shape == "mesh" || shape == "points")
+    if (is_from_file())
       return; // their files are judged when they are read
     if (dim == 2)
       check_some_cell_fits<2>(*this);

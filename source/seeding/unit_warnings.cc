@@ -134,7 +134,7 @@ namespace Morula
                const MPI_Comm             comm,
                Review                    &review)
   {
-    if (tissue.shape == "points" && founders.n_global > 1)
+    if (tissue.is_points() && founders.n_global > 1)
       {
         const double ratio = median_distance(founders, comm);
         if (ratio < nearest_usual || ratio > farthest_usual)
@@ -148,7 +148,7 @@ namespace Morula
             "If so, scale it to um; else set Tissue/Cell spacing to the length "
             "of the cells, or give each its volume in the file.");
       }
-    if (tissue.shape == "points" && surface.n_global > 0)
+    if (tissue.is_points() && surface.n_global > 0)
       {
         const double ratio = enclosed_over_cells(founders, surface, comm);
         if (std::abs(ratio - 1.) > most_off)
@@ -161,7 +161,7 @@ namespace Morula
                       "Give each cell its volume in the file, or set "
                       "Tissue/Cell spacing to the length of the cells.");
       }
-    if (tissue.shape == "mesh")
+    if (tissue.is_mesh())
       {
         const double extent =
           longest_extent(founders, tissue.cell_spacing, comm);

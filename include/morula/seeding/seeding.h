@@ -62,6 +62,30 @@ namespace Morula
      */
     void
     check(const unsigned int dim) const;
+
+    /** Whether the shape has a Radius. */
+    bool
+    has_radius() const;
+
+    /** Whether Size is an extent of the shape in direction @p d. */
+    bool
+    has_size(const unsigned int d) const;
+
+    /** Whether the cells fill a closed surface from a file. */
+    bool
+    is_mesh() const;
+
+    /** Whether the cells themselves come from a file. */
+    bool
+    is_points() const;
+
+    /** Whether the tissue comes from a file, and may lie anywhere. */
+    bool
+    is_from_file() const;
+
+    /** Whether there are no boundary points. */
+    bool
+    has_no_surface() const;
   };
 
   /**

@@ -13,6 +13,8 @@ from signal import SIGKILL
 from morula.execute import Ended, environment
 from morula.execute import call as start
 
+from tests.common import forked_tools
+
 
 class Forks:
     """A process of build/tests/forks, which forks for every run."""
@@ -62,9 +64,16 @@ def forks_of(morula):
 
 
 def call(words, *, cwd=None, timeout=None):
-    """morula.execute.call; the program itself, on one rank, is a fork."""
+    """morula.execute.call; the program itself, on one rank, is a fork, and so is
+    a tool of contrib/, with what it asks of the program."""
     words = [str(word) for word in words]
-    forks = None
+    forks, tool = None, forked_tools.tool_of(words[0])
+    if tool:
+        if "--morula" in words[:-1]:
+            # Before the tool forks, which cannot end it.
+            forks_of(os.path.abspath(words[words.index("--morula") + 1]))
+        return forked_tools.call(tool, words[1:], cwd=cwd, timeout=timeout,
+                                 runs=call)
     if os.path.basename(words[0]) == "morula":
         forks = forks_of(os.path.abspath(words[0]))
     if forks:

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
+#include <morula/scene/first_cells.h>
 #include <morula/scene/rate_warnings.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <array>
+#include <optional>
 #include <sstream>
 
 namespace Morula
@@ -23,38 +25,52 @@ namespace Morula
     bool
     feels_others(const Expression &expression)
     {
-      using V         = Variable;
-      const auto own  = {V::X, V::Y, V::Z, V::t, V::generation, V::age};
-      const auto kept = {V::type_age, V::type, V::depth, V::noise};
+      using V                         = Variable;
+      constexpr std::array<V, 10> own = {{V::X,
+                                          V::Y,
+                                          V::Z,
+                                          V::t,
+                                          V::generation,
+                                          V::age,
+                                          V::type_age,
+                                          V::type,
+                                          V::depth,
+                                          V::noise}};
       return std::any_of(expression.used().begin(),
                          expression.used().end(),
-                         [&](const Variable variable) {
-                           return std::count(own.begin(), own.end(), variable) +
-                                    std::count(kept.begin(),
-                                               kept.end(),
-                                               variable) ==
-                                  0;
+                         [&own](const Variable variable) {
+                           return std::find(own.begin(), own.end(), variable) ==
+                                  own.end();
                          });
     }
 
-    /** The rates that are looked at. */
-    template <int dim>
-    std::vector<const Expression *>
-    coupled_rates(const DevelopmentEffects<dim> &effects,
-                  const unsigned int             type)
+    /** A rate that is looked at. */
+    struct CoupledRate
     {
-      std::vector<const Expression *> rates;
+      Expression rate;
+      /** Of the cells that it is for; none: of all cells. */
+      std::optional<unsigned int> type;
+      /** Over all founders, 1/day. */
+      double largest = 0.;
+    };
+
+    template <int dim>
+    std::vector<CoupledRate>
+    coupled_rates(const DevelopmentEffects<dim> &effects)
+    {
+      std::vector<CoupledRate> list;
+      const auto               add = [&list](const Expression                 &rate,
+                               const std::optional<unsigned int> type) {
+        if (feels_others(rate))
+          list.push_back({rate, type});
+      };
       if (effects.types)
-        rates = effects.types->rates(type);
+        for (unsigned int type = 0; type < effects.types->size(); ++type)
+          for (const Expression *rate : effects.types->rates(type))
+            add(*rate, type);
       if (effects.death)
-        rates.push_back(&effects.death->rate());
-      rates.erase(std::remove_if(rates.begin(),
-                                 rates.end(),
-                                 [](const Expression *rate) {
-                                   return !feels_others(*rate);
-                                 }),
-                  rates.end());
-      return rates;
+        add(effects.death->rate(), {});
+      return list;
     }
 
     void
@@ -77,60 +93,46 @@ namespace Morula
 
   template <int dim>
   void
-  review_rates(const Scene         &scene,
-               const Founders<dim> &founders,
-               const MPI_Comm       comm,
-               Review              &review)
+  review_rates(const Scene               &scene,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review)
   {
-    const SceneEffects<dim>                      made = effects_of<dim>(scene);
-    const DevelopmentEffects<dim>               &effects = made.development;
-    std::vector<std::vector<const Expression *>> rates;
-    for (std::size_t type = 0;
-         type < std::max<std::size_t>(1, scene.cell_types.types.size());
-         ++type)
-      rates.push_back(coupled_rates(effects, type));
-    if (std::all_of(rates.begin(), rates.end(), [](const auto &list) {
-          return list.empty();
-        }))
+    std::vector<CoupledRate> rates =
+      coupled_rates(effects_of<dim>(scene).development);
+    if (rates.empty())
       return;
-
-    const TissueMaterial                 material(scene.material);
-    const CellReader<dim>                reader{made.state,
-                                 material,
-                                 effects.clock ? &*effects.clock : nullptr,
-                                 effects.cycle ? &*effects.cycle : nullptr,
-                                 scene.random_seed,
-                                 0.};
-    std::map<const Expression *, double> largest;
-    for (std::size_t i = 0; i < founders.positions.size(); ++i)
-      {
-        const Point<dim>    X   = founders.positions[i];
-        std::vector<double> row = made.columns.founder(X, founders.volumes[i]);
-        const CellView<dim, double> cell(make_array_view(row), made.columns);
-        made.fields.begin(cell);
-        if (effects.types)
-          cell.set(made.state.type,
-                   founders.types.empty() ? effects.types->founder_type(X) :
-                                            founders.types[i]);
-        const PresentCell<dim> founder(cell, founders.first_id + i, X, reader);
-        for (const Expression *rate : rates[founder.type()])
-          largest[rate] = std::max(largest[rate], founder.value(*rate, 0.));
-      }
-    std::set<const Expression *> seen;
-    for (const auto &list : rates)
-      for (const Expression *rate : list)
+    const FirstCells<dim> cells(scene, founders, surface, comm);
+    // An expression may have no value at some founder.
+    everywhere(comm, [&]() {
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {
-          const double all  = Utilities::MPI::max(largest[rate], comm);
-          const double part = all * scene.time.step;
-          if (seen.insert(rate).second && part > largest_part &&
-              part < switch_part)
-            warn_of(*rate, all, scene.time.step, review);
+          std::vector<double>    row     = cells.row(i);
+          const PresentCell<dim> founder = cells.cell(row, i);
+          for (CoupledRate &coupled : rates)
+            if (!coupled.type || *coupled.type == founder.type())
+              coupled.largest =
+                std::max(coupled.largest, founder.value(coupled.rate, 0.));
         }
+    });
+    for (const CoupledRate &coupled : rates)
+      {
+        const double largest = Utilities::MPI::max(coupled.largest, comm);
+        const double part    = largest * scene.time.step;
+        if (part > largest_part && part < switch_part)
+          warn_of(coupled.rate, largest, scene.time.step, review);
+      }
   }
 
 
-  template void
-  review_rates(const Scene &, const Founders<2> &, const MPI_Comm, Review &);
-  template void
-  review_rates(const Scene &, const Founders<3> &, const MPI_Comm, Review &);
+#define INSTANTIATE(dim)                                  \
+  template void review_rates(const Scene &,               \
+                             const Founders<dim> &,       \
+                             const SurfacePatches<dim> &, \
+                             const MPI_Comm,              \
+                             Review &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

@@ -87,7 +87,7 @@ namespace Morula
       review_cell_cycle(scene.cell_cycle, at, review);
     for (const auto &rule : effects.development.rules)
       rule->review(at, review);
-    review_rates(scene, founders, comm, review);
+    review_rates(scene, founders, surface, comm, review);
     for (const auto &fate : effects.fates)
       fate->review(at, review);
     for (const auto &[name, force] : effects.forces)

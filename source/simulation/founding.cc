@@ -2,41 +2,13 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/state/surface_distance.h>
+#include <morula/scene/first_cells.h>
 #include <morula/simulation/founding.h>
 
 namespace Morula
 {
   namespace
   {
-    /** Where founders stand to the surface, if expressions ask for it. */
-    template <int dim>
-    std::vector<NearSurface<dim>>
-    surface_of(const StateColumns<dim> &state,
-               const SeededTissue<dim> &seeded,
-               const MPI_Comm           comm)
-    {
-      if (!state.needs_surface())
-        return {};
-      return near_surface(seeded.founders.positions,
-                          seeded.surface.positions,
-                          seeded.surface.normals,
-                          comm);
-    }
-
-    /** What the founder's file says of it. */
-    template <int dim>
-    GivenState
-    given_state(const Founders<dim> &founders, const std::size_t i)
-    {
-      GivenState given;
-      if (!founders.phases.empty())
-        given.phase = founders.phases[i];
-      if (!founders.types.empty())
-        given.type = founders.types[i];
-      return given;
-    }
-
     /** Adds founder number @p i. @throws InputError */
     template <int dim>
     void
@@ -47,39 +19,31 @@ namespace Morula
                 const CellReader<dim>               &reader,
                 FirstPoints<dim>                    &points)
     {
-      const CellDevelopment<dim> &development = model.development;
-      const CellColumns<dim>     &columns     = development.columns();
-      const StateColumns<dim>    &state       = development.state();
-      const Point<dim>            X           = founders.positions[i];
-      const types::particle_index id          = founders.first_id + i;
-      std::vector<double>         row = columns.founder(X, founders.volumes[i]);
-      const CellView<dim, double> cell(make_array_view(row), columns);
-      if (state.depth.exists())
-        cell.set(state.depth, surface[i].depth);
-      if (state.surface_normal.exists())
-        cell.set(state.surface_normal, surface[i].normal);
-      const unsigned int generation =
-        founders.generations.empty() ? 0 : founders.generations[i];
-      if (columns.generation.exists())
-        cell.set(columns.generation, generation);
-      model.fields.begin(cell);
-      development.initialize(id,
-                             cell,
-                             model.scene.time.step,
-                             given_state(founders, i));
-      const PresentCell<dim> founder(cell, id, X, reader);
+      const Point<dim>            X     = founders.positions[i];
+      const types::particle_index id    = founders.first_id + i;
+      std::vector<double>         row   = founder_row(model.development,
+                                            model.fields,
+                                            founders,
+                                            surface,
+                                            i,
+                                            model.scene.time.step);
+      const StateColumns<dim>    &state = model.development.state();
+      const CellView<dim, double> cell(make_array_view(row),
+                                       model.development.columns());
+      const PresentCell<dim>      founder(cell, id, X, reader);
       model.fields.check_cell(founder);
       for (const auto &fate : model.fates)
         fate->check_cell(founder, model.scene.time.step);
       for (const auto &named : model.forces)
         named.force->check_cell(founder, model.scene.time.step);
       points.cells.add(id, X, make_array_view(row));
-      points.births.push_back({id,
-                               -1,
-                               generation,
-                               0.,
-                               X,
-                               state.type.exists() ? cell.get(state.type) : 0});
+      points.births.push_back(
+        {id,
+         -1,
+         founders.generations.empty() ? 0 : founders.generations[i],
+         0.,
+         X,
+         state.type.exists() ? cell.get(state.type) : 0});
     }
   } // namespace
 
@@ -100,7 +64,8 @@ namespace Morula
                                       {}};
     points.cells.reserve(founders.positions.size());
     points.births.reserve(founders.positions.size());
-    const auto surface = surface_of(model.development.state(), seeded, comm);
+    const auto surface =
+      near_surface_of(model.development.state(), founders, patches, comm);
     const CellReader<dim> reader = model.development.reader(0.);
     everywhere(comm, [&]() {
       for (std::size_t i = 0; i < founders.positions.size(); ++i)

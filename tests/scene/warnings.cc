@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/fate/random.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
@@ -13,6 +14,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+
+#include "common/complaint.h"
 #include "common/temporary_file.h"
 
 using namespace Morula;
@@ -146,13 +152,15 @@ TEST(SceneWarnings, OfRatesThatAreFastForTheStep)
 {
   const TemporaryFile empty(".prm", "");
   const auto          rates_of = [&](const std::string &leaving,
-                            const std::string &dying) {
+                            const std::string &dying,
+                            const std::string &law = "none") {
     const Scene scene =
       Scene::read(empty.path,
                            {"Tissue/Shape=box",
                    "Tissue/Size=100, 100, 100",
                    "Time/Step=0.1",
                    "Death/Shrinking time=0",
+                   "Proliferation/Law=" + law,
                    "Cell types/Names=stem, leaf",
                    "Cell types/leaf/Where=X > 0",
                    "Cell types/stem/Transitions/To leaf=" + leaving,
@@ -174,6 +182,27 @@ TEST(SceneWarnings, OfRatesThatAreFastForTheStep)
             std::string::npos)
     << leaving;
   EXPECT_NE(rates_of("0", "3.1*J_e").find("at most 0.0967742 day"),
+            std::string::npos);
+
+  // Founders have all that they will begin with: how deep they are, and the
+  // noise of their lineage.
+  EXPECT_NE(rates_of("0", "depth*J_e").find("up to 45 /day"),
+            std::string::npos);
+  const std::uint64_t seed    = Scene().random_seed;
+  double              largest = 0.;
+  for (types::particle_index id = 0; id < 1000; ++id)
+    largest =
+      std::max(largest, Random::noise(seed, Random::founder_key(seed, id)));
+  std::ostringstream noise;
+  noise << "up to " << 5. * largest << " /day";
+  for (const char *const law : {"none", "cell cycle"})
+    EXPECT_NE(rates_of("0", "5*noise*J_e", law).find(noise.str()),
+              std::string::npos)
+      << law;
+  // None has a value: the same message on all ranks.
+  EXPECT_NE(complaint_of([&]() {
+              rates_of("0", "log(J_e - 2)");
+            }).find("Death/Rate = 'log(J_e - 2)'"),
             std::string::npos);
 }
 

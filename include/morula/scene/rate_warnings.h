@@ -16,15 +16,17 @@ namespace Morula
    * Warns of rates of death and of leaving a type that are fast for the step.
    * Such a rate is taken for the cell's state at the beginning of a step, so
    * what other cells become in the step is not felt: an error of first order in
-   * rate times step. Rates that no other cell can change are integrated
-   * exactly, and not looked at. Collective.
+   * rate times step. Rates that no other cell can change are taken in the
+   * middle of the step, of second order, and not looked at. Collective.
+   * @throws InputError on all ranks where a rate has no value
    */
   template <int dim>
   void
-  review_rates(const Scene         &scene,
-               const Founders<dim> &founders,
-               const MPI_Comm       comm,
-               Review              &review);
+  review_rates(const Scene               &scene,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review);
 } // namespace Morula
 
 #endif

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/scene/first_cells.h>
+
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** What the founder's file says of it. */
+    template <int dim>
+    GivenState
+    given_state(const Founders<dim> &founders, const std::size_t i)
+    {
+      GivenState given;
+      if (!founders.phases.empty())
+        given.phase = founders.phases[i];
+      if (!founders.types.empty())
+        given.type = founders.types[i];
+      return given;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<NearSurface<dim>>
+  near_surface_of(const StateColumns<dim>   &state,
+                  const Founders<dim>       &founders,
+                  const SurfacePatches<dim> &patches,
+                  const MPI_Comm             comm)
+  {
+    if (!state.needs_surface())
+      return {};
+    return near_surface(founders.positions,
+                        patches.positions,
+                        patches.normals,
+                        comm);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  founder_row(const CellDevelopment<dim>          &development,
+              const Fields<dim>                   &fields,
+              const Founders<dim>                 &founders,
+              const std::vector<NearSurface<dim>> &surface,
+              const std::size_t                    i,
+              const double                         step)
+  {
+    const CellColumns<dim>  &columns = development.columns();
+    const StateColumns<dim> &state   = development.state();
+    std::vector<double>      row =
+      columns.founder(founders.positions[i], founders.volumes[i]);
+    const CellView<dim, double> cell(make_array_view(row), columns);
+    if (state.depth.exists())
+      cell.set(state.depth, surface[i].depth);
+    if (state.surface_normal.exists())
+      cell.set(state.surface_normal, surface[i].normal);
+    if (columns.generation.exists() && !founders.generations.empty())
+      cell.set(columns.generation, founders.generations[i]);
+    fields.begin(cell);
+    development.initialize(founders.first_id + i,
+                           cell,
+                           step,
+                           given_state(founders, i));
+    return row;
+  }
+
+
+  template <int dim>
+  FirstCells<dim>::FirstCells(const Scene               &scene,
+                              const Founders<dim>       &founders,
+                              const SurfacePatches<dim> &patches,
+                              const MPI_Comm             comm)
+    : founders(founders)
+    , effects(effects_of<dim>(scene))
+    , development_(std::move(effects.development),
+                   effects.columns,
+                   effects.state,
+                   TissueMaterial(scene.material),
+                   scene.random_seed)
+    , surface(near_surface_of(development_.state(), founders, patches, comm))
+    , reader(development_.reader(0.))
+  {}
+
+
+  template <int dim>
+  std::vector<double>
+  FirstCells<dim>::row(const std::size_t i) const
+  {
+    return founder_row(development_, effects.fields, founders, surface, i, 0.);
+  }
+
+
+  template <int dim>
+  PresentCell<dim>
+  FirstCells<dim>::cell(std::vector<double> &row, const std::size_t i) const
+  {
+    return PresentCell<dim>(CellView<dim, double>(make_array_view(row),
+                                                  development_.columns()),
+                            founders.first_id + i,
+                            founders.positions[i],
+                            reader);
+  }
+
+
+  template <int dim>
+  const CellDevelopment<dim> &
+  FirstCells<dim>::development() const
+  {
+    return development_;
+  }
+
+
+#define INSTANTIATE(dim)                                  \
+  template std::vector<NearSurface<dim>> near_surface_of( \
+    const StateColumns<dim> &,                            \
+    const Founders<dim> &,                                \
+    const SurfacePatches<dim> &,                          \
+    const MPI_Comm);                                      \
+  template std::vector<double> founder_row(               \
+    const CellDevelopment<dim> &,                         \
+    const Fields<dim> &,                                  \
+    const Founders<dim> &,                                \
+    const std::vector<NearSurface<dim>> &,                \
+    const std::size_t,                                    \
+    const double);                                        \
+  template class FirstCells<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -56,14 +56,48 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
-  CellDevelopment<dim>::law_growth(const PresentCell<dim> &cell,
+  CellDevelopment<dim>::law_growth(const GrowingCell<dim> &cell,
                                    const double            t0,
                                    const double            t1) const
   {
-    const GrowingCell<dim> at_t0 = growing(cell, t0);
-    if (!effects.grows.empty() && !effects.grows[cell.type()])
-      return at_t0.growth;
-    return effects.law->growth(at_t0, t0, t1);
+    if (!effects.grows.empty() && !effects.grows[cell.present->type()])
+      return cell.growth;
+    return effects.law->growth(cell, t0, t1);
+  }
+
+  template <int dim>
+  double
+  CellDevelopment<dim>::free_growth(std::vector<double>         row,
+                                    const types::particle_index id,
+                                    const double                end,
+                                    const unsigned int          n_steps) const
+  {
+    double ratio = 1.;
+    for (unsigned int n = 0; n < n_steps; ++n)
+      {
+        const double t0 = n * end / n_steps, t1 = (n + 1) * end / n_steps;
+        std::vector<double>         next = row;
+        const CellView<dim, double> cell(make_array_view(row), columns_);
+        const CellView<dim, double> after(make_array_view(next), columns_);
+        const CellReader<dim>       reader = this->reader(t0);
+        const PresentCell<dim>      before(cell,
+                                      id,
+                                      cell.founder_position(),
+                                      reader);
+        const GrowingCell<dim>      growing = this->growing(before, t0);
+        const Tensor<2, dim>        of_law  = law_growth(growing, t0, t1);
+        effects.law->remember(growing, t0, t1, after);
+        if (effects.law_growth.exists())
+          after.set(effects.law_growth, of_law);
+        const Tensor<2, dim> F_g =
+          of_law *
+          behind_law(cell, effects.cycle ? clock(cell) : CycleState<dim>(), t1);
+        after.set(columns_.growth, F_g);
+        after.set(columns_.deformation, F_g);
+        row   = next;
+        ratio = determinant(of_law);
+      }
+    return ratio;
   }
 
   template <int dim>
@@ -74,7 +108,8 @@ namespace Morula
                                const double            t1) const
   {
     const Tensor<2, dim> behind = behind_law(cell.cell(), next, t1);
-    return effects.law ? law_growth(cell, t0, t1) * behind : behind;
+    return effects.law ? law_growth(growing(cell, t0), t0, t1) * behind :
+                         behind;
   }
 
   template <int dim>
@@ -88,10 +123,11 @@ namespace Morula
     Tensor<2, dim> F_g = behind_law(before.cell(), next, t1);
     if (effects.law)
       {
-        const Tensor<2, dim> of_law = law_growth(before, t0, t1);
+        const GrowingCell<dim> growing = this->growing(before, t0);
+        const Tensor<2, dim>   of_law  = law_growth(growing, t0, t1);
         if (effects.law_growth.exists())
           after.set(effects.law_growth, of_law);
-        effects.law->remember(growing(before, t0), t0, t1, after);
+        effects.law->remember(growing, t0, t1, after);
         F_g = of_law * F_g;
       }
     if (effects.contraction)

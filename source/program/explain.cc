@@ -5,6 +5,7 @@
 #include <morula/program/explain.h>
 #include <morula/program/explain_cells.h>
 #include <morula/scene/estimates.h>
+#include <morula/scene/free_growth.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
@@ -261,17 +262,29 @@ namespace Morula
                "about ";
     }
 
+    /** What the size takes for growth that depends on the cells' state. */
+    std::string
+    growth_text(const double free_growth)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << "; growth taken for " << free_growth
+           << ", that of cells which nothing presses and which keep their type";
+      return text.str();
+    }
+
     void
-    print_size(std::ostream       &out,
-               const Scene        &scene,
-               const SizeEstimate &size,
-               const double        available)
+    print_size(std::ostream                &out,
+               const Scene                 &scene,
+               const SizeEstimate          &size,
+               const std::optional<double> &growth,
+               const double                 available)
     {
       out << "Size\n  cells at the end: " << bound_of_cells(scene)
           << std::round(size.cells)
           << "\n  unknowns: " << size.unknowns_at_start
           << " in the first step, about " << std::round(size.unknowns)
-          << " in the last\n"
+          << " in the last" << (growth ? growth_text(*growth) : "") << "\n"
           << "  memory: about " << std::setprecision(3) << size.memory / 1e9
           << " GB of " << available / 1e9 << " GB\n  time: about "
           << duration_text(size.seconds) << " (" << size.seconds << " s) of "
@@ -289,8 +302,10 @@ namespace Morula
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
         Simulation<dim>(scene, comm, tissue).n_unknowns();
+      const std::optional<double> growth =
+        free_growth(scene, tissue.founders, tissue.surface, comm);
       const SizeEstimate size =
-        estimated_size(scene, tissue.founders, comm, n_unknowns);
+        estimated_size(scene, tissue.founders, comm, n_unknowns, growth);
       const double available = physical_memory(comm);
       const std::vector<types::particle_index> n_of_types = founders_of_types(
         scene, tissue.founders.positions, comm, tissue.founders.types);
@@ -316,7 +331,7 @@ namespace Morula
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);
-      print_size(text, scene, size, available);
+      print_size(text, scene, size, growth, available);
       for (const std::string &warning : tissue.warnings)
         text << warning << '\n';
       out << text.str();

@@ -98,13 +98,15 @@ namespace Morula
 
   template <int dim>
   SizeEstimate
-  estimated_size(const Scene         &scene,
-                 const Founders<dim> &founders,
-                 const MPI_Comm       comm,
-                 const unsigned int   n_unknowns)
+  estimated_size(const Scene                 &scene,
+                 const Founders<dim>         &founders,
+                 const MPI_Comm               comm,
+                 const unsigned int           n_unknowns,
+                 const std::optional<double> &free_growth)
   {
-    const SceneSize last = expected_size(scene, founders.positions, comm);
-    const double    first_volume =
+    SceneSize last = expected_size(scene, founders.positions, comm);
+    last.volume *= free_growth.value_or(1.);
+    const double first_volume =
       founders.n_global * std::pow(scene.tissue.cell_spacing.value(), dim);
 
     SizeEstimate size;
@@ -133,10 +135,12 @@ namespace Morula
   estimated_size(const Scene &,
                  const Founders<2> &,
                  const MPI_Comm,
-                 const unsigned int);
+                 const unsigned int,
+                 const std::optional<double> &);
   template SizeEstimate
   estimated_size(const Scene &,
                  const Founders<3> &,
                  const MPI_Comm,
-                 const unsigned int);
+                 const unsigned int,
+                 const std::optional<double> &);
 } // namespace Morula

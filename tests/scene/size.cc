@@ -11,6 +11,7 @@
 #include <morula/effects/surface/slip.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/estimates.h>
+#include <morula/scene/free_growth.h>
 #include <morula/scene/size.h>
 
 #include <deal.II/base/mpi.h>
@@ -21,6 +22,7 @@
 #include <limits>
 
 #include "common/complaint.h"
+#include "common/temporary_file.h"
 
 using namespace Morula;
 
@@ -130,6 +132,63 @@ TEST(SceneSize, CountsDescendants)
   EXPECT_DOUBLE_EQ(size().cells, 20. * n);
   scene.cell_cycle.size_checkpoint = "0.8";
   EXPECT_DOUBLE_EQ(size().cells, 2. * n);
+}
+
+
+/** Growth that depends on the cells' state is taken for that of cells which
+ *  nothing presses: then it is known. */
+TEST(SceneSize, LetsCellsGrowFreely)
+{
+  const TemporaryFile empty(".prm", "");
+  const auto          ratio = [&](std::vector<std::string> settings) {
+    for (const char *const setting : {"Tissue/Shape=box",
+                                      "Tissue/Size=100, 100, 100",
+                                      "Time/End time=4",
+                                      "Time/Step=0.25"})
+      settings.push_back(setting);
+    const Scene scene = Scene::read(empty.path, settings);
+    const auto  founders = seed_founders<3>(scene.tissue, MPI_COMM_WORLD);
+    const auto  free = free_growth(scene,
+                                  founders,
+                                  seed_surface<3>(scene.tissue, MPI_COMM_WORLD),
+                                  MPI_COMM_WORLD);
+    if (free)
+      {
+        const auto without = estimated_size(scene, founders, MPI_COMM_WORLD);
+        const auto with =
+          estimated_size(scene, founders, MPI_COMM_WORLD, 0, free);
+        EXPECT_EQ(with.cells, without.cells);
+        EXPECT_GT(with.unknowns, without.unknowns);
+        EXPECT_GT(with.seconds, without.seconds);
+      }
+    return free.value_or(0.);
+  };
+  const std::string rate = "Growth/Law=rate";
+  EXPECT_EQ(ratio({}), 0.);
+  EXPECT_EQ(ratio({rate, "Growth/Rate/Rate=0.5*t"}), 0.);
+  // With the memory of the predictor, and without; in the cycle, too.
+  for (const char *const predictor : {"true", "false"})
+    for (const char *const law : {"none", "cell cycle"})
+      EXPECT_NEAR(ratio({rate,
+                         "Growth/Rate/Rate=0.5*max(0, 1 - pressure/1)",
+                         std::string("Growth/Rate/Predictor=") + predictor,
+                         std::string("Proliferation/Law=") + law}),
+                  std::exp(2.),
+                  1e-3 * std::exp(2.));
+  // Half of the cells; until they are twice as large.
+  EXPECT_NEAR(ratio({rate,
+                     "Growth/Rate/Rate=0.25*(type == leaf)*(growth < 1.999)",
+                     "Cell types/Names=stem, leaf",
+                     "Cell types/leaf/Where=X > 0"}),
+              0.5 * (1. + std::exp(0.25 * 3.)),
+              1e-9);
+  // A contraction stands left of the law.
+  EXPECT_NEAR(ratio({"Growth/Law=isotropic",
+                     "Growth/Isotropic/Stretch=1 + 0.1*t*(J_e > 0)",
+                     "Contraction/Stretch=1 - 0.1*t",
+                     "Contraction/Direction=1; 0; 0"}),
+              std::pow(1.4, 3),
+              1e-9);
 }
 
 

@@ -169,6 +169,18 @@ namespace Morula
            const double             t0,
            const double             t1) const;
 
+    /**
+     * The law's part of det F_g at @p end (day) of a founder that grows free of
+     * stress where it stands, and neither divides nor changes its type.
+     * @param row its columns at t = 0
+     * @throws InputError where the law has no value
+     */
+    double
+    free_growth(std::vector<double>         row,
+                const types::particle_index id,
+                const double                end,
+                const unsigned int          n_steps) const;
+
     /** How cells die, or null. */
     const Death<dim> *
     death() const;
@@ -273,7 +285,7 @@ namespace Morula
 
     /** The law's part at t1 of a cell in its state at t0. Only with a law. */
     Tensor<2, dim>
-    law_growth(const PresentCell<dim> &cell,
+    law_growth(const GrowingCell<dim> &cell,
                const double            t0,
                const double            t1) const;
 

@@ -7,6 +7,8 @@
 #include <morula/scene/size.h>
 #include <morula/seeding/seeding.h>
 
+#include <optional>
+
 namespace Morula
 {
   /** What --explain tells of the size of a run. */
@@ -24,14 +26,17 @@ namespace Morula
    * Estimates, rough ones of the time, fitted to the runs of doc/performance.md
    * ("What --explain expects"). Collective; every rank gives its own founders.
    * @param n_unknowns of the first step; 0: estimated, too
+   * @param free_growth what free_growth() says; else growth that depends on
+   *        the cells' state counts as none
    * @throws InputError, on some ranks only, where an expression has no value
    */
   template <int dim>
   SizeEstimate
-  estimated_size(const Scene         &scene,
-                 const Founders<dim> &founders,
-                 const MPI_Comm       comm,
-                 const unsigned int   n_unknowns = 0);
+  estimated_size(const Scene                 &scene,
+                 const Founders<dim>         &founders,
+                 const MPI_Comm               comm,
+                 const unsigned int           n_unknowns  = 0,
+                 const std::optional<double> &free_growth = {});
 
   /**
    * Memory that a run of this size needs on all ranks together, bytes:

@@ -64,6 +64,14 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  GrowthLaw<dim>::is_known_before() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
   void
   GrowthLaw<dim>::remember(const GrowingCell<dim> &,
                            const double,

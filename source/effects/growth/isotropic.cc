@@ -91,11 +91,19 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  IsotropicGrowth<dim>::is_known_before() const
+  {
+    return !theta.depends_on_state();
+  }
+
+
+  template <int dim>
   double
   IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
                                               const double      t) const
   {
-    return theta.depends_on_state() ? 1. : std::pow(stretch(X, t), dim);
+    return is_known_before() ? std::pow(stretch(X, t), dim) : 1.;
   }
 
 

@@ -61,6 +61,11 @@ namespace Morula
     virtual double
     expected_volume_ratio(const Point<dim> &X, const double t) const = 0;
 
+    /** Whether place and time alone tell growth, so that
+     *  expected_volume_ratio() is right; else only the run can tell. */
+    virtual bool
+    is_known_before() const;
+
     /**
      * Writes what the law keeps in columns of its own, at the end of the step
      * that growth() spoke of.

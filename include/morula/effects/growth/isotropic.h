@@ -51,6 +51,9 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
+    bool
+    is_known_before() const override;
+
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override;
 

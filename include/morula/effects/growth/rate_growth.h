@@ -50,6 +50,9 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
+    bool
+    is_known_before() const override;
+
     /** 1 where the rate depends on the state of cells: nobody knows it yet. */
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override;
@@ -92,10 +95,6 @@ namespace Morula
       /** What the first step withheld; 0 after the second. */
       Column<double> withheld;
     };
-
-    /** Whether L needs no more than X and t. */
-    bool
-    is_known_before() const;
 
     Rates
     rates(const PresentCell<dim> &cell, const double t0, const double t1) const;

@@ -19,11 +19,13 @@ from morula.accuracy.measures import read_measure
 from morula.accuracy.request import output_interval
 from morula.ladder import Plan, read_ladder, read_seeds
 from morula.prm import parse
+from morula.refusal import Refused
 from morula.scene import normal
 from program import main
 from upkeep import accuracy as documentation
 
 ROOT = Path(__file__).resolve().parents[2]
+SPACE = {"Dimension": "3"}  # keys of a scene
 
 
 class MadeUpScene:
@@ -53,8 +55,8 @@ def estimate_of(plan, function, seeds=(0.0,), reference=None):
     values = {point: numpy.array(
         [function(*map(float, point), seed) for seed in seeds])
         for point in plan.points}
-    return estimate(plan, center, DEFAULT_KINDS, read_measure("zmax", 3), 1.0,
-                    values, reference)
+    return estimate(plan, center, DEFAULT_KINDS, read_measure("zmax", SPACE),
+                    1.0, values, reference)
 
 
 def one(value):
@@ -258,8 +260,20 @@ class Fronts(unittest.TestCase):
         self.assertEqual(cheapest((3, 1, 2), (1, 9, 2), 2.5), 2)
         self.assertIsNone(cheapest((3, 1, 2), (1, 9, 2), 0.5))
 
+    def test_measures_that_a_scene_has(self):
+        """Numbers of cells by type and values of fields, by their names."""
+        keys = {**SPACE, "Cell types/Names": "stem, leaf",
+                "Fields/Names": "oxygen"}
+        for word in ("cells_stem", "cells_leaf", "oxygen_mean"):
+            self.assertEqual(read_measure(word, keys).column, word)
+            with self.assertRaisesRegex(Refused, word):
+                read_measure(word, SPACE)
+        with self.assertRaisesRegex(Refused, "Did you mean 'cells_leaf'"):
+            read_measure("cells_leave", keys)
+
     def test_wanted(self):
-        measures = [read_measure(word, 3) for word in ("zmax", "total_volume")]
+        measures = [read_measure(word, SPACE)
+                    for word in ("zmax", "total_volume")]
         found = read_wanted("zmax=0.5um, 1%", measures)
         self.assertEqual(found[measures[1]], Wanted("1%", 1.0, "%"))
         self.assertEqual(found[measures[1]].absolute(-300.0), 3.0)

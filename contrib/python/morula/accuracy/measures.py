@@ -70,11 +70,12 @@ def reduce(name, values):
     return REDUCTIONS[name](values)
 
 
-def read_measures(text, dimension):
-    """The --measure option: measures separated by commas."""
+def read_measures(text, keys):
+    """The --measure option: measures separated by commas.
+    @param keys of the scene, of which cells may have types and fields"""
     if not text:
         raise Refused("--measure", text or "", FORM)
-    measures = [read_measure(word.strip(), dimension)
+    measures = [read_measure(word.strip(), keys)
                 for word in text.split(",")]
     for i, measure in enumerate(measures):
         if measure.text in [other.text for other in measures[:i]]:
@@ -83,13 +84,14 @@ def read_measures(text, dimension):
     return measures
 
 
-def read_measure(word, dimension):
+def read_measure(word, keys):
+    dimension = int(keys["Dimension"])
     match = re.fullmatch(r"(?:(\w+):)?(?:(\w+)\()?(\w+)(\)?)", word)
     if not match or bool(match[2]) != bool(match[4]):
         raise Refused("--measure", word, FORM)
     kind, reduction, column = match[1] or "statistics", match[2], match[3]
     if kind == "statistics":
-        known = columns.STATISTICS
+        known = columns.statistics_of(keys)
         if column in columns.EFFORT:
             raise Refused("--measure", word, "a result of the simulation",
                           f"'{column}' says what a step took, it has no "

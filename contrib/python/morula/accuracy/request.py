@@ -40,7 +40,7 @@ class Request:
         program = Program(options.morula, options.mpiexec)
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
-        self.measures = read_measures(options.measure, self.scene.dimension)
+        self.measures = read_measures(options.measure, self.scene.keys)
         self._check_surface()
         self.plan = self._plan()
         check_method(self.plan)

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Kinds of bad input, and what the program must say about each: the key with its
 full path (or the option, or the file), the value, the limit, and what to do."""
+from tests.common.refusals.cell_types import CELL_TYPES
 from tests.common.refusals.contradictions import CONTRADICTIONS
 from tests.common.refusals.expressions import (EXPRESSIONS, GROWTH_BY_RATES,
                                                IN_2D)
@@ -14,5 +15,5 @@ from tests.common.refusals.scenes import SCENES
 from tests.common.refusals.values import CHOICES, NUMBERS
 
 KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + GROWTH_BY_RATES + \
-    CONTRADICTIONS + FIELDS + FILES + OUTLIERS + LUMENS + \
+    CONTRADICTIONS + CELL_TYPES + FIELDS + FILES + OUTLIERS + LUMENS + \
     OBSTACLES

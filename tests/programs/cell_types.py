@@ -4,8 +4,10 @@
 """Cells with types: the same events on any number of ranks and after a resumption,
 and what a rate that becomes wrong in mid-run does."""
 import csv
+import math
 
-from program import SCENES, ProgramTest, main, overrides, without_wall_time
+from program import (SCENES, ProgramTest, main, overrides, read_csv,
+                     without_wall_time)
 
 SCENE = SCENES / "cell-types.prm"
 # Rates that do not depend on what the solver leaves in the last digits.
@@ -14,6 +16,51 @@ EXACT = overrides({
     "Time/End time": "1.5"})
 RATE = "Cell types/transit/Transitions/To resting"
 TABLES = "lineage.csv", "events.csv"
+
+# A slab in plane strain that is stretched by a tenth in a frame of the same shape,
+# becomes three times as stiff in the third step, and is stretched further.
+STIFFENING = """
+set Dimension = 2
+subsection Time
+  set End time = 0.4
+  set Step     = 0.1
+end
+subsection Tissue
+  set Shape        = box
+  set Size         = 80, 40
+  set Cell spacing = 5
+end
+subsection Grid
+  set Spacing = 20
+end
+subsection Material
+  set Energy per = grown volume
+end
+subsection Cell types
+  set Names = soft, hard
+  subsection soft
+    subsection Transitions
+      set To hard = 1e4*(t > 0.22)
+    end
+  end
+  subsection hard
+    subsection Material
+      set Young's modulus = 3
+    end
+  end
+end
+subsection Boundary conditions
+  set Fixed where  = 1
+  set Displacement = (0.1*min(t/0.1, 1) + 0.05*(t > 0.35))*X; 0
+end
+subsection Solver
+  set Newton tolerance = 1e-8
+end
+subsection Output
+  set Formats  = csv
+  set Interval = 0.1
+end
+"""
 
 
 def rows(path):
@@ -68,6 +115,27 @@ class CellTypes(ProgramTest):
             self.assertEqual(without_wall_time(whole), without_wall_time(resumed))
             for table in TABLES:
                 self.assert_same_file(whole / table, resumed / table)
+
+    def test_stress_at_a_transition(self):
+        """A cell keeps its strain, so that its stress grows with the stiffness, or
+        forgets its stress: then only what comes afterwards stretches it."""
+        lame_lambda, mu = 0.4 / 1.4 / 0.2, 1 / 2.8  # E = 1 kPa, nu = 0.4
+
+        def stress(stretch, E):
+            return E * (mu * (stretch**2 - 1)
+                        + lame_lambda * math.log(stretch)) / stretch
+        scene = self.write("slab.prm", STIFFENING)
+        for choice, after, later in (
+                ("keep strain", stress(1.1, 3), stress(1.15, 3)),
+                ("forget stress", 0, stress(1.15 / 1.1, 3))):
+            output = self.work / choice
+            self.execute(scene, *overrides({"Material/On transition": choice}),
+                         output=output)
+            means = [read_csv(output / f"cells-{n:04d}.csv")["sigma_xx"].mean()
+                     for n in (1, 3, 4)]
+            print(choice, "sigma_xx, kPa:", means)
+            for mean, exact in zip(means, (stress(1.1, 1), after, later)):
+                self.assertLess(abs(mean - exact), 1e-3 * stress(1.1, 1))
 
     def test_wrong_in_mid_run(self):
         output = self.work / "output"

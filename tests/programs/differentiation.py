@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """prm/examples/differentiation.prm, on a coarser lattice: as many cells age as
-their rate says."""
+their rate says, and the same ones on two ranks."""
 import csv
 import math
 
@@ -51,6 +51,20 @@ class Differentiation(ProgramTest):
         self.assertLess(abs(len(aged) - expected), 3 * math.sqrt(expected))
         # 0.3 day: a chance of 1e-5 for all cells together.
         self.assertGreater(min(spans[e["id"]] for e in aged), 0.3)
+
+    def test_ranks(self):
+        """The same cells become the same, one after the other, on two ranks."""
+        said = []
+        for ranks in (1, 2):
+            output = self.work / f"ranks-{ranks}"
+            self.execute(SCENE, *COARSER, ranks=ranks, output=output)
+            said.append([[[row[name] for name in names]
+                          for row in rows(output / file)]
+                         for file, names in (
+                             ("events.csv", ("id", "event", "from", "to")),
+                             ("lineage.csv", ("id", "parent", "type")))])
+        self.assertGreater(len(said[0][0]), 300)
+        self.assertEqual(said[0], said[1])
 
 
 if __name__ == "__main__":

@@ -15,20 +15,20 @@ namespace Morula
              const unsigned int    number,
              const double          occupation_parameter)
     {
-      const GridBox<dim> &box  = occupancy.box();
-      const bool          thin = occupancy.is_thin(number);
+      const GridBoxes<dim> &boxes = occupancy.boxes();
+      const bool            thin  = occupancy.is_thin(number);
       if (thin && !occupancy.is_inner_candidate(number))
         return false;
       double       largest  = 0.;
       unsigned int n_points = 0;
-      box.for_neighbors(box.index(number),
-                        1,
-                        [&](const unsigned int neighbor, const auto &) {
-                          if (!thin || occupancy.is_inner_candidate(neighbor))
-                            largest =
-                              std::max(largest, occupancy.fill(neighbor));
-                          n_points += occupancy.n_quadrature_points(neighbor);
-                        });
+      boxes.for_neighbors(boxes.index(number),
+                          1,
+                          [&](const unsigned int neighbor, const auto &) {
+                            if (!thin || occupancy.is_inner_candidate(neighbor))
+                              largest =
+                                std::max(largest, occupancy.fill(neighbor));
+                            n_points += occupancy.n_quadrature_points(neighbor);
+                          });
       const double threshold = occupation_parameter * std::min(1., largest);
       return occupancy.fill(number) >= threshold - 1e-9 &&
              (thin || occupancy.n_quadrature_points(number) >= (1u << dim)) &&
@@ -40,22 +40,22 @@ namespace Morula
   std::vector<GridCellClass>
   classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
   {
-    std::vector<GridCellClass> classes(occupancy.box().size(),
+    std::vector<GridCellClass> classes(occupancy.boxes().size(),
                                        GridCellClass::empty);
-    const GridRange<dim>       known =
-      occupancy.window().inner(reach_of_classes<dim>());
-    occupancy.box().for_range(
-      known.first, known.last, [&](const unsigned int number, const auto &) {
-        if (!occupancy.active(number))
-          {
-            if (occupancy.fill(number) > 0.)
-              classes[number] = GridCellClass::reached;
-          }
-        else
-          classes[number] = is_inner(occupancy, number, occupation_parameter) ?
-                              GridCellClass::inner :
-                              GridCellClass::cut;
-      });
+    const auto set_class = [&](const unsigned int number, const auto &) {
+      if (!occupancy.active(number))
+        {
+          if (occupancy.fill(number) > 0.)
+            classes[number] = GridCellClass::reached;
+        }
+      else
+        classes[number] = is_inner(occupancy, number, occupation_parameter) ?
+                            GridCellClass::inner :
+                            GridCellClass::cut;
+    };
+    for (const GridRange<dim> &known :
+         occupancy.window().inner(reach_of_classes<dim>()))
+      occupancy.boxes().for_range(known, set_class);
     return classes;
   }
 

@@ -75,9 +75,9 @@ namespace Morula
   ExtensionSearch<dim>::ExtensionSearch(
     const Occupancy<dim> &occupancy, const std::vector<GridCellClass> &classes)
     : occupancy(occupancy)
-    , box(occupancy.box())
+    , boxes_(occupancy.boxes())
     , classes(classes)
-    , reached(box.size(), 0)
+    , reached(boxes_.size(), 0)
   {}
 
   /** Grid cells with tissue within @p radius of the spline's centre that are
@@ -86,7 +86,7 @@ namespace Morula
   std::vector<unsigned int>
   ExtensionSearch<dim>::connected(const SplineCopy &copy, const int radius)
   {
-    const GridIndex<dim>      center = box.index(copy.spline);
+    const GridIndex<dim>      center = boxes_.index(copy.spline);
     std::vector<unsigned int> list;
     const auto reach = [&](const unsigned int number, const auto &index) {
       for (unsigned int d = 0; d < dim; ++d)
@@ -104,10 +104,10 @@ namespace Morula
           GridIndex<dim> grid_cell = center;
           for (unsigned int d = 0; d < dim; ++d)
             grid_cell[d] += BSpline<dim>::offset(a, d);
-          reach(box.number(grid_cell), grid_cell);
+          reach(boxes_.number(grid_cell), grid_cell);
         }
     for (std::size_t i = 0; i < list.size(); ++i)
-      box.for_neighbors(box.index(list[i]), 1, reach);
+      boxes_.for_neighbors(boxes_.index(list[i]), 1, reach);
     for (const unsigned int number : list)
       reached[number] = 0;
     return list;
@@ -128,7 +128,7 @@ namespace Morula
     double                          most = 0.;
     for (const unsigned int block : blocks)
       {
-        Group &group = groups[extrapolation<dim>(spline, box.index(block))];
+        Group &group = groups[extrapolation<dim>(spline, boxes_.index(block))];
         group.blocks.push_back(block);
         group.fill += occupancy.fill(block);
         most = std::max(most, group.fill);
@@ -145,7 +145,7 @@ namespace Morula
   std::vector<unsigned int>
   ExtensionSearch<dim>::blocks(const SplineCopy &copy)
   {
-    const GridIndex<dim>      center = box.index(copy.spline);
+    const GridIndex<dim>      center = boxes_.index(copy.spline);
     std::vector<unsigned int> best;
     double                    best_sum = std::numeric_limits<double>::max();
     std::size_t               n_before = 0;
@@ -163,7 +163,7 @@ namespace Morula
         for (const unsigned int number : list)
           if (classes[number] == GridCellClass::inner)
             {
-              const double sum = sum_of_weights(center, box.index(number));
+              const double sum = sum_of_weights(center, boxes_.index(number));
               if (sum < best_sum)
                 best.clear();
               if (sum <= best_sum)

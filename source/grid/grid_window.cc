@@ -6,7 +6,6 @@
 #include <deal.II/base/mpi.templates.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace Morula
 {
@@ -20,165 +19,89 @@ namespace Morula
      *  points may lie on the other side of a grid line. */
     constexpr int reach_of_splines = 2;
 
+    /** The grid cells of a box that are so many @p rings inside of it, or at
+     *  the edge of the grid's box. */
     template <int dim>
     GridRange<dim>
-    nothing()
+    shrunk(const GridBox<dim> &box, const int rings, const GridBox<dim> &whole)
     {
       GridRange<dim> range;
-      range.first.fill(std::numeric_limits<int>::max());
-      range.last.fill(std::numeric_limits<int>::lowest());
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int first = box.first()[d], end = first + box.n()[d],
+                    whole_first = whole.first()[d],
+                    whole_end   = whole_first + whole.n()[d];
+          range.first[d]        = first + (first > whole_first ? rings : 0);
+          range.last[d]         = end - 1 - (end < whole_end ? rings : 0);
+        }
       return range;
-    }
-
-    template <int dim>
-    GridBox<dim>
-    box_of(const GridRange<dim> &range, const GridBox<dim> &lines)
-    {
-      GridIndex<dim> first = lines.first(), n{};
-      if (!range.empty())
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            first[d] = range.first[d];
-            n[d]     = range.last[d] - range.first[d] + 1;
-          }
-      return {first, n, lines.spacing(), lines.corner(GridIndex<dim>{})};
-    }
-
-    /** The grid cells of a box, each once, that splines of the points in
-     *  @p ranges may stand on. */
-    template <int dim>
-    std::vector<GridIndex<dim>>
-    grid_cells_of_splines(const std::vector<GridRange<dim>> &ranges,
-                          const GridRange<dim>              &all,
-                          const GridBox<dim>                &whole)
-    {
-      const GridBox<dim> box =
-        box_of(all.grown(reach_of_splines, whole), whole);
-      std::vector<char> reached(box.size(), 0), near(box.size(), 0);
-      for (const GridRange<dim> &range : ranges)
-        box.for_overlap(range.first,
-                        range.last,
-                        [&](const unsigned int number, const auto &) {
-                          reached[number] = 1;
-                        });
-      for (unsigned int number = 0; number < box.size(); ++number)
-        if (reached[number])
-          box.for_neighbors(box.index(number),
-                            reach_of_splines,
-                            [&](const unsigned int other, const auto &) {
-                              near[other] = 1;
-                            });
-      std::vector<GridIndex<dim>> list;
-      for (unsigned int number = 0; number < box.size(); ++number)
-        if (near[number])
-          list.push_back(box.index(number));
-      return list;
     }
   } // namespace
 
 
   template <int dim>
-  bool
-  GridRange<dim>::empty() const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (first[d] > last[d])
-        return true;
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  GridRange<dim>::contains(const GridIndex<dim> &index) const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (index[d] < first[d] || index[d] > last[d])
-        return false;
-    return true;
-  }
-
-
-  template <int dim>
-  void
-  GridRange<dim>::unite(const GridRange &other)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        first[d] = std::min(first[d], other.first[d]);
-        last[d]  = std::max(last[d], other.last[d]);
-      }
-  }
-
-
-  template <int dim>
-  GridRange<dim>
-  GridRange<dim>::grown(const int rings, const GridBox<dim> &box) const
-  {
-    if (empty())
-      return *this;
-    GridRange range;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        range.first[d] = std::max(first[d] - rings, box.first()[d]);
-        range.last[d] =
-          std::min(last[d] + rings, box.first()[d] + box.n()[d] - 1);
-      }
-    return range;
-  }
-
-
-  template <int dim>
   GridWindow<dim>::GridWindow(const GridBox<dim> &box)
     : whole_(box)
-    , box_(box)
+    , boxes_(box)
   {}
 
 
   template <int dim>
-  GridWindow<dim>::GridWindow(const BackgroundGrid<dim> &grid,
-                              const std::vector<Extent> &extents)
+  GridWindow<dim>::GridWindow(const BackgroundGrid<dim>         &grid,
+                              const std::vector<GridRange<dim>> &reached)
     : whole_(grid.box())
-    , box_(grid.box())
-    , core(nothing<dim>())
-    , rings(first_rings)
+    , alone(Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
     , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
     , comm(grid.communicator())
   {
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return;
-    std::vector<GridRange<dim>> ranges;
-    GridRange<dim>              all = nothing<dim>();
-    for (const auto &[lower, upper] : extents)
+    for (const GridRange<dim> &range : reached)
+      cores.push_back(range.grown(reach_of_splines, whole_));
+    cores = separated(cores, 0);
+    if (!alone)
       {
-        ranges.push_back({whole_.locate(lower), whole_.locate(upper)});
-        all.unite(ranges.back());
+        rings = first_rings;
+        for (const auto &[sender, list] :
+             send_records(of_others(reached, grid), comm))
+          for (const GridIndex<dim> &index : list)
+            cores.push_back({index, index});
       }
-    // Other ranks own some of these grid cells: they must know of them.
-    std::map<unsigned int, GridRange<dim>> of_others;
-    if (!all.empty())
-      for (const GridIndex<dim> &index :
-           grid_cells_of_splines(ranges, all, whole_))
-        {
-          core.unite({index, index});
-          if (const unsigned int owner = grid.owner(index); owner != rank)
-            of_others.emplace(owner, nothing<dim>())
-              .first->second.unite({index, index});
-        }
-    for (const auto &[sender, range] :
-         Utilities::MPI::some_to_some(comm, of_others))
-      core.unite(range);
     make();
+  }
+
+
+  /** Their owners must know of them. */
+  template <int dim>
+  std::map<unsigned int, std::vector<GridIndex<dim>>>
+  GridWindow<dim>::of_others(const Ranges              &reached,
+                             const BackgroundGrid<dim> &grid) const
+  {
+    const GridBoxes<dim> core(cores, whole_);
+    std::vector<char>    near(core.size(), 0);
+    for (const GridRange<dim> &range : reached)
+      core.for_range(range.grown(reach_of_splines, whole_),
+                     [&](const unsigned int number, const auto &) {
+                       near[number] = 1;
+                     });
+    std::map<unsigned int, std::vector<GridIndex<dim>>> by_owner;
+    for (unsigned int number = 0; number < core.size(); ++number)
+      if (near[number])
+        {
+          const GridIndex<dim> index = core.index(number);
+          if (const unsigned int owner = grid.owner(index); owner != rank)
+            by_owner[owner].push_back(index);
+        }
+    return by_owner;
   }
 
 
   template <int dim>
   void
-  GridWindow<dim>::widen()
+  GridWindow<dim>::widen(const bool here)
   {
-    if (windows.empty())
-      return; // one rank knows all
-    rings *= 2;
+    if (alone)
+      return; // knows all
+    if (here)
+      rings += rings / 2;
     make();
   }
 
@@ -187,17 +110,42 @@ namespace Morula
   void
   GridWindow<dim>::make()
   {
-    const GridRange<dim> window = core.grown(rings, whole_);
-    box_                        = box_of(window, whole_);
-    windows                     = Utilities::MPI::all_gather(comm, window);
+    cores = separated(cores, 2 * rings);
+    Ranges window;
+    for (const GridRange<dim> &core : cores)
+      window.push_back(core.grown(rings, whole_));
+    boxes_ = GridBoxes<dim>(window, whole_);
+    if (alone)
+      return;
+    neighbors.clear();
+    const auto windows = gather_everywhere(window, comm);
+    for (unsigned int other = 0; other < windows.size(); ++other)
+      for (const GridRange<dim> &range : windows[other])
+        if (other != rank &&
+            std::any_of(cores.begin(), cores.end(), [&](const auto &core) {
+              return core.gap(range) < 0;
+            }))
+          neighbors[other].push_back(range);
   }
 
 
   template <int dim>
-  const GridBox<dim> &
-  GridWindow<dim>::box() const
+  bool
+  GridWindow<dim>::is_in(const Ranges &ranges, const GridIndex<dim> &index)
   {
-    return box_;
+    return std::any_of(ranges.begin(),
+                       ranges.end(),
+                       [&](const GridRange<dim> &range) {
+                         return range.contains(index);
+                       });
+  }
+
+
+  template <int dim>
+  const GridBoxes<dim> &
+  GridWindow<dim>::boxes() const
+  {
+    return boxes_;
   }
 
 
@@ -213,23 +161,23 @@ namespace Morula
   bool
   GridWindow<dim>::holds(const GridIndex<dim> &center, const int radius) const
   {
-    return inner(radius).contains(center);
+    if (alone)
+      return true;
+    for (const GridBox<dim> &box : boxes_.boxes())
+      if (shrunk(box, radius, whole_).contains(center))
+        return true;
+    return false;
   }
 
 
   template <int dim>
-  GridRange<dim>
+  std::vector<GridRange<dim>>
   GridWindow<dim>::inner(const int rings) const
   {
-    GridRange<dim> range;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const int first = box_.first()[d], end = first + box_.n()[d];
-        const int whole_end = whole_.first()[d] + whole_.n()[d];
-        range.first[d]      = first + (first > whole_.first()[d] ? rings : 0);
-        range.last[d]       = end - 1 - (end < whole_end ? rings : 0);
-      }
-    return range;
+    Ranges ranges;
+    for (const GridBox<dim> &box : boxes_.boxes())
+      ranges.push_back(shrunk(box, alone ? 0 : rings, whole_));
+    return ranges;
   }
 
 
@@ -241,8 +189,6 @@ namespace Morula
   }
 
 
-  template struct GridRange<2>;
-  template struct GridRange<3>;
   template class GridWindow<2>;
   template class GridWindow<3>;
 } // namespace Morula

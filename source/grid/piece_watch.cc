@@ -178,7 +178,7 @@ namespace Morula
     std::vector<unsigned int> holds_cells(space.n_pieces(), 0);
     for (const auto &grid_cell : space.grid_cells())
       if (occupancy.n_particles(
-            occupancy.box().number(space.box().index(grid_cell.number))) > 0)
+            occupancy.boxes().number(space.box().index(grid_cell.number))) > 0)
         holds_cells[space.piece(grid_cell.number)] = 1;
     Utilities::MPI::max(holds_cells, comm, holds_cells);
     return std::count(holds_cells.begin(), holds_cells.end(), 1);

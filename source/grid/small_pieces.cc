@@ -35,15 +35,15 @@ namespace Morula
             const SplineCopies<dim>          &copies,
             const MPI_Comm                    comm)
     {
-      const GridBox<dim> &box = occupancy.box();
-      Extents<dim>        all;
+      const GridBoxes<dim> &boxes = occupancy.boxes();
+      Extents<dim>          all;
       all.corners.assign(copies.n_pieces() * 2 * dim,
                          std::numeric_limits<double>::lowest());
       all.counts.assign(copies.n_pieces() * Extents<dim>::n_counts, 0);
       for (const unsigned int number : copies.own_grid_cells())
         {
           const unsigned int   piece  = copies.piece(number);
-          const GridIndex<dim> index  = box.index(number);
+          const GridIndex<dim> index  = boxes.index(number);
           const auto [lower, upper]   = occupancy.bounds(number);
           double *const       corners = &all.corners[piece * 2 * dim];
           std::int64_t *const counts =
@@ -96,8 +96,8 @@ namespace Morula
                     const SplineCopies<dim>          &copies,
                     const MPI_Comm                    comm)
   {
-    const double     h         = occupancy.box().spacing();
-    const Point<dim> grid_line = occupancy.box().corner(GridIndex<dim>{});
+    const double     h         = occupancy.boxes().spacing();
+    const Point<dim> grid_line = occupancy.boxes().corner(GridIndex<dim>{});
     const auto       all       = extents(occupancy, classes, copies, comm);
     std::map<unsigned int, PiecePolynomial<dim>> result;
     for (unsigned int piece = 0; piece < copies.n_pieces(); ++piece)

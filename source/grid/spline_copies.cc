@@ -8,6 +8,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numeric>
@@ -56,22 +57,40 @@ namespace Morula
     }
 
     /** Calls visit(a, number) for the grid cells of a spline's support that lie
-     *  in the box. */
+     *  in the window. */
     template <int dim, typename Visit>
     void
-    for_support(const GridBox<dim> &box,
-                const unsigned int  spline,
-                const Visit        &visit)
+    for_support(const GridBoxes<dim> &boxes,
+                const unsigned int    spline,
+                const Visit          &visit)
     {
-      const GridIndex<dim> center = box.index(spline);
+      const GridIndex<dim> center = boxes.index(spline);
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
           GridIndex<dim> grid_cell = center;
           for (unsigned int d = 0; d < dim; ++d)
             grid_cell[d] += BSpline<dim>::offset(a, d);
-          if (box.contains(grid_cell))
-            visit(a, box.number(grid_cell));
+          if (boxes.contains(grid_cell))
+            visit(a, boxes.number(grid_cell));
         }
+    }
+
+    /** By grid cell, whether it or a neighbour is active: only there stand
+     *  splines with active grid cells. */
+    template <int dim>
+    std::vector<char>
+    near_active(const std::vector<GridCellClass> &classes,
+                const GridBoxes<dim>             &boxes)
+    {
+      std::vector<char> near(boxes.size(), 0);
+      for (unsigned int number = 0; number < boxes.size(); ++number)
+        if (is_active(classes[number]))
+          boxes.for_neighbors(boxes.index(number),
+                              1,
+                              [&](const unsigned int neighbor, const auto &) {
+                                near[neighbor] = 1;
+                              });
+      return near;
     }
   } // namespace
 
@@ -79,15 +98,20 @@ namespace Morula
   SplineCopies<dim>::SplineCopies(const GridWindow<dim>            &window,
                                   const std::vector<GridCellClass> &classes,
                                   const BackgroundGrid<dim>        &grid)
-    : box(window.box())
-    , first(box.size() + 1, 0)
-    , pieces(box.size(), no_piece)
+    : boxes(window.boxes())
+    , first(boxes.size() + 1, 0)
+    , pieces(boxes.size(), no_piece)
   {
-    find_own(classes, grid);
-    const GridRange<dim> known = window.inner(reach());
-    for (unsigned int spline = 0; spline < box.size(); ++spline)
+    const std::vector<char> near = near_active(classes, boxes);
+    find_own(classes, near, grid);
+    std::vector<char> known(boxes.size(), 0);
+    for (const GridRange<dim> &range : window.inner(reach()))
+      boxes.for_range(range, [&](const unsigned int spline, const auto &) {
+        known[spline] = near[spline];
+      });
+    for (unsigned int spline = 0; spline < boxes.size(); ++spline)
       {
-        if (known.contains(box.index(spline)))
+        if (known[spline])
           add_copies(spline, classes);
         first[spline + 1] = copies.size();
       }
@@ -95,7 +119,7 @@ namespace Morula
     join_parts(n_parts, window.whole(), grid);
     for (SplineCopy &copy : copies)
       if (is_used(copy))
-        for_support(box,
+        for_support(boxes,
                     copy.spline,
                     [&](const unsigned int a, const unsigned int number) {
                       if (copy.support & (1u << a))
@@ -106,31 +130,27 @@ namespace Morula
   template <int dim>
   void
   SplineCopies<dim>::find_own(const std::vector<GridCellClass> &classes,
+                              const std::vector<char>          &near,
                               const BackgroundGrid<dim>        &grid)
   {
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(grid.communicator());
-    const bool alone =
-      Utilities::MPI::n_mpi_processes(grid.communicator()) == 1;
-    own.assign(box.size(), alone);
-    // A spline with active grid cells stands on one of their neighbours.
-    for (unsigned int number = 0; number < box.size(); ++number)
-      if (is_active(classes[number]))
+    const MPI_Comm     comm  = grid.communicator();
+    const unsigned int rank  = Utilities::MPI::this_mpi_process(comm);
+    const bool         alone = Utilities::MPI::n_mpi_processes(comm) == 1;
+    own.assign(boxes.size(), 0);
+    for (unsigned int number = 0; number < boxes.size(); ++number)
+      if (near[number] && (alone || grid.owner(boxes.index(number)) == rank))
         {
-          if (!alone)
-            box.for_neighbors(box.index(number),
-                              1,
-                              [&](const unsigned int other, const auto &) {
-                                own[other] = 2;
-                              });
+          own[number] = 1;
+          if (is_active(classes[number]))
+            own_active.push_back(number);
         }
-    if (!alone)
-      for (unsigned int number = 0; number < box.size(); ++number)
-        if (own[number] == 2)
-          own[number] = grid.owner(box.index(number)) == rank;
-    for (unsigned int number = 0; number < box.size(); ++number)
-      if (own[number] && is_active(classes[number]))
-        own_active.push_back(number);
+    if (boxes.boxes().size() > 1)
+      std::sort(own_active.begin(),
+                own_active.end(),
+                [&](const unsigned int a, const unsigned int b) {
+                  return grid.box().number(boxes.index(a)) <
+                         grid.box().number(boxes.index(b));
+                });
   }
 
   template <int dim>
@@ -139,7 +159,7 @@ namespace Morula
                                 const std::vector<GridCellClass> &classes)
   {
     std::uint32_t tissue = 0, active = 0, inner = 0;
-    for_support(box,
+    for_support(boxes,
                 spline,
                 [&](const unsigned int a, const unsigned int number) {
                   const GridCellClass grid_cell = classes[number];
@@ -163,7 +183,7 @@ namespace Morula
   {
     bool used = is_own(copy);
     if (!used)
-      for_support(box,
+      for_support(boxes,
                   copy.spline,
                   [&](const unsigned int a, const unsigned int number) {
                     used = used || ((copy.support & (1u << a)) && own[number]);
@@ -175,17 +195,17 @@ namespace Morula
   unsigned int
   SplineCopies<dim>::find_parts()
   {
-    std::vector<unsigned int> rank(box.size(), 0), parent(box.size());
+    std::vector<unsigned int> rank(boxes.size(), 0), parent(boxes.size());
     std::iota(parent.begin(), parent.end(), 0u);
     boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
                                                               parent.data());
-    std::vector<char>                                    used(box.size(), 0);
+    std::vector<char>                                    used(boxes.size(), 0);
     for (const SplineCopy &copy : copies)
       {
         if (!is_used(copy))
           continue;
         unsigned int one = no_piece;
-        for_support(box,
+        for_support(boxes,
                     copy.spline,
                     [&](const unsigned int a, const unsigned int number) {
                       if (!(copy.support & (1u << a)))
@@ -197,8 +217,8 @@ namespace Morula
                     });
       }
     unsigned int              n_parts = 0;
-    std::vector<unsigned int> part_of_root(box.size(), no_piece);
-    for (unsigned int number = 0; number < box.size(); ++number)
+    std::vector<unsigned int> part_of_root(boxes.size(), no_piece);
+    for (unsigned int number = 0; number < boxes.size(); ++number)
       if (used[number])
         {
           unsigned int &part = part_of_root[sets.find_set(number)];
@@ -217,10 +237,10 @@ namespace Morula
   {
     std::vector<unsigned int> lowest_of_parts(n_parts, no_piece);
     PartsOnRanks::Seen        seen;
-    for (unsigned int number = 0; number < box.size(); ++number)
+    for (unsigned int number = 0; number < boxes.size(); ++number)
       if (pieces[number] != no_piece)
         {
-          const GridIndex<dim> index = box.index(number);
+          const GridIndex<dim> index = boxes.index(number);
           const unsigned int   there = whole.number(index);
           unsigned int        &low   = lowest_of_parts[pieces[number]];
           low                        = std::min(low, there);
@@ -231,7 +251,7 @@ namespace Morula
       lowest_of_parts,
       seen,
       [&](const unsigned int there) {
-        return pieces[box.number(whole.index(there))];
+        return pieces[boxes.number(whole.index(there))];
       },
       grid.communicator());
     lowest = joined.lowest();
@@ -252,7 +272,7 @@ namespace Morula
   SplineCopies<dim>::at(const GridIndex<dim> &spline,
                         const GridIndex<dim> &grid_cell) const
   {
-    const unsigned int number = box.number(spline);
+    const unsigned int number = boxes.number(spline);
     unsigned int       copy   = first[number];
     if (first[number + 1] - copy == 1)
       return copy;
@@ -274,11 +294,19 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineCopies<dim>::copy_at(const unsigned int spline,
-                             const unsigned int place) const
+  SplineCopies<dim>::copy_at(const GridIndex<dim> &spline,
+                             const unsigned int    place) const
   {
-    AssertThrow(first[spline] + place < first[spline + 1], ExcInternalError());
-    return first[spline] + place;
+    const unsigned int number = boxes.number(spline);
+    AssertThrow(first[number] + place < first[number + 1], ExcInternalError());
+    return first[number] + place;
+  }
+
+  template <int dim>
+  GridIndex<dim>
+  SplineCopies<dim>::center(const unsigned int copy) const
+  {
+    return boxes.index(copies[copy].spline);
   }
 
   template <int dim>

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/send_records.h>
 #include <morula/grid/spline_space.h>
 
-#include <deal.II/base/mpi.templates.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace Morula
 {
   namespace
   {
-    constexpr unsigned int none = numbers::invalid_unsigned_int;
-
     /** Coordinates of the grid cell on which spline @p a of a grid cell is
      *  centred. */
     template <int dim>
@@ -34,11 +30,15 @@ namespace Morula
     : occupancy_(std::move(occupancy))
     , extend(parameters.extension)
   {
-    while (!find_splines(grid, parameters))
-      occupancy_.widen(grid);
+    bool wide = find_splines(grid, parameters);
+    while (Utilities::MPI::logical_or(!wide, grid.communicator()))
+      {
+        occupancy_.widen(grid, !wide);
+        wide = find_splines(grid, parameters);
+      }
     count(grid.communicator());
-    number_unknowns(grid);
-    ask_for_numbers(grid);
+    numbers = UnknownNumbers<dim>(copies, own_unknowns(), small_pieces, grid);
+    numbers.ask(copies_of_others(), copies, grid);
     express_grid_cells();
     find_relevant();
   }
@@ -48,7 +48,7 @@ namespace Morula
   SplineSpace<dim>::find_splines(const BackgroundGrid<dim> &grid,
                                  const GridParameters      &parameters)
   {
-    box_    = occupancy_.box();
+    boxes   = occupancy_.boxes();
     classes = classify(occupancy_, parameters.occupation_parameter);
     copies  = SplineCopies<dim>(occupancy_.window(), classes, grid);
     if (!extend)
@@ -60,15 +60,14 @@ namespace Morula
     for (const unsigned int number : copies.own_grid_cells())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          const unsigned int c    = copy_at(box_.index(number), a);
+          const unsigned int c    = copy_at(boxes.index(number), a);
           const SplineCopy  &copy = copies.list()[c];
           // many grid cells share a spline
           if (!is_unknown(copy) && small_pieces.count(copy.piece) == 0 &&
               blocks.count(c) == 0)
             blocks[c] = search.blocks(copy);
         }
-    return !Utilities::MPI::logical_or(search.needs_wider_window(),
-                                       grid.communicator());
+    return !search.needs_wider_window();
   }
 
   template <int dim>
@@ -102,64 +101,14 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  SplineSpace<dim>::number_unknowns(const BackgroundGrid<dim> &grid)
+  std::vector<unsigned int>
+  SplineSpace<dim>::own_unknowns() const
   {
-    const MPI_Comm     comm = grid.communicator();
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    const auto        &list = copies.list();
-
-    unsigned int n_own = 0;
-    for (const SplineCopy &copy : list)
-      n_own += copies.is_own(copy) && is_unknown(copy);
-    for (const auto &[piece, polynomial] : small_pieces)
-      if (grid.owner(copies.lowest_grid_cell(piece)) == rank)
-        n_own += polynomial.n_unknowns();
-
-    const auto   of_ranks = Utilities::MPI::all_gather(comm, n_own);
-    unsigned int next =
-      std::accumulate(of_ranks.begin(), of_ranks.begin() + rank, 0u);
-    n_unknowns_ = std::accumulate(of_ranks.begin(), of_ranks.end(), 0u);
-    owned_      = IndexSet(n_unknowns_);
-    owned_.add_range(next, next + n_own);
-
-    pieces_of_unknowns_.clear();
-    pieces_of_unknowns_.reserve(n_own);
-    numbers.assign(list.size(), none);
-    for (unsigned int c = 0; c < list.size(); ++c)
-      if (copies.is_own(list[c]) && is_unknown(list[c]))
-        {
-          numbers[c] = next++;
-          pieces_of_unknowns_.push_back(list[c].piece);
-        }
-    number_small_pieces(grid, next);
-  }
-
-  template <int dim>
-  void
-  SplineSpace<dim>::number_small_pieces(const BackgroundGrid<dim> &grid,
-                                        unsigned int               next)
-  {
-    const MPI_Comm            comm = grid.communicator();
-    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
-    std::vector<unsigned int> first(small_pieces.size(), 0);
-    std::size_t               k = 0;
-    for (const auto &[piece, polynomial] : small_pieces)
-      {
-        if (grid.owner(copies.lowest_grid_cell(piece)) == rank)
-          {
-            first[k] = next;
-            next += polynomial.n_unknowns();
-            pieces_of_unknowns_.insert(pieces_of_unknowns_.end(),
-                                       polynomial.n_unknowns(),
-                                       piece);
-          }
-        ++k;
-      }
-    Utilities::MPI::sum(first, comm, first);
-    k = 0;
-    for (auto &[piece, polynomial] : small_pieces)
-      polynomial.first_unknown = first[k++];
+    std::vector<unsigned int> own;
+    for (unsigned int c = 0; c < copies.list().size(); ++c)
+      if (copies.is_own(copies.list()[c]) && is_unknown(copies.list()[c]))
+        own.push_back(c);
+    return own;
   }
 
   /** Unknowns of other ranks that this rank's grid cells need. */
@@ -171,7 +120,7 @@ namespace Morula
     for (const unsigned int number : copies.own_grid_cells())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          const unsigned int c    = copy_at(box_.index(number), a);
+          const unsigned int c    = copy_at(boxes.index(number), a);
           const SplineCopy  &copy = copies.list()[c];
           if (!copies.is_own(copy) && is_unknown(copy))
             wanted.push_back(c);
@@ -179,7 +128,7 @@ namespace Morula
     for (const auto &[copy, inner] : blocks)
       for (const unsigned int block : inner)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          if (const unsigned int c = copy_at(box_.index(block), a);
+          if (const unsigned int c = copy_at(boxes.index(block), a);
               !copies.is_own(copies.list()[c]))
             wanted.push_back(c);
     std::sort(wanted.begin(), wanted.end());
@@ -188,58 +137,24 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  SplineSpace<dim>::ask_for_numbers(const BackgroundGrid<dim> &grid)
-  {
-    const MPI_Comm comm = grid.communicator();
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return;
-    struct Question
-    {
-      unsigned int spline; // number in the grid's box
-      unsigned int place;  // of the copy
-    };
-    std::map<unsigned int, std::vector<Question>>     questions;
-    std::map<unsigned int, std::vector<unsigned int>> asked, answers;
-    for (const unsigned int c : copies_of_others())
-      {
-        const GridIndex<dim> index = box_.index(copies.list()[c].spline);
-        const unsigned int   owner = grid.owner(index);
-        questions[owner].push_back({grid.box().number(index), copies.place(c)});
-        asked[owner].push_back(c);
-      }
-    for (const auto &[rank, list] : send_records(questions, comm))
-      for (const auto &[spline, place] : list)
-        answers[rank].push_back(
-          numbers[copies.copy_at(box_.number(grid.box().index(spline)),
-                                 place)]);
-    for (const auto &[rank, list] : send_records(answers, comm))
-      for (std::size_t i = 0; i < list.size(); ++i)
-        {
-          AssertThrow(list[i] != none, ExcInternalError());
-          numbers[asked.at(rank)[i]] = list[i];
-        }
-  }
-
-  template <int dim>
   typename SplineSpace<dim>::Terms
   SplineSpace<dim>::expression(const unsigned int c) const
   {
-    if (numbers[c] != none)
+    if (numbers.has(c))
       return {{numbers[c], 1.}};
 
     const SplineCopy    &copy  = copies.list()[c];
-    const GridIndex<dim> index = box_.index(copy.spline);
+    const GridIndex<dim> index = boxes.index(copy.spline);
     if (const auto found = small_pieces.find(copy.piece);
         found != small_pieces.end())
-      return found->second.expression(box_.center(index), box_.spacing());
+      return found->second.expression(boxes.center(index), boxes.spacing());
     const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
     AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
     // doc/theory.md (3.3b); sums of integers, exact in any order
     std::map<unsigned int, double> sums;
     for (const unsigned int block : inner_grid_cells)
       {
-        const GridIndex<dim> inner   = box_.index(block);
+        const GridIndex<dim> inner   = boxes.index(block);
         const auto           weights = extension_weights(index, inner);
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           if (weights[a] != 0.)
@@ -258,7 +173,7 @@ namespace Morula
   {
     std::map<unsigned int, Terms> outer; // many grid cells share a spline
     const auto                    terms_of = [&](const unsigned int copy) {
-      if (numbers[copy] != none)
+      if (numbers.has(copy))
         return Terms{{numbers[copy], 1.}};
       auto found = outer.find(copy);
       if (found == outer.end())
@@ -267,7 +182,7 @@ namespace Morula
     };
     for (const unsigned int number : copies.own_grid_cells())
       {
-        const GridIndex<dim> index = box_.index(number);
+        const GridIndex<dim> index = boxes.index(number);
         std::vector<Terms>   rows;
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           rows.push_back(terms_of(copy_at(index, a)));
@@ -322,9 +237,9 @@ namespace Morula
                   grid_cell.unknowns.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    relevant_ = IndexSet(n_unknowns_);
+    relevant_ = IndexSet(numbers.n());
     relevant_.add_indices(used.begin(), used.end());
-    relevant_.add_indices(owned_);
+    relevant_.add_indices(owned());
     relevant_.compress();
     for (GridCell &grid_cell : grid_cells_)
       for (unsigned int &unknown : grid_cell.unknowns)
@@ -337,25 +252,25 @@ namespace Morula
                                         const double          a,
                                         const Tensor<1, dim> &gradient) const
   {
-    std::vector<double> coefficients(owned_.n_elements(), 0.);
+    std::vector<double> coefficients(owned().n_elements(), 0.);
     const auto set = [&](const unsigned int unknown, const double value) {
-      if (owned_.is_element(unknown))
-        coefficients[owned_.index_within_set(unknown)] = value;
+      if (owned().is_element(unknown))
+        coefficients[owned().index_within_set(unknown)] = value;
     };
     const auto value_at = [&](const Point<dim> &x) {
       return a + gradient * (x - Point<dim>());
     };
-    for (unsigned int c = 0; c < numbers.size(); ++c)
-      if (numbers[c] != none && copies.list()[c].piece == piece)
+    for (unsigned int c = 0; c < copies.list().size(); ++c)
+      if (numbers.has(c) && copies.list()[c].piece == piece)
         set(numbers[c],
-            value_at(box_.center(box_.index(copies.list()[c].spline))));
+            value_at(boxes.center(boxes.index(copies.list()[c].spline))));
     if (const auto found = small_pieces.find(piece);
         found != small_pieces.end())
       {
         const PiecePolynomial<dim> &polynomial = found->second;
         set(polynomial.first_unknown, value_at(polynomial.center));
         for (unsigned int d = 0; d < dim; ++d)
-          set(polynomial.first_unknown + 1 + d, gradient[d] * box_.spacing());
+          set(polynomial.first_unknown + 1 + d, gradient[d] * boxes.spacing());
       }
     return coefficients;
   }
@@ -364,7 +279,7 @@ namespace Morula
   const std::vector<unsigned int> &
   SplineSpace<dim>::pieces_of_unknowns() const
   {
-    return pieces_of_unknowns_;
+    return numbers.pieces();
   }
 
   template <int dim>
@@ -378,7 +293,7 @@ namespace Morula
   const IndexSet &
   SplineSpace<dim>::owned() const
   {
-    return owned_;
+    return numbers.owned();
   }
 
   template <int dim>
@@ -392,7 +307,7 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::n_unknowns() const
   {
-    return n_unknowns_;
+    return numbers.n();
   }
 
   template <int dim>
@@ -420,7 +335,7 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::piece(const unsigned int number) const
   {
-    return copies.piece(box_.number(box().index(number)));
+    return copies.piece(boxes.number(box().index(number)));
   }
 
   template <int dim>

@@ -35,7 +35,7 @@ namespace Morula
       for (const unsigned int number : occupancy.own())
         if (const double fill = occupancy.fill(number); fill >= nearly_full)
           {
-            const GridIndex<dim>   index = occupancy.box().index(number);
+            const GridIndex<dim>   index = occupancy.boxes().index(number);
             std::set<unsigned int> ranks;
             grid.box().for_neighbors(
               index, 1, [&](const unsigned int, const GridIndex<dim> &other) {

@@ -211,17 +211,7 @@ namespace Morula
     domains.reserve(cells_.size());
     for (unsigned int p = 0; p < cells_.size(); ++p)
       domains.push_back(domain(p));
-    std::vector<typename GridWindow<dim>::Extent> extents;
-    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
-      {
-        extents.reserve(cells_.size() + boundary_points_.size());
-        for (const ParticleDomain<dim> &domain : domains)
-          extents.push_back(domain.bounds());
-        for (unsigned int p = 0; p < boundary_points_.size(); ++p)
-          extents.emplace_back(boundary_points_.position(p),
-                               boundary_points_.position(p));
-      }
-    Occupancy<dim> occupancy(GridWindow<dim>(grid_, extents),
+    Occupancy<dim> occupancy(GridWindow<dim>(grid_, reached(domains)),
                              parameters.points_per_cell,
                              share_points);
     for (const ParticleDomain<dim> &domain : domains)
@@ -233,6 +223,33 @@ namespace Morula
       occupancy.add_quadrature_points(domain);
     occupancy.sum_quadrature_points(grid_);
     return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
+  }
+
+  /** The grid cells that this rank's points reach with their domains, and
+   *  others near them. */
+  template <int dim>
+  std::vector<GridRange<dim>>
+  Tissue<dim>::reached(const std::vector<ParticleDomain<dim>> &domains) const
+  {
+    double farthest = 0.; // from a cell's position, along a coordinate
+    for (const ParticleDomain<dim> &domain : domains)
+      {
+        const auto [lower, upper] = domain.bounds();
+        for (unsigned int d = 0; d < dim; ++d)
+          farthest = std::max(farthest, upper[d] - domain.position()[d]);
+      }
+    const GridBox<dim> &box = grid_.box();
+    const int rings = static_cast<int>(std::ceil(farthest / box.spacing()));
+    std::vector<GridRange<dim>> ranges;
+    const auto add = [&](const unsigned int number, const int rings) {
+      const GridIndex<dim> index = box.index(number);
+      ranges.push_back(GridRange<dim>{index, index}.grown(rings, box));
+    };
+    for (const auto &grid_cell : cells_.grid_cells())
+      add(grid_cell.number, rings);
+    for (const auto &grid_cell : boundary_points_.grid_cells())
+      add(grid_cell.number, 0);
+    return ranges;
   }
 
   template <int dim>

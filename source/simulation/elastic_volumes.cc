@@ -27,17 +27,17 @@ namespace Morula
                       const SplineSpace<dim>       &space,
                       const DisplacementField<dim> &displacement)
     {
-      const GridBox<dim> &box = space.occupancy().box();
-      std::vector<Value>  values;
+      const GridBoxes<dim> &boxes = space.occupancy().boxes();
+      std::vector<Value>    values;
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
         values.push_back(
           {space.grid_cells()[c].number,
            force.log_volume_ratio(c, displacement.on_grid_cell(c))});
       const auto of_others = space.occupancy().window().to_windows(values);
       values.insert(values.end(), of_others.begin(), of_others.end());
-      std::vector<double> theta(box.size(), 0.);
+      std::vector<double> theta(boxes.size(), 0.);
       for (const Value &value : values)
-        theta[box.number(space.box().index(value.number))] = value.theta;
+        theta[boxes.number(space.box().index(value.number))] = value.theta;
       return theta;
     }
 
@@ -49,11 +49,11 @@ namespace Morula
                    const SplineSpace<dim>    &space,
                    const std::vector<double> &values)
     {
-      const GridBox<dim> &box  = space.occupancy().box();
-      double              mean = 0.;
+      const GridBoxes<dim> &boxes = space.occupancy().boxes();
+      double                mean  = 0.;
       space.occupancy().for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
-          mean += values[box.number(box.locate(share))] / n;
+          mean += values[boxes.number(boxes.locate(share))] / n;
         });
       return mean;
     }

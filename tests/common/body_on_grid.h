@@ -91,6 +91,15 @@ namespace Morula
     });
   }
 
+  /** The grid cells that a cell reaches. */
+  template <int dim>
+  GridRange<dim>
+  range_of(const ParticleDomain<dim> &domain, const BackgroundGrid<dim> &grid)
+  {
+    const auto [lower, upper] = domain.bounds();
+    return {grid.locate(lower), grid.locate(upper)};
+  }
+
   /**
    * A background grid with particles of given volumes, the same lists on all
    * ranks, and the splines around them.
@@ -129,16 +138,16 @@ namespace Morula
         for (const Point<dim> &x : particles)
           weights.push_back({grid.box().number(grid.box().locate(x)), 1});
       grid.partition(weights);
-      std::vector<std::pair<Point<dim>, Point<dim>>> extents;
+      std::vector<GridRange<dim>> reached;
       if (first_rank)
         {
           for (std::size_t i = 0; i < particles.size(); ++i)
-            extents.push_back(
-              ParticleDomain<dim>(particles[i], volumes[i]).bounds());
+            reached.push_back(
+              range_of(ParticleDomain<dim>(particles[i], volumes[i]), grid));
           for (const Point<dim> &x : boundary)
-            extents.emplace_back(x, x);
+            reached.push_back({grid.locate(x), grid.locate(x)});
         }
-      Occupancy<dim> occupancy(GridWindow<dim>(grid, extents));
+      Occupancy<dim> occupancy(GridWindow<dim>(grid, reached));
       if (first_rank)
         {
           for (std::size_t i = 0; i < particles.size(); ++i)

@@ -164,7 +164,7 @@ namespace
               const Classes        &classes,
               const GridIndex<dim> &spline)
   {
-    const GridBox<dim> &box = occupancy.box();
+    const GridBox<dim> &box = occupancy.window().whole();
     Blocks              candidates;
     double              best_sum = std::numeric_limits<double>::max();
     for (unsigned int grid_cell = 0; grid_cell < box.size(); ++grid_cell)

@@ -1,4 +1,4 @@
-// ranks: 1 2 4
+// ranks: 1 2 3 4
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "common/allocations.h"
 #include "common/body_on_grid.h"
 
 using namespace Morula;
@@ -17,62 +18,63 @@ namespace
 {
   constexpr double h = 50.;
 
-  template <int dim>
-  Point<dim>
-  on_x_axis(const double x)
-  {
-    Point<dim> point;
-    point[0] = x;
-    return point;
-  }
-
-  /** Two balls that stand a distance apart, in grid spacings. */
+  /** Two balls whose middles stand so many grid spacings apart along x. */
   template <int dim>
   std::vector<Point<dim>>
   two_balls(const double distance)
   {
-    std::vector<Point<dim>> points =
-      ball_points(on_x_axis<dim>(-distance * h / 2.), 2. * h, h / 4.);
-    const auto other =
-      ball_points(on_x_axis<dim>(distance * h / 2.), 2. * h, h / 4.);
+    Point<dim> middle;
+    middle[0]         = distance * h / 2.;
+    auto       points = ball_points(middle, 2. * h, h / 4.);
+    const auto other  = ball_points(-1. * middle, 2. * h, h / 4.);
     points.insert(points.end(), other.begin(), other.end());
     return points;
   }
 
-  /** Grid cells in the largest window of a rank, where every rank knows its own
-   *  points alone. */
+  /** Bytes that a rank asks for while it makes window, occupancy and splines
+   *  of a body: the most of any rank. */
   template <int dim>
-  unsigned int
-  largest_window(const std::vector<Point<dim>> &points)
+  std::size_t
+  bytes_of_splines(const std::vector<Point<dim>> &points)
   {
-    const BodyOnGrid<dim> body(points, std::pow(h / 4., dim));
+    const double          V = std::pow(h / 4., dim);
+    const BodyOnGrid<dim> body(points, V);
     const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    std::vector<typename GridWindow<dim>::Extent> extents;
+    std::vector<ParticleDomain<dim>> own;
     for (const Point<dim> &x : points)
-      if (body.grid.owner(body.grid.box().locate(x)) == rank)
-        extents.emplace_back(x, x);
-    return Utilities::MPI::max(GridWindow<dim>(body.grid, extents).box().size(),
-                               MPI_COMM_WORLD);
+      if (body.grid.owner(body.grid.locate(x)) == rank)
+        own.emplace_back(x, V);
+    std::vector<GridRange<dim>> reached;
+    for (const ParticleDomain<dim> &domain : own)
+      reached.push_back(range_of(domain, body.grid));
+
+    const std::size_t before = bytes_asked_for();
+    Occupancy<dim>    occupancy(GridWindow<dim>(body.grid, reached));
+    for (const ParticleDomain<dim> &domain : own)
+      occupancy.add_particle(domain);
+    occupancy.sum(body.grid);
+    for (const ParticleDomain<dim> &domain : own)
+      occupancy.add_quadrature_points(domain);
+    occupancy.sum_quadrature_points(body.grid);
+    const SplineSpace<dim> space(body.grid,
+                                 std::move(occupancy),
+                                 GridParameters());
+    const std::size_t      bytes = bytes_asked_for() - before;
+    EXPECT_EQ(space.n_pieces(), 2u);
+    return Utilities::MPI::max(bytes, MPI_COMM_WORLD);
   }
 
-  /** The tables of a rank do not grow with the grid's box. No rank may have
-   *  parts of both balls: so the number of ranks is even. */
+  /** Two bodies in a box of eight times as many grid cells: a rank has tables
+   *  for the bodies, also one that has parts of both. (Both boxes are wider
+   *  than any window.) */
   template <int dim>
   void
   check_size()
   {
-    const unsigned int near = largest_window(two_balls<dim>(80.));
-    const unsigned int far  = largest_window(two_balls<dim>(240.));
-    if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
-      {
-        EXPECT_GT(far, 2 * near);
-      }
-    else
-      {
-        // a ball, what splines reach, the rings
-        EXPECT_LE(near, Utilities::pow(5 + 2 * (2 + 12), dim));
-        EXPECT_LE(far, Utilities::pow(5 + 2 * (2 + 12), dim));
-      }
+    const auto near = bytes_of_splines(two_balls<dim>(100.));
+    const auto far  = bytes_of_splines(two_balls<dim>(800.));
+    EXPECT_GT(near, 1000u);
+    EXPECT_LT(far, 1.1 * near);
   }
 
   /** All ranks' windows together hold what each must know. */
@@ -87,28 +89,36 @@ namespace
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     // Each rank has some of the points, wherever they stand.
-    std::vector<typename GridWindow<dim>::Extent> extents;
+    std::vector<GridIndex<dim>> mine;
     for (std::size_t i = rank; i < points.size(); i += n_ranks)
-      extents.emplace_back(points[i], points[i]);
-    GridWindow<dim> window(body.grid, extents);
-    for (const auto &[x, same] : extents)
-      EXPECT_TRUE(window.holds(whole.locate(x), 12));
+      mine.push_back(whole.locate(points[i]));
+    std::vector<GridRange<dim>> reached;
+    for (const GridIndex<dim> &index : mine)
+      reached.push_back({index, index});
+    GridWindow<dim> window(body.grid, reached);
+    for (const GridIndex<dim> &index : mine)
+      EXPECT_TRUE(window.holds(index, 12));
     for (const Point<dim> &x : points)
       if (body.grid.owner(whole.locate(x)) == rank)
         {
           EXPECT_TRUE(window.holds(whole.locate(x), 12));
         }
-    window.widen();
-    for (const auto &[x, same] : extents)
-      EXPECT_TRUE(window.holds(whole.locate(x), 24));
+    const unsigned int size = window.boxes().size();
+    window.widen(rank % 2 == 1); // some ranks
+    for (const GridIndex<dim> &index : mine)
+      EXPECT_TRUE(window.holds(index, rank % 2 == 1 ? 18 : 12));
+    if (rank % 2 == 0)
+      {
+        EXPECT_EQ(window.boxes().size(), size);
+      }
 
     struct Record
     {
       unsigned int number, n;
     };
     std::vector<Record> counted;
-    for (const auto &[x, same] : extents)
-      counted.push_back({whole.number(whole.locate(x)), 1});
+    for (const GridIndex<dim> &index : mine)
+      counted.push_back({whole.number(index), 1});
     const auto own = window.to_owners(counted, body.grid);
     EXPECT_EQ(Utilities::MPI::sum<unsigned int>(own.size(), MPI_COMM_WORLD),
               points.size());
@@ -117,13 +127,13 @@ namespace
     unsigned int n_elsewhere = 0;
     for (const Point<dim> &x : points)
       n_elsewhere += body.grid.owner(whole.locate(x)) != rank &&
-                     window.box().contains(whole.locate(x));
+                     window.boxes().contains(whole.locate(x));
     EXPECT_EQ(window.to_windows(own).size(), n_elsewhere);
   }
 } // namespace
 
 
-TEST(GridWindow, DoesNotGrowWithTheBox){MORULA_BOTH_DIMENSIONS(check_size)}
+TEST(GridWindow, TablesDoNotGrowWithTheBox){MORULA_BOTH_DIMENSIONS(check_size)}
 
 
 TEST(GridWindow, HoldsWhatARankMustKnow)

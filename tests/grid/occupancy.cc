@@ -64,10 +64,10 @@ namespace
   occupancy_of_all(const BackgroundGrid<dim> &grid,
                    const Particles<dim>      &particles)
   {
-    std::vector<std::pair<Point<dim>, Point<dim>>> extents;
+    std::vector<GridRange<dim>> reached;
     for (const auto &[x, V] : particles)
-      extents.push_back(ParticleDomain<dim>(x, V).bounds());
-    Occupancy<dim> occupancy(GridWindow<dim>(grid, extents));
+      reached.push_back(range_of(ParticleDomain<dim>(x, V), grid));
+    Occupancy<dim> occupancy(GridWindow<dim>(grid, reached));
     for (const auto &[x, V] : particles)
       occupancy.add_particle({x, V});
     occupancy.sum(grid);
@@ -202,20 +202,19 @@ namespace
       {
         SCOPED_TRACE(wide ? "wide" : "narrow");
         if (wide && n_ranks > 1)
-          together.widen(grid);
+          together.widen(grid, rank % 2 == 1);
         const auto   mine_of_classes = classify(together, 0.85);
-        const auto   known  = together.window().inner(reach_of_classes<dim>());
         unsigned int n_thin = 0, n_own = 0;
         for (unsigned int number = 0; number < box.size(); ++number)
           if (const auto index = box.index(number);
-              together.box().contains(index))
+              together.boxes().contains(index))
             {
-              const unsigned int here = together.box().number(index);
+              const unsigned int here = together.boxes().number(index);
               EXPECT_EQ(alone.fill(number), together.fill(here)); // bitwise
               EXPECT_EQ(alone.n_quadrature_points(number),
                         together.n_quadrature_points(here));
               EXPECT_EQ(alone.bounds(number), together.bounds(here));
-              if (known.contains(index))
+              if (together.window().holds(index, reach_of_classes<dim>()))
                 {
                   EXPECT_EQ(classes[number], mine_of_classes[here]);
                   EXPECT_EQ(alone.is_thin(number), together.is_thin(here));

@@ -35,7 +35,7 @@ namespace Morula
   constexpr int
   reach_of_classes()
   {
-    return Occupancy<dim>::reach_of_thin_rows + 1;
+    return TissueRows<dim>::reach + 1;
   }
 
   /**

@@ -67,7 +67,7 @@ namespace Morula
             const std::vector<unsigned int> &blocks) const;
 
     const Occupancy<dim>             &occupancy;
-    const GridBox<dim>               &box;
+    const GridBoxes<dim>             &boxes_; // of the window
     const std::vector<GridCellClass> &classes;
     std::vector<char>                 reached; // scratch, all 0 between calls
     bool                              met_edge = false;

@@ -6,6 +6,7 @@
 
 #include <morula/base/send_records.h>
 #include <morula/grid/background_grid.h>
+#include <morula/grid/grid_boxes.h>
 
 #include <map>
 #include <utility>
@@ -13,35 +14,13 @@
 
 namespace Morula
 {
-  /** Grid cells from one to another in each direction, both included; none if
-   *  the last lies before the first. */
-  template <int dim>
-  struct GridRange
-  {
-    GridIndex<dim> first, last;
-
-    /** Whether there is no grid cell in it. */
-    bool
-    empty() const;
-
-    /** Whether the grid cell is one of them. */
-    bool
-    contains(const GridIndex<dim> &index) const;
-
-    /** Makes it the smallest that holds the other one, too. */
-    void
-    unite(const GridRange &other);
-
-    /** With @p rings more grid cells on all sides, but inside of @p box. */
-    GridRange
-    grown(const int rings, const GridBox<dim> &box) const;
-  };
-
   /**
    * The part of the grid that a rank knows: the grid cells that its points
-   * reach, those that it owns there, and some rings around them. Tables of
-   * grid cells are as long as the window of the rank, not as the box. On one
-   * rank the window is the box.
+   * reach, those of others' points that it owns, and some rings around them.
+   * Tables of grid cells are as long as the window of the rank, not as the
+   * grid's box: where a rank has parts of the tissue that stand apart, its
+   * window is several boxes. On one rank it is what the tissue reaches;
+   * there is nothing outside.
    *
    * Grid cells have their number in the window where they stand in tables, and
    * their number in the grid's box in records that ranks tell each other.
@@ -50,38 +29,37 @@ namespace Morula
   class GridWindow
   {
   public:
-    /** Corners of an axis-parallel box that points reach over, µm. */
-    using Extent = std::pair<Point<dim>, Point<dim>>;
-
     GridWindow() = default;
 
     /** All of a box, on one rank. */
     explicit GridWindow(const GridBox<dim> &box);
 
-    /** The window of this rank, whose points reach over @p extents. The
-     *  partition of @p grid is that of now. Collective. */
-    GridWindow(const BackgroundGrid<dim> &grid,
-               const std::vector<Extent> &extents);
+    /** The window of this rank, whose points reach into the grid cells
+     *  @p reached. The partition of @p grid is that of now. Collective. */
+    GridWindow(const BackgroundGrid<dim>         &grid,
+               const std::vector<GridRange<dim>> &reached);
 
-    /** Takes twice as many rings. Collective. */
+    /** Takes half as many rings more, where a rank wants to look farther.
+     *  @param here whether this one does. Collective. */
     void
-    widen();
+    widen(const bool here);
 
     /** The window's grid cells and their numbers. */
-    const GridBox<dim> &
-    box() const;
+    const GridBoxes<dim> &
+    boxes() const;
 
-    /** That of the grid. */
+    /** The grid's box. */
     const GridBox<dim> &
     whole() const;
 
     /** Whether the window holds all grid cells of the grid whose coordinates
-     *  differ by at most @p radius from those of @p center. */
+     *  differ by at most @p radius from those of @p center, but for those that
+     *  are certainly empty. */
     bool
     holds(const GridIndex<dim> &center, const int radius) const;
 
     /** The grid cells of which the window holds(., rings). */
-    GridRange<dim>
+    std::vector<GridRange<dim>>
     inner(const int rings) const;
 
     /**
@@ -94,7 +72,7 @@ namespace Morula
     to_owners(const std::vector<Record> &records,
               const BackgroundGrid<dim> &grid) const
     {
-      if (windows.empty())
+      if (alone)
         return records;
       std::vector<Record>                         own;
       std::map<unsigned int, std::vector<Record>> others;
@@ -110,7 +88,8 @@ namespace Morula
 
     /**
      * Tells all ranks in whose windows they lie of grid cells. Collective.
-     * @param own records of grid cells that no other rank tells of
+     * @param own records of grid cells that this rank owns and some points
+     *   reach; no other rank tells of them
      * @return those of other ranks in this rank's window
      */
     template <typename Record>
@@ -118,15 +97,15 @@ namespace Morula
     to_windows(const std::vector<Record> &own) const
     {
       std::vector<Record> received;
-      if (windows.empty())
+      if (alone)
         return received;
       std::map<unsigned int, std::vector<Record>> others;
       for (const Record &record : own)
         {
           const GridIndex<dim> index = whole_.index(record.number);
-          for (unsigned int r = 0; r < windows.size(); ++r)
-            if (r != rank && windows[r].contains(index))
-              others[r].push_back(record);
+          for (const auto &[other, ranges] : neighbors)
+            if (is_in(ranges, index))
+              others[other].push_back(record);
         }
       for (const auto &[sender, list] : send_records(others, comm))
         received.insert(received.end(), list.begin(), list.end());
@@ -137,16 +116,30 @@ namespace Morula
     communicator() const;
 
   private:
-    /** Makes the window around the core. Collective. */
+    using Ranges = std::vector<GridRange<dim>>;
+
+    /** Whether one of the ranges contains the grid cell. */
+    static bool
+    is_in(const Ranges &ranges, const GridIndex<dim> &index);
+
+    /** Grid cells of other ranks that splines of this rank's points may stand
+     *  on, by owner. */
+    std::map<unsigned int, std::vector<GridIndex<dim>>>
+    of_others(const Ranges &reached, const BackgroundGrid<dim> &grid) const;
+
+    /** Makes the window around the cores, and finds whose windows hold some of
+     *  these. Collective. */
     void
     make();
 
-    GridBox<dim>                whole_, box_;
-    GridRange<dim>              core{};
-    int                         rings = 0;
-    std::vector<GridRange<dim>> windows; // by rank; empty on one rank
-    unsigned int                rank = 0;
-    MPI_Comm                    comm = MPI_COMM_SELF;
+    GridBox<dim>                   whole_;
+    GridBoxes<dim>                 boxes_;
+    Ranges                         cores;
+    int                            rings = 0;
+    std::map<unsigned int, Ranges> neighbors; // other ranks' windows
+    bool                           alone = true;
+    unsigned int                   rank  = 0;
+    MPI_Comm                       comm  = MPI_COMM_SELF;
   };
 } // namespace Morula
 

@@ -4,11 +4,9 @@
 #ifndef morula_grid_occupancy_h
 #define morula_grid_occupancy_h
 
-#include <morula/grid/grid_window.h>
-#include <morula/grid/particle_domain.h>
 #include <morula/grid/shared_points.h>
+#include <morula/grid/tissue_rows.h>
 
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -25,8 +23,8 @@ namespace Morula
    * and ends with sum(). The second adds the particles' quadrature points,
    * whose number depends on the first round.
    *
-   * It is known in the window of this rank: there, a `number` is that of a grid
-   * cell in box().
+   * It is known in the window of this rank: a `number` is that of a grid cell
+   * in boxes().
    *
    * Volumes are summed as integers. So the result, and with it the
    * classification, does not depend on the order of the points or on the
@@ -74,9 +72,9 @@ namespace Morula
     void
     sum_quadrature_points(const BackgroundGrid<dim> &grid);
 
-    /** Looks twice as far, after both rounds. Collective. */
+    /** Sees a wider window after both rounds, see GridWindow. Collective. */
     void
-    widen(const BackgroundGrid<dim> &grid);
+    widen(const BackgroundGrid<dim> &grid, const bool here);
 
     /**
      * Quadrature points per edge of a particle. The particle's box and the
@@ -103,7 +101,7 @@ namespace Morula
           visit(x, 1u);
           return;
         }
-      const SharedPoint<dim> point(box_, x);
+      const SharedPoint<dim> point(window().whole(), x);
       point.for_each(
         [&](const Point<dim> &position) { visit(position, point.n_shares()); });
     }
@@ -115,13 +113,9 @@ namespace Morula
 
     /**
      * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
-     * A row is a connected row of grid cells with tissue along one coordinate.
-     * Its thickness is its volume divided by its cross-section, the smallest
-     * rectangle around its tissue; a row of eight grid cells or more is not
-     * thin along itself, so that no rank must know all of it. A grid cell has
-     * the smallest thickness of its rows. The result is the largest among the
-     * grid cell and its neighbours with tissue, so that the tip of a large body
-     * is not thin.
+     * A grid cell has the smallest thickness of its rows, see TissueRows. The
+     * result is the largest among the grid cell and its neighbours with tissue,
+     * so that the tip of a large body is not thin.
      */
     double
     thickness(const unsigned int number) const;
@@ -169,12 +163,8 @@ namespace Morula
     active(const unsigned int number) const;
 
     /** Of this rank's window. */
-    const GridBox<dim> &
-    box() const;
-
-    /** How far thickness() and the questions about thin tissue depend on
-     *  others: they have an answer in GridWindow::inner() of so many rings. */
-    static constexpr int reach_of_thin_rows = 4;
+    const GridBoxes<dim> &
+    boxes() const;
 
     const GridWindow<dim> &
     window() const;
@@ -185,68 +175,13 @@ namespace Morula
     own() const;
 
   private:
-    /** What ranks tell each other of a grid cell. */
-    struct Record
-    {
-      unsigned int                number; // in the grid's box
-      std::array<float, 2 * dim>  reaches;
-      std::array<std::int64_t, 4> counts;
-    };
-
-    void
-    resize();
-    bool
-    holds_something(const unsigned int number) const;
-    Record
-    record(const unsigned int number) const;
-    void
-    add(const Record &record);
-
-    /** Replaces what this rank has counted by what all have, from @p records of
-     *  its grid cells. Collective. */
-    void
-    spread(const std::vector<Record> &records);
-
-    /** Records of all grid cells with something. */
-    std::vector<Record>
-    records() const;
-
-    void
-    find_own();
     void
     find_crowded();
-    void
-    measure_rows();
-    void
-    measure_row(const std::vector<unsigned int> &row,
-                const unsigned int               direction);
-    double
-    length(const std::vector<unsigned int> &row,
-           const unsigned int               direction) const;
-    double
-    cross_section(const std::vector<unsigned int> &row,
-                  const unsigned int               direction) const;
-    float
-    largest_around(const std::vector<float> &values,
-                   const unsigned int        number) const;
 
-    GridWindow<dim>           window_;
-    GridBox<dim>              box_; // the window's
     unsigned int              points_per_cell;
     bool                      share_points;
-    std::vector<std::int64_t> volumes;
-    std::vector<std::int64_t> quadrature_points;
-    std::vector<std::int64_t> particles;
-    std::vector<std::int64_t> boundary_points;
-    /** How far the tissue in a grid cell reaches up from its lower end and
-     *  down from its upper end, for each direction, in units of h. */
-    std::vector<float> reaches;
-    std::vector<float> thicknesses; // of rows, in h, at most 1
-    std::vector<float> lengths;     // of rows, in h; 2 where no row is thin
-    std::vector<char>  n_thin;      // number of directions with a thin row
-    std::vector<char>  candidates;  // see is_inner_candidate()
-
-    std::vector<unsigned int> own_;
+    GridCellContents<dim>     contents;
+    TissueRows<dim>           rows;
     std::vector<unsigned int> crowded_; // of all ranks, by number in the grid
   };
 } // namespace Morula

@@ -54,8 +54,8 @@ namespace Morula
       return reach_of_classes<dim>() + 1;
     }
 
-    /** All copies, in the order of their splines; copies of one spline in the
-     *  order of their lowest grid cells. */
+    /** All copies, in the order of their splines' numbers in the window; copies
+     *  of one spline in the order of their lowest grid cells. */
     const std::vector<SplineCopy> &
     list() const;
 
@@ -68,9 +68,13 @@ namespace Morula
     unsigned int
     place(const unsigned int copy) const;
 
-    /** The copy of the spline with this number that has that place. */
+    /** The copy of a spline that has that place. */
     unsigned int
-    copy_at(const unsigned int spline, const unsigned int place) const;
+    copy_at(const GridIndex<dim> &spline, const unsigned int place) const;
+
+    /** Coordinates of the grid cell that a copy's spline is centred on. */
+    GridIndex<dim>
+    center(const unsigned int copy) const;
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
     bool
@@ -88,7 +92,8 @@ namespace Morula
     unsigned int
     lowest_grid_cell(const unsigned int piece) const;
 
-    /** The active grid cells that this rank owns, in order. */
+    /** The active grid cells that this rank owns, in the order of their numbers
+     *  in the grid's box. */
     const std::vector<unsigned int> &
     own_grid_cells() const;
 
@@ -98,6 +103,7 @@ namespace Morula
                const std::vector<GridCellClass> &classes);
     void
     find_own(const std::vector<GridCellClass> &classes,
+             const std::vector<char>          &near,
              const BackgroundGrid<dim>        &grid);
     /** Whether this rank's grid cells or splines need the copy. */
     bool
@@ -112,8 +118,10 @@ namespace Morula
                const GridBox<dim>        &whole,
                const BackgroundGrid<dim> &grid);
 
-    GridBox<dim>              box; // the window's
-    std::vector<char>         own; // by grid cell of the window
+    GridBoxes<dim> boxes; // the window's
+    /** By grid cell of the window, whether this rank owns it; only of those
+     *  near active ones. */
+    std::vector<char>         own;
     std::vector<unsigned int> own_active;
     std::vector<SplineCopy>   copies;
     std::vector<unsigned int> first;  // copy of each spline, and the end

@@ -7,8 +7,7 @@
 #include <morula/grid/background_grid.h>
 #include <morula/grid/bspline.h>
 #include <morula/grid/extension.h>
-#include <morula/grid/small_pieces.h>
-#include <morula/grid/spline_copies.h>
+#include <morula/grid/unknown_numbers.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -112,8 +111,8 @@ namespace Morula
     using Blocks = std::map<unsigned int, std::vector<unsigned int>>;
 
     /** Classes, copies and small pieces, and where this rank's outer copies
-     *  find inner grid cells. @return whether all ranks' windows are wide
-     *  enough for that. Collective. */
+     *  find inner grid cells. @return whether this rank's window is wide enough
+     *  for that. Collective. */
     bool
     find_splines(const BackgroundGrid<dim> &grid,
                  const GridParameters      &parameters);
@@ -121,18 +120,11 @@ namespace Morula
     count(const MPI_Comm comm);
     bool
     is_unknown(const SplineCopy &copy) const;
-    void
-    number_unknowns(const BackgroundGrid<dim> &grid);
 
-    /** Numbers the small pieces' unknowns behind @p next, which are this
-     *  rank's. Collective. */
-    void
-    number_small_pieces(const BackgroundGrid<dim> &grid, unsigned int next);
+    /** Copies that are unknowns of this rank. */
+    std::vector<unsigned int>
+    own_unknowns() const;
 
-    /** Asks the owners for the numbers of the other unknowns that this rank's
-     *  grid cells need. Collective. */
-    void
-    ask_for_numbers(const BackgroundGrid<dim> &grid);
     std::vector<unsigned int>
     copies_of_others() const;
     void
@@ -150,21 +142,19 @@ namespace Morula
     Terms
     expression(const unsigned int copy) const;
 
-    Occupancy<dim>             occupancy_;
-    GridBox<dim>               box_; // the window's
-    bool                       extend;
-    std::vector<GridCellClass> classes;
-    SplineCopies<dim>          copies;
-    Blocks                     blocks;
-    std::vector<unsigned int>  numbers; // by copy: unknown's number
-    std::vector<unsigned int>  pieces_of_unknowns_;
+    Occupancy<dim>                               occupancy_;
+    GridBoxes<dim>                               boxes; // of the window
+    bool                                         extend;
+    std::vector<GridCellClass>                   classes;
+    SplineCopies<dim>                            copies;
+    Blocks                                       blocks;
     std::map<unsigned int, PiecePolynomial<dim>> small_pieces;
+    UnknownNumbers<dim>                          numbers;
     std::vector<GridCell>                        grid_cells_;
-    IndexSet                                     owned_, relevant_;
-    unsigned int                                 n_unknowns_ = 0;
-    unsigned int                                 n_active    = 0;
-    unsigned int                                 n_inner     = 0;
-    unsigned int                                 n_outer     = 0;
+    IndexSet                                     relevant_;
+    unsigned int                                 n_active = 0;
+    unsigned int                                 n_inner  = 0;
+    unsigned int                                 n_outer  = 0;
   };
 } // namespace Morula
 

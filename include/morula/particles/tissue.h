@@ -116,6 +116,9 @@ namespace Morula
     bool
     balanced(const std::vector<Point<dim>> &positions) const;
 
+    std::vector<GridRange<dim>>
+    reached(const std::vector<ParticleDomain<dim>> &domains) const;
+
     const GridParameters parameters;
     BackgroundGrid<dim>  grid_;
     Cells<dim>           cells_;

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/grid_cell_contents.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  template <int dim>
+  GridCellContents<dim>::GridCellContents(const GridWindow<dim> &window)
+    : window_(window)
+  {
+    clear();
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::clear()
+  {
+    volumes.assign(boxes().size(), 0);
+    counts.assign(boxes().size(), Counts{});
+    reaches.assign(boxes().size(), Reaches{});
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::add_particle(const ParticleDomain<dim> &domain)
+  {
+    const Point<dim> lower = domain.lower(), upper = domain.upper();
+    const double     h = boxes().spacing();
+    boxes().for_range(
+      {boxes().locate(lower), boxes().locate(upper)},
+      [&](const unsigned int number, const GridIndex<dim> &index) {
+        const Point<dim> corner  = boxes().corner(index);
+        double           overlap = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double from = std::max(0., (lower[d] - corner[d]) / h);
+            const double to   = std::min(1., (upper[d] - corner[d]) / h);
+            overlap *= std::max(0., to - from);
+            float &up   = reaches[number][2 * d];
+            float &down = reaches[number][2 * d + 1];
+            up          = std::max(up, static_cast<float>(to));
+            down        = std::max(down, static_cast<float>(1. - from));
+          }
+        volumes[number] += std::llround(overlap * resolution);
+      });
+    ++counts[boxes().number(boxes().locate(domain.position()))][particle];
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::add_boundary_point(const Point<dim> &x)
+  {
+    ++counts[boxes().number(boxes().locate(x))][boundary];
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::add_quadrature_point(const Point<dim> &x)
+  {
+    ++counts[boxes().number(boxes().locate(x))][quadrature];
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::sum(const BackgroundGrid<dim> &grid)
+  {
+    spread(window_.to_owners(records(), grid));
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
+  {
+    struct Count
+    {
+      unsigned int number, n;
+    };
+    const auto list_of_counts = [&]() {
+      std::vector<Count> list;
+      for (unsigned int number = 0; number < boxes().size(); ++number)
+        if (const unsigned int n = n_quadrature_points(number); n > 0)
+          list.push_back({window_.whole().number(boxes().index(number)), n});
+      return list;
+    };
+    const auto n_at = [&](const Count &count) -> std::uint32_t & {
+      return counts[boxes().number(window_.whole().index(count.number))]
+                   [quadrature];
+    };
+    const auto summed = window_.to_owners(list_of_counts(), grid);
+    for (Counts &n : counts)
+      n[quadrature] = 0;
+    for (const Count &count : summed)
+      n_at(count) += count.n;
+    for (const Count &count : window_.to_windows(list_of_counts()))
+      n_at(count) = count.n;
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
+  {
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    std::vector<Record> own;
+    for (const Record &record : records())
+      if (grid.owner(record.number) == rank)
+        own.push_back(record);
+    window_.widen(here);
+    spread(own);
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::spread(const std::vector<Record> &list)
+  {
+    clear();
+    for (const Record &record : list)
+      add(record);
+    find_own();
+    for (const Record &record : window_.to_windows(records()))
+      add(record);
+  }
+
+  /** Takes all that is there for this rank's. */
+  template <int dim>
+  void
+  GridCellContents<dim>::find_own()
+  {
+    own_.clear();
+    for (unsigned int number = 0; number < boxes().size(); ++number)
+      if (holds_something(number))
+        own_.push_back(number);
+  }
+
+  template <int dim>
+  bool
+  GridCellContents<dim>::holds_something(const unsigned int number) const
+  {
+    return volumes[number] > 0 || active(number) ||
+           std::any_of(reaches[number].begin(),
+                       reaches[number].end(),
+                       [](const float reach) { return reach > 0.f; });
+  }
+
+  template <int dim>
+  std::vector<typename GridCellContents<dim>::Record>
+  GridCellContents<dim>::records() const
+  {
+    std::vector<Record> list;
+    for (unsigned int number = 0; number < boxes().size(); ++number)
+      if (holds_something(number))
+        list.push_back(record(number));
+    return list;
+  }
+
+  template <int dim>
+  typename GridCellContents<dim>::Record
+  GridCellContents<dim>::record(const unsigned int number) const
+  {
+    return {window_.whole().number(boxes().index(number)),
+            counts[number],
+            reaches[number],
+            volumes[number]};
+  }
+
+  template <int dim>
+  void
+  GridCellContents<dim>::add(const Record &record)
+  {
+    const unsigned int number =
+      boxes().number(window_.whole().index(record.number));
+    volumes[number] += record.volume;
+    for (unsigned int k = 0; k < record.counts.size(); ++k)
+      counts[number][k] += record.counts[k];
+    for (unsigned int k = 0; k < record.reaches.size(); ++k)
+      reaches[number][k] = std::max(reaches[number][k], record.reaches[k]);
+  }
+
+  template class GridCellContents<2>;
+  template class GridCellContents<3>;
+} // namespace Morula

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/grid_range.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr std::size_t most_ranges = 32;
+
+    /** Adds a range to others that are more than @p gap apart, and unites what
+     *  no longer is. */
+    template <int dim>
+    void
+    add(std::vector<GridRange<dim>> &apart, GridRange<dim> range, const int gap)
+    {
+      while (true)
+        {
+          const auto near = std::partition(apart.begin(),
+                                           apart.end(),
+                                           [&](const GridRange<dim> &other) {
+                                             return range.gap(other) > gap;
+                                           });
+          if (near == apart.end())
+            break;
+          for (auto other = near; other != apart.end(); ++other)
+            range.unite(*other);
+          apart.erase(near, apart.end());
+        }
+      apart.push_back(range);
+    }
+  } // namespace
+
+
+  template <int dim>
+  bool
+  GridRange<dim>::empty() const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (first[d] > last[d])
+        return true;
+    return false;
+  }
+
+
+  template <int dim>
+  bool
+  GridRange<dim>::contains(const GridIndex<dim> &index) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (index[d] < first[d] || index[d] > last[d])
+        return false;
+    return true;
+  }
+
+
+  template <int dim>
+  void
+  GridRange<dim>::unite(const GridRange &other)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = std::min(first[d], other.first[d]);
+        last[d]  = std::max(last[d], other.last[d]);
+      }
+  }
+
+
+  template <int dim>
+  GridRange<dim>
+  GridRange<dim>::grown(const int rings, const GridBox<dim> &box) const
+  {
+    GridRange range;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        range.first[d] = std::max(first[d] - rings, box.first()[d]);
+        range.last[d] =
+          std::min(last[d] + rings, box.first()[d] + box.n()[d] - 1);
+      }
+    return range;
+  }
+
+
+  template <int dim>
+  int
+  GridRange<dim>::gap(const GridRange &other) const
+  {
+    int largest = std::numeric_limits<int>::lowest();
+    for (unsigned int d = 0; d < dim; ++d)
+      largest = std::max(
+        {largest, first[d] - other.last[d] - 1, other.first[d] - last[d] - 1});
+    return largest;
+  }
+
+
+  template <int dim>
+  std::vector<GridRange<dim>>
+  separated(const std::vector<GridRange<dim>> &ranges, int gap)
+  {
+    std::vector<GridRange<dim>> apart;
+    for (const GridRange<dim> &range : ranges)
+      if (!range.empty())
+        {
+          add(apart, range, gap);
+          while (apart.size() > most_ranges)
+            {
+              gap = 2 * gap + 1;
+              std::vector<GridRange<dim>> wider;
+              for (const GridRange<dim> &one : apart)
+                add(wider, one, gap);
+              apart = std::move(wider);
+            }
+        }
+    std::sort(apart.begin(), apart.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    return apart;
+  }
+
+
+#define INSTANTIATE(dim)                          \
+  template struct GridRange<dim>;                 \
+  template std::vector<GridRange<dim>> separated( \
+    const std::vector<GridRange<dim>> &, int);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

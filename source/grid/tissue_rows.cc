@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/grid/tissue_rows.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A row of so many grid cells is as thick as the grid along itself. */
+    constexpr std::size_t long_row = 8;
+
+    /** A row of tissue shorter than so many grid spacings is thin. */
+    constexpr double thin_row = 1.5;
+
+    /** A grid cell with at least this part of the fullest one's volume counts
+     *  as equally full. */
+    constexpr double about_equal = 0.8;
+
+    /** Calls visit(row) for the connected rows of grid cells with tissue along
+     *  one direction. */
+    template <int dim, typename Visit>
+    void
+    for_each_row(const GridCellContents<dim> &contents,
+                 const unsigned int           direction,
+                 const Visit                 &visit)
+    {
+      std::vector<unsigned int> row;
+      for (unsigned int k = 0; k < contents.boxes().boxes().size(); ++k)
+        {
+          const GridBox<dim> &box    = contents.boxes().boxes()[k];
+          const unsigned int  begin  = contents.boxes().begin(k);
+          unsigned int        stride = 1;
+          for (unsigned int d = 0; d < direction; ++d)
+            stride *= box.n()[d];
+          const int n = box.n()[direction];
+          for (unsigned int first = 0; first < box.size(); ++first)
+            if (first / stride % n == 0)
+              for (int i = 0; i <= n; ++i)
+                {
+                  const unsigned int number = begin + first + i * stride;
+                  if (i < n && contents.volume(number) > 0)
+                    row.push_back(number);
+                  else if (!row.empty())
+                    {
+                      visit(row);
+                      row.clear();
+                    }
+                }
+        }
+    }
+
+    /** Distance from the first to the last tissue of a row, in units of h. */
+    template <int dim>
+    double
+    length(const std::vector<unsigned int> &row,
+           const unsigned int               direction,
+           const GridCellContents<dim>     &contents)
+    {
+      return contents.up(row.back(), direction) +
+             contents.down(row.front(), direction) + row.size() - 2.;
+    }
+
+    template <int dim>
+    double
+    cross_section(const std::vector<unsigned int> &row,
+                  const unsigned int               direction,
+                  const GridCellContents<dim>     &contents)
+    {
+      double area = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != direction)
+          {
+            float up = 0.f, down = 0.f;
+            for (const unsigned int number : row)
+              {
+                up   = std::max(up, contents.up(number, d));
+                down = std::max(down, contents.down(number, d));
+              }
+            area *= up + down - 1.;
+          }
+      return area;
+    }
+
+    /** The largest value of a grid cell and its neighbours with tissue. */
+    template <int dim>
+    float
+    largest_around(const std::vector<float>    &values,
+                   const unsigned int           number,
+                   const GridCellContents<dim> &contents)
+    {
+      const GridBoxes<dim> &boxes   = contents.boxes();
+      float                 largest = values[number];
+      boxes.for_neighbors(boxes.index(number),
+                          1,
+                          [&](const unsigned int neighbor, const auto &) {
+                            if (contents.volume(neighbor) > 0)
+                              largest = std::max(largest, values[neighbor]);
+                          });
+      return largest;
+    }
+  } // namespace
+
+  template <int dim>
+  TissueRows<dim>::TissueRows(const GridCellContents<dim> &contents)
+    : thicknesses(contents.boxes().size(), 1.f)
+    , lengths(contents.boxes().size(), 2.f)
+    , n_thin_(contents.boxes().size(), 0)
+    , candidates(contents.boxes().size(), 1)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      for_each_row(contents, d, [&](const std::vector<unsigned int> &row) {
+        measure(row, d, contents);
+      });
+  }
+
+  template <int dim>
+  void
+  TissueRows<dim>::measure(const std::vector<unsigned int> &row,
+                           const unsigned int               direction,
+                           const GridCellContents<dim>     &contents)
+  {
+    std::int64_t sum = 0, largest = 0;
+    for (const unsigned int number : row)
+      {
+        sum += contents.volume(number);
+        if (candidates[number])
+          largest = std::max(largest, contents.volume(number));
+      }
+    const float row_length = length(row, direction, contents);
+    bool        found      = false;
+    if (row.size() < long_row)
+      {
+        const float thickness = sum / GridCellContents<dim>::resolution /
+                                cross_section(row, direction, contents);
+        for (const unsigned int number : row)
+          thicknesses[number] = std::min(thicknesses[number], thickness);
+      }
+    if (row_length < thin_row)
+      for (const unsigned int number : row)
+        {
+          lengths[number] = std::min(lengths[number], row_length);
+          ++n_thin_[number];
+          candidates[number] = candidates[number] && !found &&
+                               contents.volume(number) >= about_equal * largest;
+          found = found || candidates[number];
+        }
+  }
+
+  template <int dim>
+  float
+  TissueRows<dim>::least_thickness(const unsigned int number) const
+  {
+    return thicknesses[number];
+  }
+
+  template <int dim>
+  float
+  TissueRows<dim>::thickness(const unsigned int           number,
+                             const GridCellContents<dim> &contents) const
+  {
+    return largest_around(thicknesses, number, contents);
+  }
+
+  template <int dim>
+  unsigned int
+  TissueRows<dim>::n_thin(const unsigned int number) const
+  {
+    return n_thin_[number];
+  }
+
+  template <int dim>
+  bool
+  TissueRows<dim>::is_thin(const unsigned int           number,
+                           const GridCellContents<dim> &contents) const
+  {
+    return n_thin_[number] > 0 &&
+           largest_around(lengths, number, contents) < thin_row;
+  }
+
+  template <int dim>
+  bool
+  TissueRows<dim>::is_inner_candidate(const unsigned int number) const
+  {
+    return candidates[number];
+  }
+
+  template class TissueRows<2>;
+  template class TissueRows<3>;
+} // namespace Morula

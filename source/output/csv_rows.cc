@@ -2,10 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/output/csv_rows.h>
-#include <morula/output/gather.h>
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <utility>
 
 namespace Morula
 {
@@ -33,53 +34,76 @@ namespace Morula
     return line + '\n';
   }
 
-  void
-  CsvRows::add(const types::particle_index id,
-               const double               *values,
-               const unsigned              n)
+  std::string
+  csv_row(const double *values, const unsigned int n)
   {
+    std::string row;
     for (unsigned int i = 0; i < n; ++i)
       {
         if (i > 0)
-          text += ',';
-        append_number(text, values[i]);
+          row += ',';
+        append_number(row, values[i]);
       }
-    text += '\n';
-    ids.push_back(id);
+    return row + '\n';
+  }
+
+  void
+  CsvRows::add(const std::string_view row)
+  {
+    text += row;
     ends.push_back(text.size());
   }
 
-  GatheredRows::GatheredRows(const CsvRows &local, const MPI_Comm comm)
-    : texts(gather_to_root(local.text, comm))
+  std::size_t
+  CsvRows::n_bytes() const
   {
-    const auto ids  = gather_to_root(local.ids, comm);
-    const auto ends = gather_to_root(local.ends, comm);
-
-    std::vector<std::pair<types::particle_index, std::string_view>> sorted;
-    for (std::size_t rank = 0; rank < texts.size(); ++rank)
-      {
-        std::size_t begin = 0;
-        for (std::size_t i = 0; i < ids[rank].size(); ++i)
-          {
-            const std::size_t end = ends[rank][i];
-            sorted.emplace_back(
-              ids[rank][i],
-              std::string_view(texts[rank]).substr(begin, end - begin));
-            begin = end;
-          }
-      }
-    std::sort(sorted.begin(), sorted.end(), [](const auto &a, const auto &b) {
-      return a.first < b.first;
-    });
-
-    rows.reserve(sorted.size());
-    for (const auto &id_and_row : sorted)
-      rows.push_back(id_and_row.second);
+    return text.size();
   }
 
-  const std::vector<std::string_view> &
-  GatheredRows::in_id_order() const
+  std::string_view
+  CsvRows::row(const std::size_t i) const
   {
-    return rows;
+    const std::size_t begin = i == 0 ? 0 : ends[i - 1];
+    return std::string_view(text).substr(begin, ends[i] - begin);
+  }
+
+  std::string
+  CsvRows::share_in_order(const GlobalOrder &order, const MPI_Comm comm) const
+  {
+    std::vector<std::pair<std::uint64_t, std::string_view>> rows;
+    const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    // place and length of each row; and the rows
+    std::map<unsigned int, std::vector<std::uint64_t>> heads;
+    std::map<unsigned int, std::vector<char>>          texts;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      if (const std::uint64_t place = order.places[i]; n_ranks == 1)
+        rows.emplace_back(place, row(i));
+      else
+        {
+          const unsigned int rank = place * n_ranks / order.n_keys;
+          heads[rank].push_back(place);
+          heads[rank].push_back(row(i).size());
+          texts[rank].insert(texts[rank].end(), row(i).begin(), row(i).end());
+        }
+    if (n_ranks > 1)
+      {
+        heads = Utilities::MPI::some_to_some(comm, heads);
+        texts = Utilities::MPI::some_to_some(comm, texts);
+        for (const auto &[rank, head] : heads)
+          {
+            const char *row = texts.at(rank).data();
+            for (std::size_t k = 0; k < head.size(); row += head[k + 1], k += 2)
+              rows.emplace_back(head[k], std::string_view(row, head[k + 1]));
+          }
+      }
+    std::stable_sort(rows.begin(),
+                     rows.end(),
+                     [](const auto &a, const auto &b) {
+                       return a.first < b.first;
+                     });
+    std::string share;
+    for (const auto &row : rows)
+      share += row.second;
+    return share;
   }
 } // namespace Morula

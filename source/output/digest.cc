@@ -7,6 +7,52 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** The generator without its highest term. As in a digest, the highest bit
+     *  is the coefficient of x^0. */
+    constexpr std::uint64_t generator = 0xc96c5795d7870f42u;
+
+    constexpr std::uint64_t one = std::uint64_t(1) << 63; // x^0
+
+    /** a b modulo the generator. */
+    std::uint64_t
+    product(const std::uint64_t a, std::uint64_t b)
+    {
+      std::uint64_t sum = 0;
+      for (std::uint64_t term = one; term != 0; term >>= 1)
+        {
+          if (a & term)
+            sum ^= b;
+          b = (b >> 1) ^ (b & 1 ? generator : 0); // b x
+        }
+      return sum;
+    }
+
+    /** x^8n modulo the generator, by squares. */
+    std::uint64_t
+    power_of_bytes(std::uint64_t n)
+    {
+      std::uint64_t power = one;
+      for (std::uint64_t square = one >> 8; n > 0; n >>= 1)
+        {
+          if (n & 1)
+            power = product(power, square);
+          square = product(square, square);
+        }
+      return power;
+    }
+  } // namespace
+
+  std::uint64_t
+  joined_digests(const std::uint64_t first,
+                 const std::uint64_t second,
+                 const std::uint64_t n_bytes)
+  {
+    // What the inversion of begin and end adds is the same in all three.
+    return product(first, power_of_bytes(n_bytes)) ^ second;
+  }
+
   std::string
   digest_text(const std::uint64_t digest)
   {

@@ -3,15 +3,35 @@
 
 #include <morula/output/csv_rows.h>
 #include <morula/output/events.h>
-#include <morula/output/gather.h>
 
-#include <algorithm>
 #include <tuple>
 
 namespace Morula
 {
   namespace
   {
+    /** By these the rows are ordered. */
+    struct EventKey
+    {
+      double                time;
+      types::particle_index id;
+      int                   kind;
+
+      bool
+      operator<(const EventKey &other) const
+      {
+        return std::tie(time, id, kind) <
+               std::tie(other.time, other.id, other.kind);
+      }
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive & time & id & kind;
+      }
+    };
+
     /** What has no type to go to leaves `to` empty, what has no cause leaves
      *  `cause` empty. */
     std::string
@@ -49,20 +69,15 @@ namespace Morula
              const EventsContents         &contents,
              const MPI_Comm                comm)
   {
-    std::vector<CellEvent> all;
-    for (const auto &part : gather_to_root(events, comm))
-      all.insert(all.end(), part.begin(), part.end());
+    CsvRows               rows;
+    std::vector<EventKey> keys;
+    for (const CellEvent &event : events)
+      {
+        rows.add(event_row(event, contents));
+        keys.push_back({event.time, event.id, static_cast<int>(event.kind)});
+      }
     // Several changes of a cell stay in their order: each ends where the next
     // begins.
-    std::stable_sort(all.begin(),
-                     all.end(),
-                     [](const CellEvent &a, const CellEvent &b) {
-                       return std::tie(a.time, a.id, a.kind) <
-                              std::tie(b.time, b.id, b.kind);
-                     });
-    std::string text;
-    for (const CellEvent &event : all)
-      text += event_row(event, contents);
-    return text;
+    return rows.share_in_order(global_order(keys, comm), comm);
   }
 } // namespace Morula

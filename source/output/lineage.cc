@@ -24,7 +24,8 @@ namespace Morula
                const bool                     with_types,
                const MPI_Comm                 comm)
   {
-    CsvRows local;
+    CsvRows                            rows;
+    std::vector<types::particle_index> ids;
     for (const Birth<dim> &birth : births)
       {
         std::array<double, 8> values = {{static_cast<double>(birth.id),
@@ -37,14 +38,11 @@ namespace Morula
                                          static_cast<double>(birth.type)}};
         for (unsigned int d = 0; d < dim; ++d)
           values[4 + d] = birth.position[d];
-        local.add(birth.id, values.data(), with_types ? 8 : 7);
+        rows.add(csv_row(values.data(), with_types ? 8 : 7));
+        ids.push_back(birth.id);
       }
 
-    const GatheredRows rows(local, comm);
-    std::string        text;
-    for (const std::string_view row : rows.in_id_order())
-      text += row;
-    return text;
+    return rows.share_in_order(global_order(ids, comm), comm);
   }
 
   template std::string

@@ -23,8 +23,6 @@ namespace Morula
                                         estimate.smallest,
                                         estimate.largest,
                                         estimate.condition()};
-    CsvRows                   rows;
-    rows.add(step, values.data(), values.size());
-    return rows.text;
+    return csv_row(values.data(), values.size());
   }
 } // namespace Morula

@@ -81,8 +81,6 @@ namespace Morula
     std::vector<double> values;
     for (const auto &column : row.columns())
       values.push_back(column.second);
-    CsvRows rows;
-    rows.add(row.step, values.data(), values.size());
-    return rows.text;
+    return csv_row(values.data(), values.size());
   }
 } // namespace Morula

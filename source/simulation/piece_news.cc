@@ -3,6 +3,7 @@
 
 #include <morula/simulation/piece_news.h>
 
+#include <optional>
 #include <sstream>
 
 namespace Morula
@@ -20,7 +21,9 @@ namespace Morula
                        const BackgroundGrid<dim> &grid,
                        const double               t)
   {
-    if (const auto place = watch.joined(space, grid); place && !has_joined)
+    // It is told of once, and not looked for any more.
+    const auto place = has_joined ? std::nullopt : watch.joined(space, grid);
+    if (place)
       {
         has_joined = true;
         std::ostringstream text;

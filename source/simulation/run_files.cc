@@ -247,10 +247,10 @@ namespace Morula
   {
     row.wall_seconds = wall_seconds();
     tables.at("statistics").append(statistics_row(row));
-    tables.at("lineage").append(
+    tables.at("lineage").append_parts(
       lineage_rows(births, !contents.type_names.empty(), comm));
     if (contents.any())
-      tables.at("events").append(event_rows(befallen, contents, comm));
+      tables.at("events").append_parts(event_rows(befallen, contents, comm));
     progress->step({row.step,
                     row.time,
                     row.dt,

@@ -155,7 +155,7 @@ TEST(Lineage, IsInIdOrder)
 
   AppendedCsv file(path, lineage_columns(false), MPI_COMM_WORLD);
   const auto  append = [&](const std::vector<Birth<3>> &births) {
-    file.append(lineage_rows(births, false, MPI_COMM_WORLD));
+    file.append_parts(lineage_rows(births, false, MPI_COMM_WORLD));
   };
   // the last rank holds the first founder
   const types::particle_index id = n_ranks - 1 - rank;
@@ -200,8 +200,68 @@ TEST(Lineage, HasAZeroZInTwoDimensions)
   std::vector<Birth<2>>  births;
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};
-  file.append(lineage_rows(births, false, MPI_COMM_WORLD));
+  file.append_parts(lineage_rows(births, false, MPI_COMM_WORLD));
   EXPECT_EQ(content(path),
             "id,parent,generation,birth_time,x,y,z\n"
             "3,1,2,0.3333333333,4,5,0\n");
+}
+
+TEST(AppendedParts, MakeTheFileThatRankZeroMakes)
+{
+  const ScratchDirectory directory;
+  const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto         rows_of = [](const unsigned int r, const unsigned int n) {
+    std::string rows;
+    for (unsigned int i = 0; i < n; ++i)
+      rows += std::to_string(r) + "," + std::to_string(i * i) + "\n";
+    return rows;
+  };
+  AppendedCsv one(directory / "one.csv", {"rank", "square"}, MPI_COMM_WORLD),
+    all(directory / "all.csv", {"rank", "square"}, MPI_COMM_WORLD);
+  // Some ranks have nothing; in the second round the last one has no more than
+  // rank 0 appends alone, and in the third nobody has anything.
+  const std::vector<std::vector<unsigned int>> n_rows = {{300, 0, 41},
+                                                         {0, 0, 7},
+                                                         {0, 0, 0},
+                                                         {5, 1000, 3}};
+  for (const auto &n : n_rows)
+    {
+      std::string everybodys;
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        everybodys += rows_of(r, n[r]);
+      one.append(everybodys);
+      all.append_parts(rows_of(rank, n[rank]), 1);
+      one.append("9,9\n");
+      all.append("9,9\n");
+      EXPECT_EQ(one.extent().n_rows, all.extent().n_rows);
+      EXPECT_EQ(one.extent().digest, all.extent().digest);
+      EXPECT_EQ(content(directory / "one.csv"), content(directory / "all.csv"));
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+  all.sync();
+  EXPECT_NO_THROW(AppendedCsv::check(
+    directory / "all.csv", {"rank", "square"}, all.extent(), MPI_COMM_WORLD));
+}
+
+TEST(AppendedParts, AreCutWhereTheDiskIsFull)
+{
+  const ScratchDirectory directory;
+  const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const std::string  path = directory / "table.csv";
+  AppendedCsv        file(path, {"rank"}, MPI_COMM_WORLD);
+  file.append_parts(std::to_string(rank) + '\n', 1);
+  const std::string before = content(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  {
+    // on the last rank only
+    const FullDisk full(
+      rank + 1 == Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) ? 50 : 5000);
+    EXPECT_THROW(file.append_parts(std::string(99, '0') + '\n', 1),
+                 std::runtime_error);
+  }
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    {
+      EXPECT_EQ(content(path), before);
+    }
 }

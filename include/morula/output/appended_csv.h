@@ -5,7 +5,7 @@
 #define morula_output_appended_csv_h
 
 #include <morula/output/digest.h>
-#include <morula/output/posix_file.h>
+#include <morula/output/part_of_file.h>
 
 #include <mpi.h>
 
@@ -24,9 +24,9 @@ namespace Morula
   };
 
   /**
-   * A CSV file to which rows are appended during a run. Rank 0 writes. All
-   * members are collective and throw on all ranks alike. A crash may leave an
-   * incomplete row; it is never read, since a resumed run cuts the file behind
+   * A CSV file to which rows are appended during a run. All members are
+   * collective and throw on all ranks alike. A crash may leave incomplete rows
+   * at the end; they are never read, since a resumed run cuts the file behind
    * the rows that the snapshot knows of.
    */
   class AppendedCsv
@@ -70,6 +70,15 @@ namespace Morula
     void
     append(const std::string &rows);
 
+    /**
+     * The same for all ranks' @p rows, rank by rank. Many are written by all
+     * ranks, each its part, where the file system allows that; else by rank 0.
+     * @param shared_from size of the rows, bytes, that are many
+     */
+    void
+    append_parts(const std::string  &rows,
+                 const std::uint64_t shared_from = PartOfFile::worth_while);
+
     /** Forces the rows to the disk. Needed before a snapshot counts them. */
     void
     sync();
@@ -82,10 +91,18 @@ namespace Morula
     }
 
   private:
+    /** @return whether this was possible */
+    bool
+    write_parts(const std::string  &rows,
+                const std::uint64_t n_before,
+                const std::uint64_t n_all);
+
     MPI_Comm                   comm;
+    std::string                path;
     std::uint64_t              n_rows = 0;
-    Digest                     digest; // of the file so far, on rank 0
-    std::unique_ptr<PosixFile> file;   // on rank 0
+    std::uint64_t              size   = 0; // bytes; on rank 0
+    Digest                     digest;     // of the file so far, on rank 0
+    std::unique_ptr<PosixFile> file;       // on rank 0
   };
 } // namespace Morula
 

@@ -4,8 +4,8 @@
 #ifndef morula_output_csv_h
 #define morula_output_csv_h
 
+#include <morula/output/part_of_file.h>
 #include <morula/output/point_fields.h>
-#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
@@ -27,7 +27,7 @@ namespace Morula
   write_csv(const std::string      &path,
             const PointFields<dim> &fields,
             const MPI_Comm          comm,
-            const std::uint64_t     shared_from = SharedFile::worth_while);
+            const std::uint64_t     shared_from = PartOfFile::worth_while);
 } // namespace Morula
 
 #endif

@@ -4,10 +4,11 @@
 #ifndef morula_output_csv_rows_h
 #define morula_output_csv_rows_h
 
-#include <deal.II/particles/property_pool.h>
+#include <morula/base/global_order.h>
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,37 +28,38 @@ namespace Morula
   std::string
   csv_header(const std::vector<std::string> &names);
 
+  /** One row of @p n values, with the newline. */
+  std::string
+  csv_row(const double *values, const unsigned int n);
+
   /** Rows of a CSV file that this rank contributes, already as text. */
   class CsvRows
   {
   public:
-    /** One row of @p n values; @p id says where it belongs. */
+    /** Adds a row, with its newline. */
     void
-    add(const types::particle_index id, const double *values, const unsigned n);
+    add(const std::string_view row);
 
-    std::vector<types::particle_index> ids;
-    /** For each row the position in the text behind its newline. */
-    std::vector<std::size_t> ends;
-    std::string              text;
-  };
-
-  /** All ranks' rows, on rank 0. */
-  class GatheredRows
-  {
-  public:
-    /** Collective. */
-    GatheredRows(const CsvRows &local, const MPI_Comm comm);
+    /** Bytes of all rows. */
+    std::size_t
+    n_bytes() const;
 
     /**
-     * The rows with their newlines, sorted by id; views on the texts of this
-     * object. Empty on other ranks than 0.
+     * Of all ranks' rows, in order, those that this rank is to write: each rank
+     * has about as many as the others, rank 0 the first ones. Collective.
+     * @param order of the rows, over all ranks. Rows of equal places are of one
+     *   rank, and stay in their order.
      */
-    const std::vector<std::string_view> &
-    in_id_order() const;
+    std::string
+    share_in_order(const GlobalOrder &order, const MPI_Comm comm) const;
 
   private:
-    std::vector<std::string>      texts;
-    std::vector<std::string_view> rows;
+    std::string_view
+    row(const std::size_t i) const;
+
+    std::string text;
+    /** For each row the position in the text behind its newline. */
+    std::vector<std::size_t> ends;
   };
 } // namespace Morula
 

@@ -14,6 +14,19 @@
 namespace Morula
 {
   /**
+   * Digest of two runs of bytes, one behind the other, from the digests of both
+   * alone: so ranks can write parts of a table. Written here since Boost has
+   * nothing of the kind, and zlib only for CRC-32. A CRC is the remainder of
+   * a polynomial over the integers modulo 2, whose coefficients are the bits;
+   * n bytes behind it multiply it by x^8n.
+   * @param n_bytes length of the second
+   */
+  std::uint64_t
+  joined_digests(const std::uint64_t first,
+                 const std::uint64_t second,
+                 const std::uint64_t n_bytes);
+
+  /**
    * A number computed from bytes, by which damage is found: the CRC-64 that xz
    * and Go's hash/crc64 call ECMA (CRC-64/XZ). It can be continued when bytes
    * are added.
@@ -33,17 +46,30 @@ namespace Morula
     add(const std::string_view bytes)
     {
       crc.process_bytes(bytes.data(), bytes.size());
+      n_since += bytes.size();
+    }
+
+    /** Adds @p n_bytes further bytes, of which only the digest is known: that
+     *  of these bytes alone. */
+    void
+    add(const std::uint64_t digest, const std::uint64_t n_bytes)
+    {
+      before  = joined_digests(value(), digest, n_bytes);
+      n_since = 0;
+      crc.reset();
     }
 
     /** The digest of all bytes so far. */
     std::uint64_t
     value() const
     {
-      return crc.checksum();
+      return joined_digests(before, crc.checksum(), n_since);
     }
 
   private:
+    std::uint64_t before = 0; // digest of the bytes that crc has not seen
     boost::crc_optimal<64, 0x42f0e1eba9ea3693u, ~0ull, ~0ull, true, true> crc;
+    std::uint64_t n_since = 0; // bytes that it has seen
   };
 
   /** A digest as 16 hexadecimal digits. */

@@ -34,9 +34,9 @@ namespace Morula
   event_columns(const EventsContents &contents);
 
   /**
-   * Rows of events.csv: one for each change of a cell's type, its death and its
-   * removal, on all ranks in a step, ordered by time, then by the cell's id.
-   * Collective; on other ranks than 0 it is empty.
+   * This rank's part of a step's rows of events.csv: one for each change of a
+   * cell's type, its death and its removal on any rank, ordered by time, then
+   * by the cell's id. Collective.
    * @param events of this rank, in any order
    */
   std::string

@@ -5,6 +5,7 @@
 #define morula_output_shared_file_h
 
 #include <morula/output/atomic_file.h>
+#include <morula/output/part_of_file.h>
 
 #include <mpi.h>
 
@@ -17,18 +18,12 @@
 namespace Morula
 {
   /**
-   * A file of known size that all ranks write, each its parts at their places,
-   * through a descriptor of its own. It replaces the old one of its name when
-   * it is complete (see AtomicFile). MPI's own files are not used: when the
-   * disk is full, these fail on some ranks only, and the others wait for them
-   * for ever.
+   * A file of known size that all ranks write together (see PartOfFile). It
+   * replaces the old one of its name when it is complete (see AtomicFile).
    */
   class SharedFile
   {
   public:
-    /** Smaller files are written faster by one rank: bytes. */
-    static constexpr std::uint64_t worth_while = 10000000;
-
     /**
      * Makes the file, and reserves its room on the disk. Collective.
      * @throws std::runtime_error on all ranks, with path and reason
@@ -37,14 +32,11 @@ namespace Morula
                const std::uint64_t n_bytes,
                const MPI_Comm      comm);
 
-    /** Whether all ranks see the file, on a file system that keeps what several
-     *  write into it. (NFS does not; disks of single nodes are not seen.) Equal
-     *  on all ranks. Where this is false, nothing is to be written. */
+    /** See PartOfFile. */
     bool
     is_shared() const;
 
-    /** Writes a part of this rank. No communication.
-     *  @throws std::runtime_error with path and reason */
+    /** See PartOfFile. */
     void
     write(const std::string_view text, const std::uint64_t offset);
 
@@ -58,8 +50,7 @@ namespace Morula
   private:
     const MPI_Comm            comm;
     std::optional<AtomicFile> whole; // on rank 0
-    std::optional<PosixFile>  part;
-    bool                      shared;
+    std::optional<PartOfFile> part;
   };
 } // namespace Morula
 

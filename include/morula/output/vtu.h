@@ -4,8 +4,8 @@
 #ifndef morula_output_vtu_h
 #define morula_output_vtu_h
 
+#include <morula/output/part_of_file.h>
 #include <morula/output/point_fields.h>
-#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
@@ -35,7 +35,7 @@ namespace Morula
             const double            time,
             const unsigned int      number,
             const MPI_Comm          comm,
-            const std::uint64_t     shared_from = SharedFile::worth_while);
+            const std::uint64_t     shared_from = PartOfFile::worth_while);
 
   /**
    * Writes the ParaView record of a series: times (day) and file names relative

@@ -29,6 +29,15 @@ namespace Morula
     // relevant degrees of freedom.
     const double *const values   = relevant.trilinos_vector()[0];
     const auto         &unknowns = space.grid_cells()[grid_cell].unknowns;
+    if (space.grid_cells()[grid_cell].weights.empty())
+      {
+        // The unknowns are the splines.
+        LocalField<dim, n_components> field;
+        for (unsigned int s = 0; s < unknowns.size(); ++s)
+          for (unsigned int i = 0; i < n_components; ++i)
+            field.coefficient[i][s] = values[unknowns[s] * n_components + i];
+        return field;
+      }
     std::vector<double> coefficients(n_components * unknowns.size());
     for (unsigned int s = 0; s < unknowns.size(); ++s)
       for (unsigned int i = 0; i < n_components; ++i)

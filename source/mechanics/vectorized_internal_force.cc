@@ -92,10 +92,12 @@ namespace Morula
                                             const StrainOfGridCell *strain,
                                             LocalSystem<dim> &system) const
   {
+    const auto tangent =
+      system.in_single ? kernels.tangent_in_single : kernels.tangent;
     return !this->points.any(grid_cell) ||
-           admit(kernels.tangent(input(grid_cell, field, growth),
-                                 strain,
-                                 system.matrix.data()),
+           admit(tangent(input(grid_cell, field, growth),
+                         strain,
+                         system.matrix.data()),
                  grid_cell,
                  system);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/spline_field.h>
+#include <morula/mechanics/point_motions.h>
 #include <morula/simulation/elastic_volumes.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
@@ -23,14 +23,13 @@ namespace Morula
       double f = std::numeric_limits<double>::infinity();
     };
 
-    /** New positions of points in order, and f, the step's deformation there.
-     */
+    /** New positions of points in order, and how they moved. */
     template <int dim>
     struct Moved
     {
-      std::vector<Point<dim>>     positions; // µm
-      std::vector<Tensor<2, dim>> deformations;
-      Motion                      largest; // over all ranks
+      std::vector<Point<dim>>       positions; // µm
+      std::vector<PointMotion<dim>> motions;
+      Motion                        largest; // over all ranks
     };
 
     /**
@@ -42,28 +41,23 @@ namespace Morula
     Moved<dim>
     moved(const PointStore<dim>        &store,
           const DisplacementField<dim> &displacement,
+          const FindMotions             find_motions,
           const Motion                 &limit,
           const MPI_Comm                comm)
     {
       Moved<dim> result;
+      result.motions = point_motions(store, displacement, find_motions);
       result.positions.reserve(store.size());
-      result.deformations.reserve(store.size());
       Motion largest{0., 0.};
-      displacement.at_points(store,
-                             [&](const unsigned int       p,
-                                 const LocalField<dim>   &field,
-                                 const SplineValues<dim> &splines) {
-                               const Tensor<2, dim> f =
-                                 field.step_deformation(splines);
-                               const Tensor<1, dim> u    = field.value(splines);
-                               const double         size = u.norm();
-                               result.positions.push_back(
-                                 store.position(p) +
-                                 (size > limit.u ? limit.u / size * u : u));
-                               result.deformations.push_back(f);
-                               largest.u = std::max(largest.u, size);
-                               largest.f = std::max(largest.f, f.norm());
-                             });
+      for (unsigned int p = 0; p < store.size(); ++p)
+        {
+          const auto &[u, f] = result.motions[p];
+          const double size  = u.norm();
+          result.positions.push_back(store.position(p) +
+                                     (size > limit.u ? limit.u / size * u : u));
+          largest.u = std::max(largest.u, size);
+          largest.f = std::max(largest.f, f.norm());
+        }
       result.largest = {Utilities::MPI::max(largest.u, comm),
                         Utilities::MPI::max(largest.f, comm)};
       return result;
@@ -85,15 +79,17 @@ namespace Morula
                       model.material,
                       model.scene.solver.kernel,
                       displacement);
+    const FindMotions find_motions =
+      motion_kernel<dim>(model.material.material(), model.scene.solver.kernel);
     const Moved<dim> cells =
-      moved(tissue.cells(), displacement, Motion(), comm);
+      moved(tissue.cells(), displacement, find_motions, Motion(), comm);
     // Where the surface stands off from the cells the field is extrapolated: no
     // reason to move farther, or to deform more, than the cells do. See also
     // pull_back_detached_points().
     const Motion     limit{2. * cells.largest.u + space.box().spacing(),
                        2. * cells.largest.f};
     const Moved<dim> surface =
-      moved(tissue.boundary_points(), displacement, limit, comm);
+      moved(tissue.boundary_points(), displacement, find_motions, limit, comm);
     const std::string reason = torn_tissue_message(cells.positions,
                                                    surface.positions,
                                                    tissue.grid().box(),
@@ -112,7 +108,7 @@ namespace Morula
         const CellView<dim, double> cell = tissue.cell(p);
         const double volume = model.fields.present() ? cell.volume() : 0.;
         // doc/theory.md (1.1)
-        Tensor<2, dim> F = cells.deformations[p] * cell.F();
+        Tensor<2, dim> F = cells.motions[p].f * cell.F();
         if (!volumes.empty())
           F *=
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
@@ -122,8 +118,8 @@ namespace Morula
           model.fields.dilute(cell, cell.volume() / volume);
       }
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
-      if (surface.deformations[p].norm() <= limit.f)
-        tissue.boundary_point(p).deform(surface.deformations[p]);
+      if (surface.motions[p].f.norm() <= limit.f)
+        tissue.boundary_point(p).deform(surface.motions[p].f);
     run_state.lumen = solution.lumen;
     events          = std::move(growth_of_step.events);
     growth_of_step  = {};

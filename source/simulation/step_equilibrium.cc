@@ -197,7 +197,8 @@ namespace Morula
                             tissue,
                             space,
                             attempt.growth,
-                            t);
+                            t,
+                            model.scene.solver.kernel);
       });
     add_loads(attempt, list);
     return list;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/mechanics/point_motions.h>
+#include <morula/mechanics/spline_products.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 
 #include <gtest/gtest.h>
@@ -48,14 +50,16 @@ namespace
 
   template <typename Container>
   void
-  expect_same(const Container &found, const Container &expected)
+  expect_same(const Container &found,
+              const Container &expected,
+              const double     tolerance = 1e-13)
   {
     double size = 0.;
     for (const double value : expected)
       size = std::max(size, std::abs(value));
     ASSERT_EQ(found.size(), expected.size());
     for (unsigned int k = 0; k < found.size(); ++k)
-      ASSERT_NEAR(found[k], expected[k], 1e-13 * size) << "entry " << k;
+      ASSERT_NEAR(found[k], expected[k], tolerance * size) << "entry " << k;
   }
 
   template <int dim>
@@ -160,6 +164,126 @@ namespace
             }
   }
 
+  /** In single precision, one after the other into the same matrix. */
+  template <int dim>
+  void
+  check_single()
+  {
+    for (const std::string &name : all_materials().names())
+      for (const VolumetricStrain form : all_forms)
+        for (const unsigned int n : {1, 7, 8, 125})
+          {
+            const Material &material = material_of_test(name);
+            std::mt19937    generator(n);
+            const auto      points =
+              random_material_points<dim>(generator, n, false, material);
+            const auto field    = random_field<dim>(generator, 0.15);
+            const auto expected = system_of(InternalForce<dim>(points, form),
+                                            field,
+                                            GrowthAt::current,
+                                            LocalSystem<dim>::tangent);
+            for (const auto &kernels : material.vector_kernels<dim>())
+              {
+                SCOPED_TRACE(name + ' ' + kernels.name);
+                LocalSystem<dim> system(LocalSystem<dim>::tangent);
+                system.in_single = true;
+                VectorizedInternalForce<dim>(points, kernels, form)
+                  .add(0, field, GrowthAt::current, system);
+                // of n sums, each rounded to 6e-8
+                expect_same(system.matrix, expected.matrix, 1e-6);
+                double largest = 0.;
+                for (unsigned int k = 0; k < system.matrix.size(); ++k)
+                  largest = std::max(largest,
+                                     std::abs(system.matrix[k] -
+                                              expected.matrix[k]));
+                EXPECT_GT(largest, 0.); // else it is not in single precision
+                // symmetric to the last bit, as conjugate gradients ask
+                constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
+                for (unsigned int i = 0; i < n_dofs; ++i)
+                  for (unsigned int j = 0; j < i; ++j)
+                    if (form == VolumetricStrain::pointwise)
+                      ASSERT_EQ(system.matrix[i * n_dofs + j],
+                                system.matrix[j * n_dofs + i]);
+              }
+          }
+  }
+
+  /** Sums of products of rows, added to a block inside a larger matrix. */
+  template <int dim>
+  void
+  check_products()
+  {
+    std::mt19937           generator(8);
+    constexpr unsigned int n = BSpline<dim>::n, stride = 2 * n + 1;
+    for (const unsigned int n_products : {1, 2, 5, 40})
+      {
+        std::vector<SplineProduct<dim>> products(n_products);
+        for (auto &product : products)
+          for (auto &row : product.factors)
+            for (unsigned int a = 0; a < SplineProduct<dim>::width; ++a)
+              row[a] =
+                a < n ? std::normal_distribution<>()(generator) : 0.;
+        std::vector<double> before(n * stride), expected;
+        for (double &entry : before)
+          entry = std::normal_distribution<>()(generator);
+        expected = before;
+        add_products_plainly<dim>(products.data(),
+                                  n_products,
+                                  &expected[3],
+                                  stride);
+        EXPECT_DOUBLE_EQ(expected[0], before[0]);
+        double first = before[3];
+        for (const auto &product : products)
+          first += product.factors[0][0] * product.factors[1][0];
+        EXPECT_NEAR(expected[3], first, 1e-13);
+        for (const auto &kernels : all_kernels<dim>())
+          {
+            SCOPED_TRACE(kernels.name);
+            std::vector<double> found = before;
+            kernels.add_products(products.data(),
+                                 n_products,
+                                 &found[3],
+                                 stride);
+            expect_same(found, expected);
+          }
+      }
+    EXPECT_EQ(product_kernel<dim>(neo_hookean(), "plain"),
+              &add_products_plainly<dim>);
+    EXPECT_EQ(product_kernel<dim>(neo_hookean(), "automatic"),
+              all_kernels<dim>().front().add_products);
+  }
+
+  /** Displacements and deformations of any number of points. */
+  template <int dim>
+  void
+  check_motions()
+  {
+    std::mt19937 generator(9);
+    for (const unsigned int n : {1, 3, 8, 29})
+      {
+        const auto  points = random_material_points<dim>(generator, n, true);
+        const auto  field  = random_field<dim>(generator, 0.15);
+        KernelInput input{};
+        input.n            = n;
+        input.xi           = &points.xi[0][0];
+        input.h            = points.h;
+        input.coefficients = &field.coefficient[0][0];
+        constexpr unsigned int n_numbers = dim + dim * dim;
+        std::vector<double>    expected(n * n_numbers), found(n * n_numbers);
+        find_motions_plainly<dim>(input, expected.data());
+        const SplineValues<dim> splines(points.xi[n - 1], points.h);
+        EXPECT_EQ(expected[(n - 1) * n_numbers], field.value(splines)[0]);
+        EXPECT_EQ(expected[n * n_numbers - 1],
+                  field.step_deformation(splines)[dim - 1][dim - 1]);
+        for (const auto &kernels : all_kernels<dim>())
+          {
+            SCOPED_TRACE(kernels.name);
+            kernels.find_motions(input, found.data());
+            expect_same(found, expected);
+          }
+      }
+  }
+
   template <int dim>
   void
   check_sums()
@@ -230,6 +354,13 @@ namespace
 
 TEST(VectorizedInternalForce, IsThePlainOneWithAnyNumberOfPoints){
   MORULA_BOTH_DIMENSIONS(check_any_number)}
+
+TEST(VectorizedInternalForce,
+     InSinglePrecisionIsNearlyThePlainOne){MORULA_BOTH_DIMENSIONS(check_single)}
+
+TEST(VectorKernels, ProductsOfRows){MORULA_BOTH_DIMENSIONS(check_products)}
+
+TEST(VectorKernels, Motions){MORULA_BOTH_DIMENSIONS(check_motions)}
 
 TEST(VectorizedInternalForce,
      AddsToWhatIsThere){MORULA_BOTH_DIMENSIONS(check_sums)}

@@ -163,7 +163,7 @@ namespace Morula
   {
     using LocalEquations<dim, dim>::LocalEquations;
 
-    /** Everything to zero; `inverted` and `last` stay. */
+    /** Everything to zero; `inverted`, `last` and `in_single` stay. */
     void
     clear()
     {
@@ -200,6 +200,9 @@ namespace Morula
     const VolumeLinearisation<dim> *last = nullptr;
     /** Out: that of this tangent, if a term has one. */
     std::optional<VolumeLinearisation<dim>> linearisation;
+
+    /** In: whether single precision is enough for the tangent. */
+    bool in_single = false;
 
     /** Set where det f <= 0 or J_e <= 0: there is no energy. */
     bool inverted = false;

@@ -42,6 +42,19 @@ namespace Morula
     void
     at_points(const PointStore<dim> &store, const Action &action) const;
 
+    /** Calls action(grid_cell, field, index) for each grid cell of a store that
+     *  holds points, in order. */
+    template <typename Action>
+    void
+    on_grid_cells(const PointStore<dim> &store, const Action &action) const;
+
+    /** The grid cells' numbers, coordinates and places. */
+    const GridBox<dim> &
+    box() const
+    {
+      return space.box();
+    }
+
   private:
     const SplineSpace<dim>       &space;
     TrilinosWrappers::MPI::Vector relevant;
@@ -57,19 +70,32 @@ namespace Morula
   SplineField<dim, n_components>::at_points(const PointStore<dim> &store,
                                             const Action          &action) const
   {
+    on_grid_cells(store,
+                  [&](const auto                          &grid_cell,
+                      const LocalField<dim, n_components> &field,
+                      const GridIndex<dim>                &index) {
+                    for (unsigned int p = grid_cell.begin; p < grid_cell.end;
+                         ++p)
+                      action(p,
+                             field,
+                             SplineValues<dim>(
+                               box().unit_position(store.position(p), index),
+                               box().spacing()));
+                  });
+  }
+
+  template <int dim, int n_components>
+  template <typename Action>
+  void
+  SplineField<dim, n_components>::on_grid_cells(const PointStore<dim> &store,
+                                                const Action &action) const
+  {
     unsigned int c = 0;
     for (const auto &grid_cell : store.grid_cells())
       {
         while (space.grid_cells()[c].number != grid_cell.number)
           ++c;
-        const LocalField<dim, n_components> field = on_grid_cell(c);
-        const GridIndex<dim> index = space.box().index(grid_cell.number);
-        for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-          action(p,
-                 field,
-                 SplineValues<dim>(space.box().unit_position(store.position(p),
-                                                             index),
-                                   space.box().spacing()));
+        action(grid_cell, on_grid_cell(c), box().index(grid_cell.number));
       }
   }
 } // namespace Morula

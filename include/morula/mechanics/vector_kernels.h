@@ -51,6 +51,32 @@ namespace Morula
     double       energy_magnitude = 0.;
   };
 
+  /** Two rows of numbers by spline whose outer product is added to a matrix,
+   *  with zeros behind the last of the 3^dim. */
+  template <int dimension>
+  struct SplineProduct
+  {
+    static constexpr int          dim   = dimension;
+    static constexpr unsigned int width = dim == 2 ? 16 : 32;
+    using Real                          = double;
+    using Rows                          = double[2][width];
+
+    alignas(64) Rows factors; // the left one, the right one
+  };
+
+  /** Adds the sum of n products to a block of 3^dim rows, which begin @p stride
+   *  numbers apart. */
+  template <int dim>
+  using AddProducts = void (*)(const SplineProduct<dim> *products,
+                               const unsigned int        n,
+                               double                   *block,
+                               const unsigned int        stride);
+
+  /** The displacement u (µm) and the step's deformation f = I + ∇u of points of
+   *  a grid cell: for each point u, and f row by row. Of the input only xi, h,
+   *  n and the coefficients are read. */
+  using FindMotions = void (*)(const KernelInput &input, double *motions);
+
   /**
    * The terms of InternalForce for all the particles of a grid cell at once,
    * for one law and one instruction set (doc/performance.md). Add nothing if a
@@ -76,6 +102,18 @@ namespace Morula
     KernelResult (*tangent)(const KernelInput      &input,
                             const StrainOfGridCell *strain,
                             double                 *matrix);
+
+    /** The same with products and their sums in single precision: to 10⁻⁶ of
+     *  the largest entry, in less time. */
+    KernelResult (*tangent_in_single)(const KernelInput      &input,
+                                      const StrainOfGridCell *strain,
+                                      double                 *matrix);
+
+    /** For other terms' tangents. */
+    AddProducts<dim> add_products;
+
+    /** For what moves with the tissue. */
+    FindMotions find_motions;
   };
 
   /** Those for law number @p law of the library's list that this processor can

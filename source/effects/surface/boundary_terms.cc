@@ -110,7 +110,8 @@ namespace Morula
                const Tissue<dim>             &tissue,
                const SplineSpace<dim>        &space,
                const GrowthOfStep<dim>       &growth,
-               const double                   t)
+               const double                   t,
+               const std::string             &kernel)
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     const PointGroups          groups =
@@ -176,13 +177,15 @@ namespace Morula
       material.volumetric_form() == VolumetricStrain::pointwise ?
         PartOfLaw::all :
         PartOfLaw::distortion;
-    return std::make_unique<Nitsche<dim>>(conditions.nitsche().form(),
-                                          material.material(),
-                                          part,
-                                          grouped_places(store, space, groups),
-                                          std::move(list),
-                                          std::move(current),
-                                          std::move(previous));
+    return std::make_unique<Nitsche<dim>>(
+      conditions.nitsche().form(),
+      material.material(),
+      part,
+      grouped_places(store, space, groups),
+      std::move(list),
+      std::move(current),
+      std::move(previous),
+      product_kernel<dim>(material.material(), kernel));
   }
 
   template <int dim>
@@ -323,7 +326,8 @@ namespace Morula
     const Tissue<dim> &,                                                         \
     const SplineSpace<dim> &,                                                    \
     const GrowthOfStep<dim> &,                                                   \
-    const double);                                                               \
+    const double,                                                                \
+    const std::string &);                                                        \
   template LoadedPoints<dim>            loaded_points(const Tissue<dim> &,       \
                                                       const SplineSpace<dim> &); \
   template Enclosure<dim>               enclosure(const Lumen<dim> &,            \

@@ -4,6 +4,7 @@
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/elastic_point.h>
 
+#include <algorithm>
 #include <array>
 
 namespace Morula
@@ -24,8 +25,8 @@ namespace Morula
       {}
     };
 
-    /** T and its derivatives at one boundary point: doc/theory.md (4.2), (4.3).
-     */
+    /** T and what its derivatives are made of at one boundary point:
+     *  doc/theory.md (4.2), (4.3). */
     template <int dim>
     struct NominalTraction
     {
@@ -35,151 +36,206 @@ namespace Morula
       Tensor<1, dim> m;             // f⁻ᵀ n_t
       Tensor<1, dim> bm;            // b_e m
       Row            gradient[dim]; // g = f⁻ᵀ ∇N, by component
-      Row            b_g[dim];      // b_e g
+      Row            b_g[dim];      // b_e g, of coupled laws
+      Row            along_bm;      // b_e m · g
       Tensor<1, dim> value;         // M T
-      /** Component k of M DT for component j of spline a: [k][j][a]. */
-      Row derivative[dim][dim];
 
+      /** @param coupled whether the law has B, C and D2 to D4 */
       NominalTraction(const SplineValues<dim>                &splines,
                       const Tensor<2, dim>                   &f_inverse,
                       const ElasticPoint<dim>                &state,
                       const PartOfLaw                         part,
+                      const bool                              coupled,
                       const double                            weight,
                       const typename Nitsche<dim>::Condition &condition)
         : m(condition.normal * f_inverse)
         , bm(state.b() * m)
         , weight(weight)
         , of(state.response(), part)
+        , coupled(coupled)
       {
         const auto tau_m = of.alpha * (bm - m) + of.gamma * m;
         value            = weight * (condition.projection * tau_m);
-        for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int a = 0; a < n; ++a)
+            {
+              gradient[j][a] = 0.;
+              for (unsigned int k = 0; k < dim; ++k)
+                gradient[j][a] += f_inverse[k][j] * splines.gradient[k][a];
+            }
+        along_bm = along(bm);
+        for (unsigned int j = 0; coupled && j < dim; ++j)
           {
-            Tensor<1, dim> g;
+            Tensor<1, dim> row;
             for (unsigned int k = 0; k < dim; ++k)
-              for (unsigned int j = 0; j < dim; ++j)
-                g[j] += f_inverse[k][j] * splines.gradient[k][a];
-            const Tensor<1, dim> bg = state.b() * g;
-            for (unsigned int j = 0; j < dim; ++j)
-              {
-                // δT for δu = N_a e_j.
-                Tensor<1, dim> change = (of.alpha - of.gamma) * m[j] * g +
-                                        (of.A * g[j] + of.B * bg[j]) * m +
-                                        (of.B * g[j] + of.C * bg[j]) * bm;
-                change[j] += of.alpha * (g * bm);
-                change = weight * (condition.projection * change);
-                for (unsigned int k = 0; k < dim; ++k)
-                  derivative[k][j][a] = change[k];
-                gradient[j][a] = g[j];
-                b_g[j][a]      = bg[j];
-              }
+              row[k] = state.b()[j][k];
+            b_g[j] = along(row);
           }
+      }
+
+      /** v·g for all splines. */
+      Row
+      along(const Tensor<1, dim> &v) const
+      {
+        Row row = {};
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int a = 0; a < n; ++a)
+            row[a] += v[k] * gradient[k][a];
+        return row;
+      }
+
+      /** q·DT for component j of all splines. */
+      Row
+      change(const Tensor<1, dim> &q, const unsigned int j) const
+      {
+        const double of_along = weight * (of.alpha - of.gamma) * m[j],
+                     qm = weight * (q * m), qbm = weight * (q * bm),
+                     of_along_bm = weight * of.alpha * q[j];
+        Row row                  = along(q);
+        for (unsigned int a = 0; a < n; ++a)
+          row[a] = of_along * row[a] +
+                   (of.A * qm + of.B * qbm) * gradient[j][a] +
+                   of_along_bm * along_bm[a];
+        for (unsigned int a = 0; coupled && a < n; ++a)
+          row[a] += (of.B * qm + of.C * qbm) * b_g[j][a];
+        return row;
       }
 
       /** W / V_t. */
       const double weight;
       /** Those of τ. */
       const Coefficients of;
+      const bool         coupled;
+    };
+
+    /** The list of products of rows of numbers that make up a block of the
+     *  tangent. */
+    template <int dim>
+    class Products
+    {
+    public:
+      /** Adds left(a) right[b]. */
+      template <typename Left, typename Row>
+      void
+      add(const Left &left, const Row &right)
+      {
+        list.emplace_back();
+        auto &[of_left, of_right] = list.back().factors;
+        for (unsigned int a = 0; a < SplineProduct<dim>::width; ++a)
+          {
+            const bool exists = a < BSpline<dim>::n;
+            of_left[a]        = exists ? left(a) : 0.;
+            of_right[a]       = exists ? right[a] : 0.;
+          }
+      }
+
+      /** Adds their sum to a block of the tangent, and forgets them. */
+      void
+      flush(const AddProducts<dim> add_products, double *block)
+      {
+        add_products(list.data(), list.size(), block, LocalSystem<dim>::n_dofs);
+        list.clear();
+      }
+
+    private:
+      std::vector<SplineProduct<dim>> list;
     };
 
     /**
-     * g·D²T at one boundary point, doc/theory.md (4.5b): for component i of
-     * spline a, component j and all splines b it is a sum of a few rows.
+     * g·D²T at one boundary point, doc/theory.md (4.5b): for components i, j of
+     * the splines a, b it is a sum of a few products of rows.
      */
     template <int dim>
     class SecondDerivative
     {
     public:
-      static constexpr unsigned int n = BSpline<dim>::n;
-      using Row                       = std::array<double, n>;
+      using Row = typename NominalTraction<dim>::Row;
 
-      /** @param coupled whether the law has B, C and D2 to D4 */
       SecondDerivative(const NominalTraction<dim> &T,
                        const Tensor<1, dim>       &gap,
-                       const ThirdDerivatives     &third,
-                       const bool                  coupled)
+                       const ThirdDerivatives     &third)
         : T(T)
         , gap(gap)
         , third(third)
-        , coupled(coupled)
         , gm(gap * T.m)
         , gbm(gap * T.bm)
-      {
-        for (unsigned int b = 0; b < n; ++b)
-          {
-            along[b] = along_bm[b] = 0.;
-            for (unsigned int k = 0; k < dim; ++k)
-              {
-                along[b] += gap[k] * T.gradient[k][b];
-                along_bm[b] += T.bm[k] * T.gradient[k][b];
-              }
-          }
-      }
+        , along(T.along(gap))
+      {}
 
-      /** Adds @p factor times it, for all b. */
+      /** Adds @p factor times it. */
       void
       add(const unsigned int i,
-          const unsigned int a,
           const unsigned int j,
           const double       factor,
-          double            *row) const
-      {
-        const auto  &of = T.of;
-        const auto  &g  = T.gradient;
-        const double c  = of.alpha - of.gamma;
-        const double w  = factor * T.weight;
-        const double of_gi =
-          -w * ((of.A * gm + of.B * gbm) * g[j][a] + c * along[a] * T.m[j]);
-        const double of_gj =
-          w * (third.D1 * g[i][a] * gm - of.A * along[a] * T.m[i]);
-        const double of_along =
-          -w * (of.A * g[i][a] * T.m[j] + c * g[j][a] * T.m[i]);
-        for (unsigned int b = 0; b < n; ++b)
-          row[b] += of_gi * g[i][b] + of_gj * g[j][b] + of_along * along[b];
-        if (coupled)
-          add_coupled(i, a, j, w, row);
-      }
-
-    private:
-      /** The parts with B, C and D2 to D4, but for that with g_b^i. */
-      void
-      add_coupled(const unsigned int i,
-                  const unsigned int a,
-                  const unsigned int j,
-                  const double       w,
-                  double            *row) const
+          Products<dim>     &products) const
       {
         const auto  &of = T.of;
         const auto  &g = T.gradient, &bg = T.b_g;
-        const double of_gj =
-          w * (third.D2 * (g[i][a] * gbm + bg[i][a] * gm) +
-               third.D3 * bg[i][a] * gbm + of.B * along_bm[a] * gap[i]);
-        const double of_bgj =
-          w * (third.D2 * g[i][a] * gm +
-               third.D3 * (g[i][a] * gbm + bg[i][a] * gm) +
-               third.D4 * bg[i][a] * gbm + of.C * along_bm[a] * gap[i] -
-               of.B * along[a] * T.m[i]);
-        const double of_along = -w * of.B * bg[i][a] * T.m[j];
-        const double of_along_bm =
-          w * (of.C * bg[i][a] + of.B * g[i][a]) * gap[j];
-        for (unsigned int b = 0; b < n; ++b)
-          row[b] += of_gj * g[j][b] + of_bgj * bg[j][b] + of_along * along[b] +
-                    of_along_bm * along_bm[b];
-        if (i == j)
-          for (unsigned int k = 0; k < dim; ++k)
-            {
-              const double of_bg = w * (of.C * gbm + of.B * gm) * g[k][a];
-              for (unsigned int b = 0; b < n; ++b)
-                row[b] += of_bg * bg[k][b];
-            }
+        const auto  &m = T.m;
+        const double c = of.alpha - of.gamma, w = factor * T.weight;
+        const double of_gm = of.A * gm + of.B * gbm;
+        products.add(
+          [&](const unsigned int a) {
+            return -w * (of_gm * g[j][a] + c * along[a] * m[j]);
+          },
+          g[i]);
+        products.add(
+          [&](const unsigned int a) {
+            double sum = third.D1 * g[i][a] * gm - of.A * along[a] * m[i];
+            if (T.coupled)
+              sum += third.D2 * (g[i][a] * gbm + bg[i][a] * gm) +
+                     third.D3 * bg[i][a] * gbm + of.B * T.along_bm[a] * gap[i];
+            return w * sum;
+          },
+          g[j]);
+        products.add(
+          [&](const unsigned int a) {
+            const double sum = of.A * g[i][a] * m[j] + c * g[j][a] * m[i];
+            return -w * (T.coupled ? sum + of.B * bg[i][a] * m[j] : sum);
+          },
+          along);
+        if (T.coupled)
+          add_coupled(i, j, w, products);
       }
 
-      const NominalTraction<dim> &T;
-      const Tensor<1, dim>       &gap;
-      const ThirdDerivatives     &third;
-      const bool                  coupled;
-      const double                gm, gbm;         // g·m, g·b_e m
-      Row                         along, along_bm; // g·g_b, (b_e m)·g_b
+    private:
+      /** The products with b_e g_b and b_e m · g_b. */
+      void
+      add_coupled(const unsigned int i,
+                  const unsigned int j,
+                  const double       w,
+                  Products<dim>     &products) const
+      {
+        const auto &of = T.of;
+        const auto &g = T.gradient, &bg = T.b_g;
+        products.add(
+          [&](const unsigned int a) {
+            return w *
+                   (third.D2 * g[i][a] * gm +
+                    third.D3 * (g[i][a] * gbm + bg[i][a] * gm) +
+                    third.D4 * bg[i][a] * gbm + of.C * T.along_bm[a] * gap[i] -
+                    of.B * along[a] * T.m[i]);
+          },
+          bg[j]);
+        products.add(
+          [&](const unsigned int a) {
+            return w * (of.C * bg[i][a] + of.B * g[i][a]) * gap[j];
+          },
+          T.along_bm);
+        if (i == j)
+          for (unsigned int k = 0; k < dim; ++k)
+            products.add(
+              [&](const unsigned int a) {
+                return w * (of.C * gbm + of.B * gm) * g[k][a];
+              },
+              bg[k]);
+      }
+
+      const NominalTraction<dim> T;
+      const Tensor<1, dim>       gap;
+      const ThirdDerivatives     third;
+      const double               gm, gbm; // g·m, g·b_e m
+      const Row                  along;   // g·g_b
     };
 
     /** The sign of g·DT[δu] in -R. */
@@ -202,49 +258,70 @@ namespace Morula
       system.add_energy(0.5 * a_t * beta * (gap * gap));
       system.add_energy(-a_t * (T.value * gap));
       for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          {
-            const double N           = splines.value[a];
-            double       consistency = 0.;
-            for (unsigned int k = 0; k < dim; ++k)
-              consistency += T.derivative[k][i][a] * gap[k];
-            system.add_force(i, a, a_t * beta * gap[i] * N);
-            system.add_force(i,
-                             a,
-                             -a_t * (T.value[i] * N + sign * consistency));
-            if (system.wanted == LocalSystem<dim>::rounding)
-              system.magnitude[i * BSpline<dim>::n + a] +=
-                a_t * beta * condition.position_scale * N;
-          }
+        {
+          const auto consistency = T.change(gap * condition.projection, i);
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            {
+              const double N = splines.value[a];
+              system.add_force(i, a, a_t * beta * gap[i] * N);
+              system.add_force(i,
+                               a,
+                               -a_t * (T.value[i] * N + sign * consistency[a]));
+              if (system.wanted == LocalSystem<dim>::rounding)
+                system.magnitude[i * BSpline<dim>::n + a] +=
+                  a_t * beta * condition.position_scale * N;
+            }
+        }
     }
 
-    /** doc/theory.md (4.5). */
+    /** What a point adds to the tangent: doc/theory.md (4.5). */
     template <int dim>
-    void
-    add_tangent(const SplineValues<dim>                &splines,
-                const NominalTraction<dim>             &T,
-                const SecondDerivative<dim>            &second,
-                const typename Nitsche<dim>::Condition &condition,
-                const double                            sign,
-                LocalSystem<dim>                       &system)
+    class TangentOfPoint
     {
-      constexpr unsigned int n      = BSpline<dim>::n;
-      constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      const double           a_t    = condition.area;
-      const auto            &N      = splines.value;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < n; ++a)
+    public:
+      TangentOfPoint(const SplineValues<dim>                &splines,
+                     const NominalTraction<dim>             &T,
+                     const Tensor<1, dim>                   &gap,
+                     const ThirdDerivatives                 &third,
+                     const typename Nitsche<dim>::Condition &condition,
+                     const double                            sign)
+        : second(T, gap, third)
+        , condition(condition)
+        , sign(sign)
+      {
+        std::copy_n(splines.value, N.size(), N.begin());
+        for (unsigned int k = 0; k < dim; ++k)
           for (unsigned int j = 0; j < dim; ++j)
-            {
-              double *const row = &system.matrix[(i * n + a) * n_dofs + j * n];
-              const double  of_N =
-                a_t * (condition.penalty * condition.projection[i][j] * N[a] -
-                       sign * T.derivative[j][i][a]);
-              for (unsigned int b = 0; b < n; ++b)
-                row[b] += of_N * N[b] - a_t * N[a] * T.derivative[i][j][b];
-              second.add(i, a, j, -a_t * sign, row);
-            }
-    }
+            derivative[k][j] = T.change(condition.projection[k], j);
+      }
+
+      /** Adds the products of the block (i, j). */
+      void
+      add(const unsigned int i,
+          const unsigned int j,
+          Products<dim>     &products) const
+      {
+        const double a_t     = condition.area;
+        const double penalty = condition.penalty * condition.projection[i][j];
+        products.add(
+          [&](const unsigned int a) {
+            return a_t * (penalty * N[a] - sign * derivative[j][i][a]);
+          },
+          N);
+        products.add([&](const unsigned int a) { return -a_t * N[a]; },
+                     derivative[i][j]);
+        second.add(i, j, -a_t * sign, products);
+      }
+
+    private:
+      using Row = typename NominalTraction<dim>::Row;
+
+      const SecondDerivative<dim>             second;
+      const typename Nitsche<dim>::Condition &condition;
+      const double                            sign;
+      Row                                     N;
+      Row derivative[dim][dim]; // component k of M DT for component j
+    };
   } // namespace
 
   template <int dim>
@@ -254,7 +331,8 @@ namespace Morula
                         GroupedPoints<dim>             points,
                         std::vector<Condition>         conditions,
                         std::vector<ElasticState<dim>> current,
-                        std::vector<ElasticState<dim>> previous)
+                        std::vector<ElasticState<dim>> previous,
+                        const AddProducts<dim>         add_products)
     : form(form)
     , material(material)
     , part(part)
@@ -262,6 +340,7 @@ namespace Morula
     , conditions(std::move(conditions))
     , current(std::move(current))
     , previous(std::move(previous))
+    , add_products(add_products)
   {}
 
   template <int dim>
@@ -273,6 +352,7 @@ namespace Morula
   {
     const auto &states =
       growth == GrowthAt::previous && !previous.empty() ? previous : current;
+    std::vector<TangentOfPoint<dim>> tangents;
     for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
          ++p)
       {
@@ -291,26 +371,35 @@ namespace Morula
                                      invert(f),
                                      state,
                                      part,
+                                     material.coupled(),
                                      condition.trust * states[p].W,
                                      condition);
         const Tensor<1, dim>       gap =
           condition.gap + condition.projection * field.value(splines);
         system.note_gap(gap.norm(), points.xi[p]);
         if (system.wanted == LocalSystem<dim>::tangent)
-          {
-            const ThirdDerivatives third =
-              material.third_derivatives(state.strain(), part);
-            add_tangent(
-              splines,
-              T,
-              SecondDerivative<dim>(T, gap, third, material.coupled()),
-              condition,
-              sign_of(form),
-              system);
-          }
+          tangents.emplace_back(splines,
+                                T,
+                                gap,
+                                material.third_derivatives(state.strain(),
+                                                           part),
+                                condition,
+                                sign_of(form));
         else
           add_forces(splines, T, gap, condition, sign_of(form), system);
       }
+    if (tangents.empty())
+      return;
+    constexpr unsigned int n = BSpline<dim>::n;
+    Products<dim>          products;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          for (const TangentOfPoint<dim> &tangent : tangents)
+            tangent.add(i, j, products);
+          products.flush(add_products,
+                         &system.matrix[i * n * system.n_dofs + j * n]);
+        }
   }
 
   template <int dim>

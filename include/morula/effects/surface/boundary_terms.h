@@ -15,6 +15,7 @@
 #include <morula/particles/tissue.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -22,6 +23,7 @@ namespace Morula
   /**
    * Nitsche's term for the fixed and slip points, over the step up to time
    * @p t. Collective.
+   * @param kernel value of Solver/Kernel
    */
   template <int dim>
   std::unique_ptr<Term<dim>>
@@ -30,7 +32,8 @@ namespace Morula
                const Tissue<dim>             &tissue,
                const SplineSpace<dim>        &space,
                const GrowthOfStep<dim>       &growth,
-               const double                   t);
+               const double                   t,
+               const std::string             &kernel);
 
   /** The boundary points of this rank that conditions load. */
   template <int dim>

@@ -6,6 +6,7 @@
 
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/materials/material.h>
+#include <morula/mechanics/spline_products.h>
 #include <morula/mechanics/term.h>
 
 #include <vector>
@@ -64,6 +65,7 @@ namespace Morula
      * @param part     of the law that T counts
      * @param current  states with growth at t + dt
      * @param previous states with growth at t; empty if nothing grows
+     * @param add_products what adds up the tangent
      */
     Nitsche(const NitscheForm              form,
             const Material                &material,
@@ -71,7 +73,8 @@ namespace Morula
             GroupedPoints<dim>             points,
             std::vector<Condition>         conditions,
             std::vector<ElasticState<dim>> current,
-            std::vector<ElasticState<dim>> previous);
+            std::vector<ElasticState<dim>> previous,
+            const AddProducts<dim> add_products = &add_products_plainly<dim>);
 
     void
     add(const unsigned int     cell,
@@ -90,6 +93,7 @@ namespace Morula
     const std::vector<Condition>         conditions;
     const std::vector<ElasticState<dim>> current;
     const std::vector<ElasticState<dim>> previous;
+    const AddProducts<dim>               add_products;
   };
 } // namespace Morula
 

@@ -13,6 +13,7 @@
 // After those, and in this order: each uses the ones before it.
 #include <morula/mechanics/kernels/lanes.h>
 #include <morula/mechanics/kernels/points.h>
+#include <morula/mechanics/kernels/positions.h>
 #include <morula/mechanics/kernels/rank_updates.h>
 #include <morula/mechanics/kernels/residual.h>
 #include <morula/mechanics/kernels/tangent.h>
@@ -26,7 +27,12 @@ namespace Morula
     VectorKernels<dim>
     kernels_of(const char *name)
     {
-      return {name, &residual_of<dim, Law>, &tangent_of<dim, Law>};
+      return {name,
+              &residual_of<dim, Law>,
+              &tangent_of<dim, Law, double>,
+              &tangent_of<dim, Law, float>,
+              &add_products<dim>,
+              &find_motions<dim>};
     }
 
     /** Those of law number @p i in a list. */

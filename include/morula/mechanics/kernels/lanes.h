@@ -16,11 +16,35 @@ namespace Morula
     using LanesInMemory =
       double __attribute__((vector_size(sizeof(double) * lanes), may_alias));
 
-    /** The same number in all lanes. */
-    MORULA_INLINE Lanes
-    all(const double x)
+    /** A register of doubles, or of twice as many singles. */
+    template <typename Real>
+    struct Register
     {
-      return x - Lanes{}; // unlike x + 0, exactly x: no addition
+      /** Numbers in it. */
+      static constexpr unsigned int n = lanes * sizeof(double) / sizeof(Real);
+
+      using Type __attribute__((vector_size(n * sizeof(Real)))) = Real;
+
+      /** The same where it stands among single numbers in memory. */
+      using InMemory __attribute__((vector_size(n * sizeof(Real)), may_alias)) =
+        Real;
+
+      /** Three numbers and a zero: a quarter more work, but no remainder. */
+      using Quad __attribute__((vector_size(4 * sizeof(Real)))) = Real;
+
+      /** The same at any address. */
+      using QuadInMemory __attribute__((vector_size(4 * sizeof(Real)),
+                                        aligned(sizeof(Real)),
+                                        may_alias)) = Real;
+    };
+
+    /** The same number in a whole register. */
+    template <typename Real>
+    MORULA_INLINE typename Register<Real>::Type
+    all(const Real x)
+    {
+      // unlike x + 0, exactly x: no addition
+      return x - typename Register<Real>::Type{};
     }
 
     /** A register in memory, where its numbers are read and written singly. */
@@ -107,13 +131,5 @@ namespace Morula
       inverse[1][1]           = M[0][0] / determinant;
       return determinant;
     }
-
-    /** Three numbers and a zero: a quarter more work, but no remainder. */
-    using Quad = double __attribute__((vector_size(4 * sizeof(double))));
-
-    /** The same at any address. */
-    using QuadInMemory = double __attribute__((vector_size(4 * sizeof(double)),
-                                               aligned(sizeof(double)),
-                                               may_alias));
   } // namespace MORULA_KERNELS
 } // namespace Morula

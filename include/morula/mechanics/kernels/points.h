@@ -20,6 +20,23 @@ namespace Morula
       Lanes F_e[dim][dim], f_inverse[dim][dim], det_f, J, log_J;
     };
 
+    /** The one-dimensional splines at places in the grid cell. */
+    template <int dim>
+    MORULA_INLINE void
+    find_splines(const Lanes (&xi)[dim], const double h, Points<dim> &points)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Lanes s   = xi[d];
+          points.N[d][0]  = 0.5 * (1. - s) * (1. - s);
+          points.N[d][1]  = 0.5 + s - s * s;
+          points.N[d][2]  = 0.5 * s * s;
+          points.dN[d][0] = (s - 1.) / h;
+          points.dN[d][1] = (1. - 2. * s) / h;
+          points.dN[d][2] = s / h;
+        }
+    }
+
     /** The lanes behind the last point repeat it with W = 0. */
     template <int dim>
     MORULA_INLINE void
@@ -50,16 +67,10 @@ namespace Morula
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
           points.A[d][e] = A[d][e];
+      Lanes places[dim];
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Lanes s   = xi[d];
-          points.N[d][0]  = 0.5 * (1. - s) * (1. - s);
-          points.N[d][1]  = 0.5 + s - s * s;
-          points.N[d][2]  = 0.5 * s * s;
-          points.dN[d][0] = (s - 1.) / input.h;
-          points.dN[d][1] = (1. - 2. * s) / input.h;
-          points.dN[d][2] = s / input.h;
-        }
+        places[d] = xi[d];
+      find_splines(places, input.h, points);
     }
 
     /** Row i of I + grad u, direction by direction. */

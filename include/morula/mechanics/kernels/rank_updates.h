@@ -2,36 +2,41 @@
 // Copyright (C) 2026 by the Morula authors
 
 // See kernels.h. The tangent of a grid cell as products of small matrices,
-// whose sums stay in registers.
+// whose sums stay in registers: in double or, twice as fast, in single
+// precision.
 
 namespace Morula
 {
   namespace MORULA_KERNELS
   {
     /** Sizes of the rows and blocks of a grid cell. */
-    template <int dim>
+    template <int dim, typename Real>
     struct Sizes
     {
+      static constexpr unsigned int n         = Register<Real>::n;
       static constexpr unsigned int n_splines = dim == 2 ? 9 : 27;
-      static constexpr unsigned int n_columns = (n_splines + lanes - 1) / lanes;
+      static constexpr unsigned int n_columns = (n_splines + n - 1) / n;
 
       /** Of a row in memory: the splines and zeros. */
-      static constexpr unsigned int width = n_columns * lanes;
+      static constexpr unsigned int width = n_columns * n;
       static_assert(width > n_splines, "a Quad must fit behind the last three");
 
       /** Rows of the registers' tile: all sums and a row of factors fit. */
-      static constexpr unsigned int tile_rows = lanes == 8 ? 4 : 3;
+      static constexpr unsigned int tile_rows = lanes < 8      ? 3 :
+                                                n_columns <= 2 ? 9 :
+                                                                 4;
       static constexpr unsigned int tile_columns =
         n_columns < 4 ? n_columns : 4;
     };
 
     /** By direction, for each spline: what the updates of one point take. */
-    template <int dimension>
+    template <int dimension, typename Number>
     struct PointRows
     {
+      using Real                          = Number;
       static constexpr int          dim   = dimension;
-      static constexpr unsigned int width = Sizes<dim>::width;
-      using Rows                          = double[dim][width];
+      static constexpr unsigned int width = Sizes<dim, Real>::width;
+      using Rows                          = Real[dim][width];
 
       alignas(64) Rows g;
       Rows m;
@@ -39,7 +44,7 @@ namespace Morula
 
       /** Fills the rows that are multiples of g. */
       MORULA_INLINE void
-      scale(const double A, const double c)
+      scale(const Real A, const Real c)
       {
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < width; ++a)
@@ -52,20 +57,21 @@ namespace Morula
     };
 
     /** The same of a law with B and C. */
-    template <int dim>
-    struct CoupledPointRows : public PointRows<dim>
+    template <int dim, typename Real>
+    struct CoupledPointRows : public PointRows<dim, Real>
     {
-      typename PointRows<dim>::Rows b_g;   // b_e g
-      typename PointRows<dim>::Rows b_g_C; // B g + C b_e g
+      using Base = PointRows<dim, Real>;
+      typename Base::Rows b_g;   // b_e g
+      typename Base::Rows b_g_C; // B g + C b_e g
 
       /** Fills the rows that are multiples of g and b_e g: B b_e g goes with A
        *  g. */
       MORULA_INLINE void
-      scale(const double A, const double c, const double B, const double C)
+      scale(const Real A, const Real c, const Real B, const Real C)
       {
-        PointRows<dim>::scale(A, c);
+        Base::scale(A, c);
         for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int a = 0; a < PointRows<dim>::width; ++a)
+          for (unsigned int a = 0; a < Base::width; ++a)
             {
               this->g_A[i][a] += B * b_g[i][a];
               this->g_both[i][a] += B * b_g[i][a];
@@ -82,7 +88,7 @@ namespace Morula
       unsigned int                 direction;
 
       /** This factor's row of a point. */
-      MORULA_INLINE const double *
+      MORULA_INLINE const typename Point::Real *
       of(const Point &point) const
       {
         return (point.*rows)[direction];
@@ -96,8 +102,12 @@ namespace Morula
       Factor<Point> left, right;
     };
 
-    template <int dim>
-    using Block = double[Sizes<dim>::n_splines][Sizes<dim>::width];
+    template <int dim, typename Real>
+    using Block = Real[Sizes<dim, Real>::n_splines][Sizes<dim, Real>::width];
+
+    /** That of the rows of a point. */
+    template <typename Point>
+    using BlockOf = Block<Point::dim, typename Point::Real>;
 
     /** Adds the updates to R rows and C lanes-wide columns of a block. */
     template <unsigned int R, unsigned int C, typename Point, unsigned int K>
@@ -107,22 +117,25 @@ namespace Morula
                 const Update<Point> (&updates)[K],
                 const unsigned int row,
                 const unsigned int column,
-                Block<Point::dim> &block)
+                BlockOf<Point>    &block)
     {
-      Lanes sums[R][C];
+      using Real                = typename Point::Real;
+      using Lanes               = typename Register<Real>::Type;
+      using InMemory            = typename Register<Real>::InMemory;
+      constexpr unsigned int n_ = Register<Real>::n;
+      Lanes                  sums[R][C];
       for (unsigned int r = 0; r < R; ++r)
         for (unsigned int c = 0; c < C; ++c)
-          sums[r][c] = *reinterpret_cast<const LanesInMemory *>(
-            &block[row + r][column + c * lanes]);
+          sums[r][c] = *reinterpret_cast<const InMemory *>(
+            &block[row + r][column + c * n_]);
       for (unsigned int p = 0; p < n; ++p)
         for (unsigned int k = 0; k < K; ++k)
           {
-            const double *const left  = updates[k].left.of(points[p]) + row;
-            const double *const right = updates[k].right.of(points[p]) + column;
-            Lanes               factors[C];
+            const Real *const left  = updates[k].left.of(points[p]) + row;
+            const Real *const right = updates[k].right.of(points[p]) + column;
+            Lanes             factors[C];
             for (unsigned int c = 0; c < C; ++c)
-              factors[c] =
-                *reinterpret_cast<const LanesInMemory *>(right + c * lanes);
+              factors[c] = *reinterpret_cast<const InMemory *>(right + c * n_);
             for (unsigned int r = 0; r < R; ++r)
               {
                 const Lanes factor = all(left[r]);
@@ -132,8 +145,8 @@ namespace Morula
           }
       for (unsigned int r = 0; r < R; ++r)
         for (unsigned int c = 0; c < C; ++c)
-          *reinterpret_cast<LanesInMemory *>(
-            &block[row + r][column + c * lanes]) = sums[r][c];
+          *reinterpret_cast<InMemory *>(&block[row + r][column + c * n_]) =
+            sums[r][c];
     }
 
     /** A row of tiles, from a column on. */
@@ -144,14 +157,15 @@ namespace Morula
                 const Update<Point> (&updates)[K],
                 const unsigned int row,
                 unsigned int       column,
-                Block<Point::dim> &block)
+                BlockOf<Point>    &block)
     {
-      constexpr unsigned int width        = Sizes<Point::dim>::width;
-      constexpr unsigned int tile_columns = Sizes<Point::dim>::tile_columns;
-      constexpr unsigned int step         = tile_columns * lanes;
+      using S                      = Sizes<Point::dim, typename Point::Real>;
+      constexpr unsigned int width = S::width;
+      constexpr unsigned int tile_columns = S::tile_columns;
+      constexpr unsigned int step         = tile_columns * S::n;
       for (; column + step <= width; column += step)
         update_tile<R, tile_columns>(points, n, updates, row, column, block);
-      switch ((width - column) / lanes)
+      switch ((width - column) / S::n)
         {
           case 3:
             update_tile<R, 3>(points, n, updates, row, column, block);
@@ -172,13 +186,14 @@ namespace Morula
     update(const Point       *points,
            const unsigned int n,
            const Update<Point> (&updates)[K],
-           const bool         symmetric,
-           Block<Point::dim> &block)
+           const bool      symmetric,
+           BlockOf<Point> &block)
     {
-      constexpr unsigned int n_splines = Sizes<Point::dim>::n_splines;
-      constexpr unsigned int tile_rows = Sizes<Point::dim>::tile_rows;
+      using S = Sizes<Point::dim, typename Point::Real>;
+      constexpr unsigned int n_splines = S::n_splines;
+      constexpr unsigned int tile_rows = S::tile_rows;
       const auto first_column          = [symmetric](const unsigned int row) {
-        return symmetric ? row / lanes * lanes : 0;
+        return symmetric ? row / S::n * S::n : 0;
       };
       unsigned int row = 0;
       for (; row + tile_rows <= n_splines; row += tile_rows)
@@ -190,19 +205,19 @@ namespace Morula
     }
 
     /** The blocks (i, j), i <= j, of the tangent of a grid cell. */
-    template <int dim>
+    template <int dim, typename Real>
     struct Blocks
     {
-      alignas(64) Block<dim> geometric     = {}; // of all (i, i)
-      alignas(64) Block<dim> diagonal[dim] = {};
+      alignas(64) Block<dim, Real> geometric     = {}; // of all (i, i)
+      alignas(64) Block<dim, Real> diagonal[dim] = {};
       // (0, 1), and in 3-D (0, 2), (1, 2)
-      alignas(64) Block<dim> other[dim == 2 ? 1 : 3] = {};
+      alignas(64) Block<dim, Real> other[dim == 2 ? 1 : 3] = {};
 
       /** Adds the products of the rows of @p n points. */
       MORULA_INLINE void
-      update(const PointRows<dim> *points, const unsigned int n)
+      update(const PointRows<dim, Real> *points, const unsigned int n)
       {
-        using P = PointRows<dim>;
+        using P = PointRows<dim, Real>;
         update_geometric(points, n);
         for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
@@ -219,9 +234,9 @@ namespace Morula
 
       /** The same of a law with B and C. */
       MORULA_INLINE void
-      update(const CoupledPointRows<dim> *points, const unsigned int n)
+      update(const CoupledPointRows<dim, Real> *points, const unsigned int n)
       {
-        using P = CoupledPointRows<dim>;
+        using P = CoupledPointRows<dim, Real>;
         update_geometric(points, n);
         for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
@@ -253,7 +268,7 @@ namespace Morula
       MORULA_INLINE void
       add_to(double *matrix) const
       {
-        constexpr unsigned int n_splines = Sizes<dim>::n_splines;
+        constexpr unsigned int n_splines = Sizes<dim, Real>::n_splines;
         constexpr unsigned int n_dofs    = dim * n_splines;
         for (unsigned int i = 0, k = 0; i < dim; ++i)
           {
@@ -279,5 +294,23 @@ namespace Morula
           }
       }
     };
+
+    /** See AddProducts. */
+    template <int dim>
+    inline void
+    add_products(const SplineProduct<dim> *products,
+                 const unsigned int        n,
+                 double                   *target,
+                 const unsigned int        stride)
+    {
+      using P                              = SplineProduct<dim>;
+      alignas(64) Block<dim, double> block = {};
+      const Update<P> both[] = {{{&P::factors, 0}, {&P::factors, 1}}};
+      update(products, n, both, false, block);
+      constexpr unsigned int n_splines = Sizes<dim, double>::n_splines;
+      for (unsigned int a = 0; a < n_splines; ++a)
+        for (unsigned int c = 0; c < n_splines; ++c)
+          target[a * stride + c] += block[a][c];
+    }
   } // namespace MORULA_KERNELS
 } // namespace Morula

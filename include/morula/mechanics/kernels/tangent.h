@@ -8,7 +8,7 @@ namespace Morula
   namespace MORULA_KERNELS
   {
     /** The rows of matrices M, times the gradients of the splines. */
-    template <int dim, unsigned int n_rows>
+    template <int dim, typename Real, unsigned int n_rows>
     struct Rows
     {
       Numbers N[3], dN[3], first[n_rows][n_yz<dim>], second[n_rows][n_yz<dim>];
@@ -35,14 +35,23 @@ namespace Morula
 
       /** Writes row i of the point in a lane, and a zero behind it. */
       MORULA_INLINE void
-      write(const unsigned int i, const unsigned int lane, double *row) const
+      write(const unsigned int i, const unsigned int lane, Real *row) const
       {
-        const Quad Nx  = {N[0][lane], N[1][lane], N[2][lane], 0.};
-        const Quad dNx = {dN[0][lane], dN[1][lane], dN[2][lane], 0.};
+        using Quad         = typename Register<Real>::Quad;
+        using QuadInMemory = typename Register<Real>::QuadInMemory;
+        const auto single = [](const double x) { return static_cast<Real>(x); };
+        const Quad Nx     = {single(N[0][lane]),
+                             single(N[1][lane]),
+                             single(N[2][lane]),
+                             0};
+        const Quad dNx    = {single(dN[0][lane]),
+                             single(dN[1][lane]),
+                             single(dN[2][lane]),
+                             0};
         for (unsigned int yz = 0; yz < n_yz<dim>; ++yz)
           // The zero is overwritten by the next three.
           *reinterpret_cast<QuadInMemory *>(row + 3 * yz) =
-            first[i][yz][lane] * Nx + second[i][yz][lane] * dNx;
+            single(first[i][yz][lane]) * Nx + single(second[i][yz][lane]) * dNx;
       }
     };
 
@@ -63,18 +72,18 @@ namespace Morula
     }
 
     /** The rows of the rank updates of these points. */
-    template <int dim>
+    template <int dim, typename Real>
     MORULA_INLINE void
     make_rows(const Points<dim>     &points,
               const Response<Lanes> &r,
               const Lanes           &A,
               const Lanes           &gamma,
               const unsigned int     n,
-              PointRows<dim>        *rows)
+              PointRows<dim, Real>  *rows)
     {
       Lanes M[2 * dim][dim];
       gradient_matrices(points, r.alpha, M);
-      const Rows<dim, 2 * dim> all_rows(points, M);
+      const Rows<dim, Real, 2 * dim> all_rows(points, M);
       for (unsigned int l = 0; l < n; ++l)
         for (unsigned int i = 0; i < dim; ++i)
           {
@@ -87,14 +96,14 @@ namespace Morula
     }
 
     /** The same of a law with B and C: also b_e g = F_e Aᵀ ∇N. */
-    template <int dim>
+    template <int dim, typename Real>
     MORULA_INLINE void
     make_rows(const Points<dim>            &points,
               const CoupledResponse<Lanes> &r,
               const Lanes                  &A,
               const Lanes                  &gamma,
               const unsigned int            n,
-              CoupledPointRows<dim>        *rows)
+              CoupledPointRows<dim, Real>  *rows)
     {
       Lanes M[3 * dim][dim];
       gradient_matrices(points, r.alpha, M);
@@ -105,7 +114,7 @@ namespace Morula
             for (unsigned int l = 1; l < dim; ++l)
               M[2 * dim + i][k] += points.F_e[i][l] * points.A[k][l];
           }
-      const Rows<dim, 3 * dim> all_rows(points, M);
+      const Rows<dim, Real, 3 * dim> all_rows(points, M);
       for (unsigned int l = 0; l < n; ++l)
         for (unsigned int i = 0; i < dim; ++i)
           {
@@ -120,21 +129,22 @@ namespace Morula
     }
 
     /** Type of the numbers that a law's tangent needs of a point. */
-    template <int dim, bool coupled>
+    template <int dim, typename Real, bool coupled>
     struct RowsOfLaw
     {
-      using Type = PointRows<dim>;
+      using Type = PointRows<dim, Real>;
     };
     /** The same for a coupled law. */
-    template <int dim>
-    struct RowsOfLaw<dim, true>
+    template <int dim, typename Real>
+    struct RowsOfLaw<dim, Real, true>
     {
-      using Type = CoupledPointRows<dim>;
+      using Type = CoupledPointRows<dim, Real>;
     };
 
     /** Tangent of a grid cell: doc/theory.md (2.5); without the first term of
-     *  (2.7) if projected, of (2.9) if pooled. */
-    template <int dim, typename Law, bool pooled>
+     *  (2.7) if projected, of (2.9) if pooled. Deformations and the law are in
+     *  double precision, the sums of products of type Real. */
+    template <int dim, typename Law, bool pooled, typename Real>
     MORULA_INLINE KernelResult
     tangent(const KernelInput      &input,
             const StrainOfGridCell *of_grid_cell,
@@ -144,9 +154,9 @@ namespace Morula
         of_grid_cell != nullptr ? &of_grid_cell->theta : nullptr;
       KernelResult result;
       result.smallest_J = __builtin_inf();
-      Blocks<dim> blocks;
+      Blocks<dim, Real> blocks;
       // Also what stands behind the last entry.
-      typename RowsOfLaw<dim, is_coupled<Law>>::Type rows[lanes] = {};
+      typename RowsOfLaw<dim, Real, is_coupled<Law>>::Type rows[lanes] = {};
       const Law &law = *static_cast<const Law *>(input.law);
       for (unsigned int p = 0; p < input.n; p += lanes)
         {
@@ -176,15 +186,15 @@ namespace Morula
     }
 
     /** See VectorKernels. */
-    template <int dim, typename Law>
+    template <int dim, typename Law, typename Real>
     inline KernelResult
     tangent_of(const KernelInput      &input,
                const StrainOfGridCell *strain,
                double                 *matrix)
     {
       return strain != nullptr && strain->form == VolumetricStrain::pooled ?
-               tangent<dim, Law, true>(input, strain, matrix) :
-               tangent<dim, Law, false>(input, strain, matrix);
+               tangent<dim, Law, true, Real>(input, strain, matrix) :
+               tangent<dim, Law, false, Real>(input, strain, matrix);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

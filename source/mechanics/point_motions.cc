@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/mechanics/materials/material.h>
+#include <morula/mechanics/point_motions.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  template <int dim>
+  void
+  find_motions_plainly(const KernelInput &input, double *motions)
+  {
+    LocalField<dim> field;
+    std::copy_n(input.coefficients,
+                LocalSystem<dim>::n_dofs,
+                &field.coefficient[0][0]);
+    for (unsigned int p = 0; p < input.n; ++p)
+      {
+        Point<dim> xi;
+        for (unsigned int d = 0; d < dim; ++d)
+          xi[d] = input.xi[dim * p + d];
+        const SplineValues<dim> splines(xi, input.h);
+        const Tensor<1, dim>    u = field.value(splines);
+        const Tensor<2, dim>    f = field.step_deformation(splines);
+        for (unsigned int i = 0; i < dim; ++i)
+          *motions++ = u[i];
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            *motions++ = f[i][j];
+      }
+  }
+
+  template <int dim>
+  FindMotions
+  motion_kernel(const Material &material, const std::string &kernel)
+  {
+    for (const auto &kernels : material.vector_kernels<dim>())
+      if (kernel == "automatic" || kernel == kernels.name)
+        return kernels.find_motions;
+    return &find_motions_plainly<dim>;
+  }
+
+  template <int dim>
+  std::vector<PointMotion<dim>>
+  point_motions(const PointStore<dim>        &store,
+                const DisplacementField<dim> &displacement,
+                const FindMotions             find_motions)
+  {
+    static_assert(sizeof(PointMotion<dim>) ==
+                  (dim + dim * dim) * sizeof(double));
+    std::vector<PointMotion<dim>> motions(store.size());
+    std::vector<Point<dim>>       xi;
+    displacement.on_grid_cells(
+      store,
+      [&](const auto            &grid_cell,
+          const LocalField<dim> &field,
+          const GridIndex<dim>  &index) {
+        xi.clear();
+        for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+          xi.push_back(
+            displacement.box().unit_position(store.position(p), index));
+        KernelInput input{};
+        input.n            = xi.size();
+        input.xi           = &xi[0][0];
+        input.h            = displacement.box().spacing();
+        input.coefficients = &field.coefficient[0][0];
+        find_motions(input, &motions[grid_cell.begin].u[0]);
+      });
+    return motions;
+  }
+
+#define INSTANTIATE(dim)                                                         \
+  template void        find_motions_plainly<dim>(const KernelInput &, double *); \
+  template FindMotions motion_kernel<dim>(const Material &,                      \
+                                          const std::string &);                  \
+  template std::vector<PointMotion<dim>> point_motions(                          \
+    const PointStore<dim> &,                                                     \
+    const DisplacementField<dim> &,                                              \
+    const FindMotions);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -83,12 +83,13 @@ namespace Morula
 
   template <int dim>
   Equilibrium::Evaluation
-  MomentumBalance<dim>::sum_up(const Vector                           &u,
-                               const typename LocalSystem<dim>::Wanted wanted,
-                               Vector &sum) const
+  MomentumBalance<dim>::sum_up(const Vector &u,
+                               Vector       &R,
+                               Vector       *magnitudes) const
   {
     const TimerOutput::Scope section(timer, "residual");
-    LocalSystem<dim>         system(wanted);
+    LocalSystem<dim>         system(wanted(magnitudes));
+    std::vector<double>      sizes;
     Evaluation               evaluation;
     evaluation.smallest_J.value = std::numeric_limits<double>::infinity();
     double     energies[3]      = {0., 0., 0.};
@@ -102,8 +103,9 @@ namespace Morula
       energies[1] += local.energy_magnitude;
       return !local.inverted;
     };
-    const std::vector<double> sums = assembly.residual(u, system, add);
-    energies[2]                    = system.inverted;
+    const std::vector<double> sums = assembly.residual(
+      u, system, add, magnitudes != nullptr ? &sizes : nullptr);
+    energies[2] = system.inverted;
     double totals[3];
     Utilities::MPI::sum(energies, comm, totals);
     const bool inverted = totals[2] > 0.;
@@ -111,7 +113,9 @@ namespace Morula
       inverted ? std::numeric_limits<double>::infinity() : totals[0];
     evaluation.energy_magnitude = inverted ? 0. : totals[1];
     if (!inverted)
-      sum = assembly.unknowns().sum(sums);
+      R = assembly.unknowns().sum(sums);
+    if (!inverted && magnitudes != nullptr)
+      *magnitudes = assembly.unknowns().sum(sizes);
     return evaluation;
   }
 
@@ -119,20 +123,60 @@ namespace Morula
   Equilibrium::Evaluation
   MomentumBalance<dim>::residual(const Vector &u, Vector &R) const
   {
-    Evaluation evaluation = sum_up(u, LocalSystem<dim>::energy_and_residual, R);
-    if (enclosure != nullptr && std::isfinite(evaluation.energy))
-      add_content(u, evaluation, R);
+    return evaluate(u, R, nullptr);
+  }
+
+  template <int dim>
+  Equilibrium::Evaluation
+  MomentumBalance<dim>::residual_and_magnitude(const Vector &u,
+                                               Vector       &R,
+                                               double       &magnitude) const
+  {
+    Vector           magnitudes;
+    const Evaluation evaluation = evaluate(u, R, &magnitudes);
+    magnitude = magnitudes.size() == 0 ? 0. : magnitudes.l2_norm();
     return evaluation;
   }
 
   template <int dim>
+  double
+  MomentumBalance<dim>::residual_magnitude(const Vector &u) const
+  {
+    Vector R(u);
+    double magnitude;
+    residual_and_magnitude(u, R, magnitude);
+    return magnitude;
+  }
+
+  template <int dim>
+  Equilibrium::Evaluation
+  MomentumBalance<dim>::evaluate(const Vector &u,
+                                 Vector       &R,
+                                 Vector       *magnitudes) const
+  {
+    Evaluation evaluation = sum_up(u, R, magnitudes);
+    if (enclosure != nullptr && std::isfinite(evaluation.energy))
+      add_content(u, evaluation, R, magnitudes);
+    return evaluation;
+  }
+
+  template <int dim>
+  typename LocalSystem<dim>::Wanted
+  MomentumBalance<dim>::wanted(const Vector *magnitudes)
+  {
+    return magnitudes != nullptr ? LocalSystem<dim>::rounding :
+                                   LocalSystem<dim>::energy_and_residual;
+  }
+
+  template <int dim>
   std::pair<double, double>
-  MomentumBalance<dim>::gain(const Vector                           &u,
-                             const typename LocalSystem<dim>::Wanted wanted,
-                             Vector &derivative) const
+  MomentumBalance<dim>::gain(const Vector &u,
+                             Vector       &derivative,
+                             Vector       *magnitudes) const
   {
     const TimerOutput::Scope section(timer, "residual");
-    LocalSystem<dim>         system(wanted);
+    LocalSystem<dim>         system(wanted(magnitudes));
+    std::vector<double>      sizes;
     double                   volumes[2] = {0., 0.};
     const auto               add        = [&](const unsigned int     c,
                          const LocalField<dim> &field,
@@ -142,7 +186,10 @@ namespace Morula
       volumes[1] += local.energy_magnitude;
       return true;
     };
-    derivative = assembly.unknowns().sum(assembly.residual(u, system, add));
+    derivative = assembly.unknowns().sum(assembly.residual(
+      u, system, add, magnitudes != nullptr ? &sizes : nullptr));
+    if (magnitudes != nullptr)
+      *magnitudes = assembly.unknowns().sum(sizes);
     double totals[2];
     Utilities::MPI::sum(volumes, comm, totals);
     return {totals[0], totals[1]};
@@ -153,21 +200,23 @@ namespace Morula
   MomentumBalance<dim>::enclosed_volume(const Vector &u) const
   {
     Vector ignored;
-    return enclosure->volume +
-           gain(u, LocalSystem<dim>::energy_and_residual, ignored).first;
+    return enclosure->volume + gain(u, ignored).first;
   }
 
   template <int dim>
   void
   MomentumBalance<dim>::add_content(const Vector &u,
                                     Evaluation   &evaluation,
-                                    Vector       &R) const
+                                    Vector       &R,
+                                    Vector       *magnitudes) const
   {
-    Vector b;
+    Vector b, sizes;
     const auto [gained, magnitude] =
-      gain(u, LocalSystem<dim>::energy_and_residual, b);
+      gain(u, b, magnitudes != nullptr ? &sizes : nullptr);
     const double V        = enclosure->volume + gained;
     const double pressure = enclosure->content.pressure(V);
+    if (magnitudes != nullptr)
+      magnitudes->add(std::abs(pressure), sizes);
     evaluation.energy += enclosure->content.energy(V, enclosure->volume);
     if (!std::isfinite(evaluation.energy))
       return;
@@ -258,24 +307,6 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  MomentumBalance<dim>::residual_magnitude(const Vector &u) const
-  {
-    Vector sum;
-    sum_up(u, LocalSystem<dim>::rounding, sum);
-    if (sum.size() == 0)
-      return 0.;
-    if (enclosure != nullptr)
-      {
-        Vector       magnitudes;
-        const double V = enclosure->volume +
-                         gain(u, LocalSystem<dim>::rounding, magnitudes).first;
-        sum.add(std::abs(enclosure->content.pressure(V)), magnitudes);
-      }
-    return sum.l2_norm();
-  }
-
-  template <int dim>
   const TrilinosWrappers::SparseMatrix &
   MomentumBalance<dim>::tangent(const Vector &u, const GrowthAt growth)
   {
@@ -289,10 +320,8 @@ namespace Morula
     if (enclosure != nullptr)
       {
         Vector       b;
-        const double V =
-          enclosure->volume +
-          gain(u, LocalSystem<dim>::energy_and_residual, b).first;
-        pressure = enclosure->content.pressure(V);
+        const double V = enclosure->volume + gain(u, b).first;
+        pressure       = enclosure->content.pressure(V);
         of_content.emplace(
           RankOne{std::move(b), enclosure->content.stiffness(V)});
       }
@@ -306,6 +335,8 @@ namespace Morula
       local.last = !linearisations.empty() && linearisations[c] ?
                            &*linearisations[c] :
                            nullptr;
+      // Extended splines may move what hardly anything resists.
+      local.in_single = dim == 3 && space.grid_cells()[c].weights.empty();
       for (const auto &term : terms)
         term->add(c, field, at, local);
       if (pressure != 0.)

@@ -178,17 +178,16 @@ namespace Morula
   {
     Tangents     tangents(problem, linear_problem.costly);
     LinearSolver linear_solver(parameters, linear_problem, timer);
-    const auto   group = Teuchos::rcp(new NoxGroup(
+    const auto   group    = Teuchos::rcp(new NoxGroup(
       problem, linear_problem, tangents, linear_solver, report, u));
-    group->computeF();
+    const double rounding = group->compute_with_rounding();
     if (!std::isfinite(group->evaluation().energy))
       throw StepFailed("there is no state to start from");
-    const double first    = group->getNormF();
-    const double rounding = rounding_of_residual(problem, u);
-    const double bound    = std::max(parameters.newton_tolerance *
+    const double first = group->getNormF();
+    const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, scales.small_force),
                                   rounding);
-    report.residual       = first > 0. ? 1. : 0.;
+    report.residual    = first > 0. ? 1. : 0.;
     if (first <= bound)
       return group->evaluation();
 

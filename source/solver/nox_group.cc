@@ -101,6 +101,16 @@ namespace Morula
     return Ok;
   }
 
+  double
+  NoxGroup::compute_with_rounding()
+  {
+    double magnitude = 0.;
+    evaluation_ = problem.residual_and_magnitude(u.values, R.values, magnitude);
+    remove_parts(R.values, linear_problem.null_space);
+    has_residual = true;
+    return rounding_error * magnitude;
+  }
+
   NOX::Abstract::Group::ReturnType
   NoxGroup::computeJacobian()
   {

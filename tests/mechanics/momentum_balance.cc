@@ -165,6 +165,17 @@ namespace
     const double magnitude = ball.balance->residual_magnitude(ball.u);
     EXPECT_GE(magnitude, R.l2_norm());
     EXPECT_LT(magnitude, 1e4 * R.l2_norm());
+    Equilibrium::Vector same(R);
+    double              again = 0.;
+    EXPECT_DOUBLE_EQ(
+      ball.balance->residual_and_magnitude(ball.u, same, again).energy,
+      ball.balance->residual(ball.u, R).energy);
+    EXPECT_DOUBLE_EQ(again, magnitude);
+    same -= R;
+    EXPECT_LE(same.linfty_norm(), 1e-14 * R.linfty_norm());
+    // Where there is no energy there is no magnitude.
+    ball.balance->residual_and_magnitude(u, same, again);
+    EXPECT_EQ(again, 0.);
   }
 
   /** The extremes are those of the state asked for, whatever was asked

@@ -44,14 +44,18 @@ namespace Morula
     }
 
     /**
-     * Adds up the residuals, or with local.wanted == rounding the magnitudes.
-     * FieldUnknowns::sum() adds up those of all ranks. Stops where add()
-     * returns false. Collective.
+     * Adds up the residuals. FieldUnknowns::sum() adds up those of all ranks.
+     * Stops where add() returns false. Collective.
+     * @param magnitudes if not null, the magnitudes' sums; with local.wanted ==
+     *        rounding
      * @return this rank's sums, in the order of FieldUnknowns::relevant()
      */
     template <typename Local, typename Add>
     std::vector<double>
-    residual(const Vector &u, Local &local, const Add &add) const;
+    residual(const Vector        &u,
+             Local               &local,
+             const Add           &add,
+             std::vector<double> *magnitudes = nullptr) const;
 
     /** Whether make_pattern() has been called. */
     bool
@@ -74,6 +78,15 @@ namespace Morula
     matrix(const Vector &u, Local &local, const Add &add);
 
   private:
+    /** Adds the forces of grid cell @p c, or their magnitudes, to the sums over
+     *  grid cells. */
+    template <typename Forces>
+    void
+    add_condensed(const unsigned int   c,
+                  const Forces        &forces,
+                  const bool           magnitudes,
+                  std::vector<double> &sums) const;
+
     const SplineSpace<dim>                         &space;
     const MPI_Comm                                  comm;
     const FieldUnknowns<dim, n_components>          unknowns_;
@@ -84,29 +97,48 @@ namespace Morula
   template <int dim, int n_components>
   template <typename Local, typename Add>
   std::vector<double>
-  Assembly<dim, n_components>::residual(const Vector &u,
-                                        Local        &local,
-                                        const Add    &add) const
+  Assembly<dim, n_components>::residual(const Vector        &u,
+                                        Local               &local,
+                                        const Add           &add,
+                                        std::vector<double> *magnitudes) const
   {
-    const bool magnitudes = local.wanted == Local::rounding;
     const SplineField<dim, n_components> field(space, u, comm);
     std::vector<double> sums(unknowns_.relevant().n_elements(), 0.);
+    if (magnitudes != nullptr)
+      magnitudes->assign(sums.size(), 0.);
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
         local.clear();
         if (!add(c, field.on_grid_cell(c), local))
           break;
-        const auto               &splines = space.grid_cells()[c].unknowns;
-        const std::vector<double> condensed =
-          Condensation<dim, n_components>(space.grid_cells()[c])
-            .condense(magnitudes ? local.magnitude : local.residual,
-                      magnitudes);
-        for (unsigned int s = 0; s < splines.size(); ++s)
-          for (unsigned int i = 0; i < n_components; ++i)
-            sums[splines[s] * n_components + i] +=
-              condensed[i * splines.size() + s];
+        add_condensed(c, local.residual, false, sums);
+        if (magnitudes != nullptr)
+          add_condensed(c, local.magnitude, true, *magnitudes);
       }
     return sums;
+  }
+
+  template <int dim, int n_components>
+  template <typename Forces>
+  void
+  Assembly<dim, n_components>::add_condensed(const unsigned int   c,
+                                             const Forces        &forces,
+                                             const bool           magnitudes,
+                                             std::vector<double> &sums) const
+  {
+    const auto &grid_cell = space.grid_cells()[c];
+    const auto &splines   = grid_cell.unknowns;
+    const auto  add       = [&](const auto &condensed) {
+      for (unsigned int s = 0; s < splines.size(); ++s)
+        for (unsigned int i = 0; i < n_components; ++i)
+          sums[splines[s] * n_components + i] +=
+            condensed[i * splines.size() + s];
+    };
+    if (grid_cell.weights.empty()) // the unknowns are the splines
+      add(forces);
+    else
+      add(Condensation<dim, n_components>(grid_cell).condense(forces,
+                                                              magnitudes));
   }
 
   template <int dim, int n_components>

@@ -64,6 +64,15 @@ namespace Morula
     virtual double
     residual_magnitude(const Vector &u) const = 0;
 
+    /** residual() and residual_magnitude(), which may cost less together.
+     *  @param magnitude set to the latter */
+    virtual Evaluation
+    residual_and_magnitude(const Vector &u, Vector &R, double &magnitude) const
+    {
+      magnitude = residual_magnitude(u);
+      return residual(u, R);
+    }
+
     /** A part σ b bᵀ of a tangent, σ >= 0, which would fill a sparse matrix. */
     struct RankOne
     {

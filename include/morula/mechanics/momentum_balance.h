@@ -64,6 +64,11 @@ namespace Morula
     double
     residual_magnitude(const Vector &u) const override;
 
+    Evaluation
+    residual_and_magnitude(const Vector &u,
+                           Vector       &R,
+                           double       &magnitude) const override;
+
     /** The extremes of an evaluation over all ranks. Collective. */
     Extremes<dim>
     extremes(const Evaluation &evaluation) const;
@@ -107,21 +112,31 @@ namespace Morula
     scales(const double youngs_modulus) const;
 
   private:
+    /** Of the functions below those with @p magnitudes also find the magnitudes
+     *  of what is added up, if that is not null. */
     Evaluation
-    sum_up(const Vector                           &u,
-           const typename LocalSystem<dim>::Wanted wanted,
-           Vector                                 &sum) const;
+    evaluate(const Vector &u, Vector &R, Vector *magnitudes) const;
+
+    /** The terms' part of it. */
+    Evaluation
+    sum_up(const Vector &u, Vector &R, Vector *magnitudes) const;
 
     /** The volume that the enclosure gains, Σ|contributions| to it, and its
-     *  derivative or, if @p wanted, that one's magnitudes. */
+     *  derivative. */
     std::pair<double, double>
-    gain(const Vector                           &u,
-         const typename LocalSystem<dim>::Wanted wanted,
-         Vector                                 &derivative) const;
+    gain(const Vector &u,
+         Vector       &derivative,
+         Vector       *magnitudes = nullptr) const;
 
     /** Adds energy and forces of the enclosure's content. */
     void
-    add_content(const Vector &u, Evaluation &evaluation, Vector &R) const;
+    add_content(const Vector &u,
+                Evaluation   &evaluation,
+                Vector       &R,
+                Vector       *magnitudes) const;
+
+    static typename LocalSystem<dim>::Wanted
+    wanted(const Vector *magnitudes);
 
     /** Takes a grid cell's extremes into account. */
     void

@@ -82,6 +82,10 @@ namespace Morula
     Teuchos::RCP<NOX::Abstract::Group>
     clone(NOX::CopyType type) const override;
 
+    /** computeF() and rounding_of_residual(), in one pass. */
+    double
+    compute_with_rounding();
+
     /** Whether the direction is that of a kept tangent. */
     bool
     has_kept_tangent() const;

@@ -3,6 +3,7 @@
 
 #include <morula/output/digest.h>
 
+#include <array>
 #include <cstdio>
 
 namespace Morula
@@ -42,6 +43,42 @@ namespace Morula
         }
       return power;
     }
+
+    /** Tables[k][b]: the remainder of byte b with k bytes of zeros behind it.
+     */
+    using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
+
+    constexpr Tables
+    make_tables()
+    {
+      Tables tables{};
+      for (unsigned int byte = 0; byte < 256; ++byte)
+        {
+          std::uint64_t rest = byte;
+          for (unsigned int bit = 0; bit < 8; ++bit)
+            rest = (rest >> 1) ^ ((rest & 1) != 0 ? generator : 0);
+          tables[0][byte] = rest;
+        }
+      for (unsigned int k = 1; k < tables.size(); ++k)
+        for (unsigned int byte = 0; byte < 256; ++byte)
+          {
+            const std::uint64_t rest = tables[k - 1][byte];
+            tables[k][byte]          = (rest >> 8) ^ tables[0][rest & 255];
+          }
+      return tables;
+    }
+
+    constexpr Tables tables = make_tables();
+
+    /** Eight bytes as a number, the first one its lowest. */
+    std::uint64_t
+    little_endian(const unsigned char *bytes)
+    {
+      std::uint64_t number = 0;
+      for (unsigned int k = 0; k < 8; ++k)
+        number |= std::uint64_t(bytes[k]) << (8 * k);
+      return number;
+    }
   } // namespace
 
   std::uint64_t
@@ -51,6 +88,24 @@ namespace Morula
   {
     // What the inversion of begin and end adds is the same in all three.
     return product(first, power_of_bytes(n_bytes)) ^ second;
+  }
+
+  void
+  Digest::add(const std::string_view bytes)
+  {
+    const auto *byte = reinterpret_cast<const unsigned char *>(bytes.data());
+    const auto *const end  = byte + bytes.size();
+    std::uint64_t     rest = remainder;
+    for (; end - byte >= 8; byte += 8)
+      {
+        const std::uint64_t word = rest ^ little_endian(byte);
+        rest                     = 0;
+        for (unsigned int k = 0; k < 8; ++k)
+          rest ^= tables[7 - k][word >> (8 * k) & 255];
+      }
+    for (; byte != end; ++byte)
+      rest = (rest >> 8) ^ tables[0][(rest ^ *byte) & 255];
+    remainder = rest;
   }
 
   std::string

@@ -9,12 +9,14 @@
 #include <deal.II/base/data_out_base.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace Morula
 {
@@ -101,110 +103,182 @@ namespace Morula
       return groups;
     }
 
-    template <typename T>
-    void
-    store(const T value, char *&target)
+    const std::string end_of_array = "\n</DataArray>\n";
+    const std::string end_of_piece = "</PointData>\n</Piece>\n";
+    const std::string end_of_file  = "</UnstructuredGrid>\n</VTKFile>\n";
+
+    /** Size of an array with what stands around it. */
+    std::uint64_t
+    n_bytes_in_file(const Array &array, const std::uint64_t n_points)
     {
-      std::memcpy(target, &value, sizeof(T));
-      target += sizeof(T);
+      return array.tag().size() + (array.n_bytes(n_points) + 2) / 3 * 4 +
+             end_of_array.size();
     }
 
-    /** Room for a group's arrays, each behind its size; where each begins. */
-    std::vector<char *>
-    make_room(const Group &group, const std::size_t n_points, std::string &data)
+    /** The digits of base64 for 12 bits, two each. */
+    using Pairs = std::array<std::array<char, 2>, 4096>;
+
+    constexpr Pairs
+    base64_pairs()
     {
-      std::size_t size = 0;
-      for (const Array &array : group)
-        size += array.n_bytes(n_points);
-      data.resize(size);
-      std::vector<char *> targets;
-      char               *target = data.data();
-      for (const Array &array : group)
+      constexpr char digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+      Pairs pairs{};
+      for (unsigned int bits = 0; bits < pairs.size(); ++bits)
         {
-          char *const end = target + array.n_bytes(n_points);
-          store(array.n_bytes(n_points) - sizeof(std::uint64_t), target);
-          targets.push_back(target);
-          target = end;
+          pairs[bits][0] = digits[bits >> 6];
+          pairs[bits][1] = digits[bits & 63];
         }
-      return targets;
+      return pairs;
     }
 
-    /** This rank's part of the first group. */
-    template <int dim>
-    std::string
-    points_data(const PointFields<dim> &fields, const Group &group)
+    /** Writes numbers in base64 to where there is room for them. deal.II's
+     *  encode_base64() takes three times as long as all else in an output. */
+    class Base64
     {
-      std::string data;
-      char       *target = make_room(group, fields.size(), data)[0];
+    public:
+      explicit Base64(char *target)
+        : target(target)
+      {}
+
+      template <typename T>
+      void
+      add(const T value)
+      {
+        if (n + sizeof(T) > buffer.size())
+          flush();
+        std::memcpy(&buffer[n], &value, sizeof(T));
+        n += sizeof(T);
+      }
+
+      /** Writes what is left; returns the end. */
+      char *
+      finish()
+      {
+        flush();
+        if (n > 0)
+          {
+            std::fill(buffer.begin() + n, buffer.begin() + 3, 0);
+            encode(0);
+            std::fill(target + n + 1, target + 4, '=');
+            target += 4;
+          }
+        return target;
+      }
+
+    private:
+      void
+      encode(const std::size_t i)
+      {
+        static constexpr Pairs pairs = base64_pairs();
+        const std::uint32_t    bits =
+          buffer[i] << 16 | buffer[i + 1] << 8 | buffer[i + 2];
+        std::memcpy(target, pairs[bits >> 12].data(), 2);
+        std::memcpy(target + 2, pairs[bits & 4095].data(), 2);
+      }
+
+      /** Writes all whole threes of bytes. */
+      void
+      flush()
+      {
+        std::size_t i = 0;
+        for (; i + 3 <= n; i += 3, target += 4)
+          encode(i);
+        std::copy(buffer.begin() + i, buffer.begin() + n, buffer.begin());
+        n -= i;
+      }
+
+      std::array<unsigned char, 3072> buffer;
+      std::size_t                     n = 0; // bytes in it
+      char                           *target;
+    };
+
+    /** The arrays of a group as they stand in a file. */
+    class GroupText
+    {
+    public:
+      GroupText(const Group &group, const std::size_t n_points)
+      {
+        std::size_t size = 0;
+        for (const Array &array : group)
+          size += n_bytes_in_file(array, n_points);
+        text.resize(size);
+        char      *place = text.data();
+        const auto put   = [&place](const std::string &what) {
+          place = std::copy(what.begin(), what.end(), place);
+        };
+        for (const Array &array : group)
+          {
+            put(array.tag());
+            arrays.emplace_back(place);
+            arrays.back().add<std::uint64_t>(array.n_bytes(n_points) -
+                                             sizeof(std::uint64_t));
+            place += (array.n_bytes(n_points) + 2) / 3 * 4;
+            put(end_of_array);
+          }
+      }
+
+      /** Where the values of array number @p k go. */
+      Base64 &
+      array(const std::size_t k)
+      {
+        return arrays[k];
+      }
+
+      std::string
+      finish()
+      {
+        for (Base64 &array : arrays)
+          array.finish();
+        return std::move(text);
+      }
+
+    private:
+      std::string         text;
+      std::vector<Base64> arrays;
+    };
+
+    /** The first group. */
+    template <int dim>
+    void
+    add_points(const PointFields<dim> &fields, GroupText &text)
+    {
       for (const Point<dim> &position : fields.positions)
         for (unsigned int d = 0; d < 3; ++d)
-          store<float>(d < dim ? position[d] : 0., target);
-      return data;
+          text.array(0).add<float>(d < dim ? position[d] : 0.);
     }
 
-    /** Of the second one. */
-    std::string
-    cells_data(const std::size_t n_points, const Group &group)
+    /** The second one. */
+    void
+    add_cells(const std::size_t n_points, GroupText &text)
     {
-      constexpr std::uint8_t    vtk_vertex = 1;
-      std::string               data;
-      const std::vector<char *> begins       = make_room(group, n_points, data);
-      char                     *connectivity = begins[0], *offsets = begins[1];
+      constexpr std::uint8_t vtk_vertex = 1;
       for (std::size_t i = 0; i < n_points; ++i)
         {
-          store<std::int32_t>(i, connectivity);
-          store<std::int32_t>(i + 1, offsets);
+          text.array(0).add<std::int32_t>(i);
+          text.array(1).add<std::int32_t>(i + 1);
+          text.array(2).add(vtk_vertex);
         }
-      std::memset(begins[2], vtk_vertex, n_points);
-      return data;
     }
 
-    /** Of another one. */
+    /** Another one. */
     template <int dim>
-    std::string
-    fields_data(const PointFields<dim> &fields, const Group &group)
+    void
+    add_fields(const PointFields<dim> &fields,
+               const Group            &group,
+               GroupText              &text)
     {
-      std::string         data;
-      std::vector<char *> targets = make_room(group, fields.size(), data);
       for (std::size_t i = 0; i < fields.size(); ++i)
         for (std::size_t k = 0; k < group.size(); ++k)
           {
             const double *const values = fields.row(i) + group[k].first_column;
             for (unsigned int c = 0; c < group[k].n_components; ++c)
               if (group[k].type == Array::Int32)
-                store<std::int32_t>(std::lround(values[c]), targets[k]);
+                text.array(k).add<std::int32_t>(std::lround(values[c]));
               else
-                store<float>(values[c], targets[k]);
+                text.array(k).add<float>(values[c]);
           }
-      return data;
     }
-
-    /** Appends data in base64. deal.II's encode_base64() takes three times as
-     *  long as all else in an output. */
-    void
-    append_base64(const char *data, const std::size_t size, std::string &text)
-    {
-      constexpr char digits[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-      const std::size_t begin = text.size();
-      text.resize(begin + (size + 2) / 3 * 4, '=');
-      char *target = &text[begin];
-      for (std::size_t i = 0; i < size; i += 3)
-        {
-          const std::size_t n    = std::min<std::size_t>(size - i, 3);
-          std::uint32_t     bits = 0;
-          for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 |
-                   (k < n ? static_cast<unsigned char>(data[i + k]) : 0u);
-          for (std::size_t k = 0; k < 4; ++k, ++target)
-            if (k <= n)
-              *target = digits[bits >> (18 - 6 * k) & 63];
-        }
-    }
-
-    const std::string end_of_array = "\n</DataArray>\n";
-    const std::string end_of_piece = "</PointData>\n</Piece>\n";
-    const std::string end_of_file  = "</UnstructuredGrid>\n</VTKFile>\n";
 
     /** The arrays of a group as they stand in this rank's piece. */
     template <int dim>
@@ -213,21 +287,14 @@ namespace Morula
              const std::vector<Group> &groups,
              const std::size_t         g)
     {
-      const Group      &group = groups[g];
-      const std::string data  = g == 0 ? points_data(fields, group) :
-                                g == 1 ? cells_data(fields.size(), group) :
-                                         fields_data(fields, group);
-      std::string       text;
-      std::size_t       begin = 0;
-      for (const Array &array : group)
-        {
-          const std::size_t size = array.n_bytes(fields.size());
-          text += array.tag();
-          append_base64(data.data() + begin, size, text);
-          text += end_of_array;
-          begin += size;
-        }
-      return text;
+      GroupText text(groups[g], fields.size());
+      if (g == 0)
+        add_points(fields, text);
+      else if (g == 1)
+        add_cells(fields.size(), text);
+      else
+        add_fields(fields, groups[g], text);
+      return text.finish();
     }
 
     std::string
@@ -270,8 +337,7 @@ namespace Morula
         {
           size += before(g, n_points).size();
           for (const Array &array : groups[g])
-            size += array.tag().size() + (array.n_bytes(n_points) + 2) / 3 * 4 +
-                    end_of_array.size();
+            size += n_bytes_in_file(array, n_points);
         }
       return size;
     }

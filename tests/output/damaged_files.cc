@@ -287,6 +287,20 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
   for (const std::uint64_t value : {digest.value(), ~digest.value()})
     EXPECT_EQ(digest_of_integers(as_integers(value)), value);
 
+  // in pieces of any length
+  std::string text;
+  for (unsigned int i = 0; i < 100; ++i)
+    text += static_cast<char>(37 * i);
+  Digest whole;
+  whole.add(text);
+  for (unsigned int i = 0; i <= text.size(); ++i)
+    {
+      Digest parts;
+      parts.add(std::string_view(text).substr(0, i));
+      parts.add(std::string_view(text).substr(i));
+      EXPECT_EQ(parts.value(), whole.value());
+    }
+
   const ScratchDirectory directory;
   const std::string      path = directory / "file";
   on_root(MPI_COMM_WORLD, [&]() {

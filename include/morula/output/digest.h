@@ -4,8 +4,6 @@
 #ifndef morula_output_digest_h
 #define morula_output_digest_h
 
-#include <boost/crc.hpp>
-
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,40 +34,33 @@ namespace Morula
    * as many bits, leaves out the file's structure, and is checked by the
    * library that the damage may crash. Boost has SHA-1 only as a detail of its
    * UUIDs, whose interface changed in 1.86. Nobody forges snapshots, so a CRC
-   * is enough.
+   * is enough. Boost's CRC takes one byte at a time: with eight tables
+   * ("slicing by eight") a snapshot's takes a quarter of the time.
    */
   class Digest
   {
   public:
     /** Adds further bytes. */
     void
-    add(const std::string_view bytes)
-    {
-      crc.process_bytes(bytes.data(), bytes.size());
-      n_since += bytes.size();
-    }
+    add(const std::string_view bytes);
 
     /** Adds @p n_bytes further bytes, of which only the digest is known: that
      *  of these bytes alone. */
     void
     add(const std::uint64_t digest, const std::uint64_t n_bytes)
     {
-      before  = joined_digests(value(), digest, n_bytes);
-      n_since = 0;
-      crc.reset();
+      remainder = ~joined_digests(value(), digest, n_bytes);
     }
 
     /** The digest of all bytes so far. */
     std::uint64_t
     value() const
     {
-      return joined_digests(before, crc.checksum(), n_since);
+      return ~remainder;
     }
 
   private:
-    std::uint64_t before = 0; // digest of the bytes that crc has not seen
-    boost::crc_optimal<64, 0x42f0e1eba9ea3693u, ~0ull, ~0ull, true, true> crc;
-    std::uint64_t n_since = 0; // bytes that it has seen
+    std::uint64_t remainder = ~std::uint64_t(0);
   };
 
   /** A digest as 16 hexadecimal digits. */

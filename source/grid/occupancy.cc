@@ -68,12 +68,22 @@ namespace Morula
   void
   Occupancy<dim>::add_quadrature_points(const ParticleDomain<dim> &domain)
   {
+    unsigned int n_points = 0;
     domain.for_quadrature_points(
       n_points_per_edge(domain), [&](const Point<dim> &point) {
         for_each_share(point, [&](const Point<dim> &share, unsigned int) {
           contents.add_quadrature_point(share);
+          ++n_points;
         });
       });
+    subdivides_ = subdivides_ || n_points > 1;
+  }
+
+  template <int dim>
+  bool
+  Occupancy<dim>::subdivides() const
+  {
+    return subdivides_;
   }
 
   template <int dim>

@@ -21,7 +21,44 @@ namespace Morula
       full[2][2] = state.kirchhoff_stress_zz();
       return full;
     }
+
+    /** A cell's deformations and what its material says to them. */
+    template <int dim>
+    struct State
+    {
+      State(const CellView<dim, const double> &cell,
+            const Material                    &material,
+            const Lame                        &lame)
+        : F(cell.F())
+        , F_g(cell.growth())
+        , point(F * invert(F_g), lame, material)
+      {}
+
+      const Tensor<2, dim>    F, F_g;
+      const ElasticPoint<dim> point;
+
+      CellScalars
+      scalars(const double initial_volume) const
+      {
+        CellScalars q;
+        q.initial_volume       = initial_volume;
+        q.volume               = initial_volume * determinant(F);
+        q.growth_volume_ratio  = determinant(F_g);
+        q.elastic_volume_ratio = point.strain().J;
+        q.energy_density       = point.energy();
+        return q;
+      }
+    };
   } // namespace
+
+  template <int dim>
+  CellScalars
+  cell_scalars(const CellView<dim, const double> &cell,
+               const Material                    &material,
+               const Lame                        &lame)
+  {
+    return State<dim>(cell, material, lame).scalars(cell.initial_volume());
+  }
 
   template <int dim>
   CellQuantities
@@ -30,22 +67,23 @@ namespace Morula
                   const Lame                        &lame,
                   const bool                         per_grown_volume)
   {
-    const Tensor<2, dim>    F     = cell.F();
-    const Tensor<2, dim>    F_g   = cell.growth();
-    const double            det_F = determinant(F);
-    const ElasticPoint<dim> state(F * invert(F_g), lame, material);
-
-    CellQuantities q;
-    q.initial_volume       = cell.initial_volume();
-    q.volume               = q.initial_volume * det_F;
-    q.growth_volume_ratio  = determinant(F_g);
-    q.elastic_volume_ratio = state.strain().J;
-    q.energy_density       = state.energy();
-    q.stress               = kirchhoff_stress(state) *
-               ((per_grown_volume ? q.growth_volume_ratio : 1.) / det_F);
+    const State<dim> state(cell, material, lame);
+    CellQuantities   q;
+    static_cast<CellScalars &>(q) = state.scalars(cell.initial_volume());
+    q.stress =
+      kirchhoff_stress(state.point) *
+      ((per_grown_volume ? q.growth_volume_ratio : 1.) / determinant(state.F));
     return q;
   }
 
+  template CellScalars
+  cell_scalars<2>(const CellView<2, const double> &,
+                  const Material &,
+                  const Lame &);
+  template CellScalars
+  cell_scalars<3>(const CellView<3, const double> &,
+                  const Material &,
+                  const Lame &);
   template CellQuantities
   cell_quantities<2>(const CellView<2, const double> &,
                      const Material &,

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace Morula
 {
   template <int dim>
@@ -13,21 +15,33 @@ namespace Morula
   {}
 
   template <int dim>
+  double
+  LongestCell<dim>::limit() const
+  {
+    constexpr double slack = 1e-9; // for rounding
+    return h / (CellLengths::fewest - slack);
+  }
+
+  template <int dim>
   void
   LongestCell<dim>::add(const ParticleDomain<dim> &cell)
   {
-    constexpr double slack = 1e-9; // for rounding
-    const double     bound = cell.length_bound();
-    if (bound <= longest && h >= (CellLengths::fewest - slack) * bound)
-      return;
     const double length = cell.length();
     if (length > longest)
       {
         longest = length;
         place   = cell.position();
       }
-    if (h < (CellLengths::fewest - slack) * length)
+    if (length > limit())
       ++n_too_long;
+  }
+
+  template <int dim>
+  void
+  LongestCell<dim>::add(const Point<dim> &x, const DeformedCube<dim> &cell)
+  {
+    if (!cell.is_within_length(std::min(longest, limit())))
+      add(cell.at(x));
   }
 
   template <int dim>

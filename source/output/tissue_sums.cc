@@ -30,7 +30,7 @@ namespace Morula
 
   template <int dim>
   void
-  TissueSums<dim>::add_cell(const CellQuantities &q, const Point<dim> &position)
+  TissueSums<dim>::add_cell(const CellScalars &q, const Point<dim> &position)
   {
     n_cells += 1.;
     initial_volume += q.initial_volume;

@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Morula
 {
@@ -15,21 +16,39 @@ namespace Morula
     /** Load of the fullest rank over the mean that is put up with. */
     constexpr double worst_imbalance = 1.15;
 
-    /** Corners of the domains of cells, which are cell(i): the grid must reach
-     *  as far. */
+    /** The corners of the smallest box around the domains of cells, which are
+     *  cell(i): the grid must reach as far. None if there are no cells. */
     template <int dim, typename Cell>
     std::vector<Point<dim>>
     domain_corners(const std::vector<Point<dim>> &positions, const Cell &cell)
     {
-      std::vector<Point<dim>> corners;
-      corners.reserve(2 * positions.size());
+      if (positions.empty())
+        return {};
+      Point<dim> lower = positions[0], upper = positions[0];
+      const auto include = [&](const Point<dim> &first,
+                               const Point<dim> &last) {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], first[d]);
+            upper[d] = std::max(upper[d], last[d]);
+          }
+      };
+      for (const Point<dim> &x : positions)
+        include(x, x);
       for (std::size_t i = 0; i < positions.size(); ++i)
         {
-          const auto bounds = cell_domain<dim>(positions[i], cell(i)).bounds();
-          corners.push_back(bounds.first);
-          corners.push_back(bounds.second);
+          const Point<dim> &x    = positions[i];
+          double            room = std::numeric_limits<double>::infinity();
+          for (unsigned int d = 0; d < dim; ++d)
+            room = std::min({room, x[d] - lower[d], upper[d] - x[d]});
+          const DeformedCube<dim> shape = cell_shape<dim>(cell(i));
+          if (!shape.is_within(room))
+            {
+              const auto bounds = shape.at(x).bounds();
+              include(bounds.first, bounds.second);
+            }
         }
-      return corners;
+      return {lower, upper};
     }
 
     template <int dim>

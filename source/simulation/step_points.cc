@@ -34,7 +34,20 @@ namespace Morula
                 (material.per_grown_volume() ? determinant(F_g) : 1.)};
     }
 
-    /** Data of cell number @p i in the order of Tissue::cells(). */
+    /** λ and μ of cell number @p i in the order of Tissue::cells(). */
+    template <int dim>
+    Lame
+    lame_of(const Tissue<dim>       &tissue,
+            const unsigned int       i,
+            const GrowthOfStep<dim> &growth,
+            const TissueMaterial    &material)
+    {
+      return growth.lame.empty() ?
+               material.lame_at(tissue.cells()[i].founder_position()) :
+               growth.lame[i];
+    }
+
+    /** Its data but for those. */
     template <int dim>
     PointData<dim>
     data_of(const Tissue<dim>       &tissue,
@@ -44,9 +57,6 @@ namespace Morula
     {
       const auto     cell = tissue.cells()[i];
       PointData<dim> data{};
-      data.lame = growth.lame.empty() ?
-                    material.lame_at(cell.founder_position()) :
-                    growth.lame[i];
       if (growth.present)
         {
           data.current  = elastic_state(cell, growth.current[i], material);
@@ -99,6 +109,7 @@ namespace Morula
       for (unsigned int i = 0; i < tissue.cells().size(); ++i)
         {
           const PointData<dim>      data = data_of(tissue, i, growth, material);
+          const Lame                lame = lame_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain = tissue.domain(i);
           const auto   n    = space.occupancy().n_points_per_edge(domain);
           const double part = 1. / n_points(n);
@@ -108,8 +119,8 @@ namespace Morula
                 const double of_cell = part / n_shares;
                 list.add_value(tissue.cells().id(i),
                                share,
-                               Message<dim>(data.lame.lambda,
-                                            data.lame.mu,
+                               Message<dim>(lame.lambda,
+                                            lame.mu,
                                             data.current.A,
                                             of_cell * data.current.W,
                                             data.previous.A,
@@ -177,19 +188,8 @@ namespace Morula
                   const GrowthOfStep<dim> &growth,
                   const TissueMaterial    &material)
   {
-    bool several = false;
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      {
-        several =
-          several ||
-          n_points(space.occupancy().n_points_per_edge(tissue.domain(p))) > 1;
-        space.occupancy().for_each_share(tissue.cells().position(p),
-                                         [&](const Point<dim> &,
-                                             const unsigned int n) {
-                                           several = several || n > 1;
-                                         });
-      }
-    if (Utilities::MPI::logical_or(several, tissue.communicator()))
+    if (Utilities::MPI::logical_or(space.occupancy().subdivides(),
+                                   tissue.communicator()))
       return subdivided_points(tissue, space, growth, material);
 
     MaterialPoints<dim> points;
@@ -199,10 +199,12 @@ namespace Morula
     if (growth.present)
       points.previous.reserve(points.xi.size());
     for (unsigned int i = 0; i < tissue.cells().size(); ++i)
-      append(data_of(tissue, i, growth, material),
-             growth.present,
-             material.is_uniform(),
-             points);
+      {
+        PointData<dim> data = data_of(tissue, i, growth, material);
+        if (!material.is_uniform() || i == 0)
+          data.lame = lame_of(tissue, i, growth, material);
+        append(data, growth.present, material.is_uniform(), points);
+      }
     return points;
   }
 

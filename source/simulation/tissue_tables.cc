@@ -33,12 +33,12 @@ namespace Morula
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
-        sums.add_cell(cell.quantities(), cell.position());
+        sums.add_cell(cell.scalars(), cell.position());
         held += model.is_held(cell, t);
         dying += death != nullptr && death->is_dead(cells[p]);
         if (!of_types.empty())
           ++of_types[cell.type()];
-        longest.add(cell_domain<dim>(cell.position(), cell.cell()));
+        longest.add(cell.position(), cell_shape<dim>(cell.cell()));
       }
     for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
       sums.add_boundary_point(tissue.boundary_points().position(p));

@@ -84,6 +84,57 @@ TEST(LongestCell, BoundOfTheLength)
   EXPECT_NEAR(cell.length_bound(), cell.length(), 1e-7);
 }
 
+/** Bounds without roots: true only where the domain's own say so, and true
+ *  where the bound of its length does. */
+TEST(DeformedCube, BoundsAreThoseOfTheDomain)
+{
+  std::mt19937 generator(4);
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      DeformedCube<3> cube;
+      cube.volume = 8.;
+      for (unsigned int k = 0; k < 9; ++k)
+        cube.deformation[k / 3][k % 3] =
+          std::normal_distribution<>()(generator);
+      if (determinant(cube.deformation) < 0.)
+        cube.deformation *= -1.;
+      const ParticleDomain<3> domain = cube.at(Point<3>());
+      const double            length = domain.length();
+      EXPECT_FALSE(cube.is_within_length(0.999 * length));
+      EXPECT_TRUE(cube.is_within_length(1.16 * length));
+      double reach = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        reach = std::max(
+          {reach, domain.bounds().second[d], -domain.bounds().first[d]});
+      EXPECT_FALSE(cube.is_within(0.999 * reach));
+      EXPECT_TRUE(cube.is_within(1.16 * std::sqrt(3.) / 2. * length));
+    }
+}
+
+TEST(LongestCell, CubesAreTheirDomains)
+{
+  LongestCell<3> cubes(4.), domains(4.);
+  std::mt19937   generator(5);
+  for (unsigned int i = 0; i < 500; ++i)
+    {
+      DeformedCube<3> cube{1., Tensor<2, 3>(unit_symmetric_tensor<3>())};
+      for (unsigned int k = 0; k < 9; ++k)
+        cube.deformation[k / 3][k % 3] +=
+          0.25 * std::normal_distribution<>()(generator);
+      if (!(determinant(cube.deformation) > 0.1))
+        continue;
+      const Point<3> x(i, 0., 0.);
+      cubes.add(x, cube);
+      domains.add(cube.at(x));
+    }
+  const CellLengths found    = cubes.over_all_ranks(MPI_COMM_SELF),
+                    expected = domains.over_all_ranks(MPI_COMM_SELF);
+  EXPECT_EQ(found.min_cells_per_spacing, expected.min_cells_per_spacing);
+  EXPECT_EQ(found.place, expected.place);
+  EXPECT_EQ(found.n_too_long, expected.n_too_long);
+  EXPECT_GT(expected.n_too_long, 0u);
+}
+
 TEST(LongestCell, ExactlyTwoPerSpacingAreEnough)
 {
   LongestCell<2> cells(20.);

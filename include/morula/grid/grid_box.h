@@ -82,7 +82,7 @@ namespace Morula
     {
       GridIndex<dim> index;
       for (unsigned int d = 0; d < dim; ++d)
-        index[d] = static_cast<int>(std::floor((x[d] - offset_[d]) / h_));
+        index[d] = floor((x[d] - offset_[d]) / h_);
       return index;
     }
 
@@ -214,6 +214,16 @@ namespace Morula
     }
 
   private:
+    /** The largest integer that is at most @p x. Every processor that the
+     *  library is compiled for has no instruction for std::floor(), and all
+     *  passes over points locate them. */
+    static int
+    floor(const double x)
+    {
+      const int truncated = static_cast<int>(x);
+      return truncated - (x < truncated);
+    }
+
     GridIndex<dim> first_{};
     GridIndex<dim> n_{};
     double         h_ = 1.;

@@ -68,6 +68,11 @@ namespace Morula
     void
     add_quadrature_points(const ParticleDomain<dim> &domain);
 
+    /** Whether a particle of this rank has more than one quadrature point, or
+     *  one that several grid cells share; after the second round. */
+    bool
+    subdivides() const;
+
     /** Sums the second round over all ranks. Collective. */
     void
     sum_quadrature_points(const BackgroundGrid<dim> &grid);
@@ -180,6 +185,7 @@ namespace Morula
 
     unsigned int              points_per_cell;
     bool                      share_points;
+    bool                      subdivides_ = false;
     GridCellContents<dim>     contents;
     TissueRows<dim>           rows;
     std::vector<unsigned int> crowded_; // of all ranks, by number in the grid

@@ -17,6 +17,20 @@ namespace Morula
 {
   using namespace dealii;
 
+  /** A bound of the largest singular value of A, which needs no eigenvalues:
+   *  the largest one of a symmetric tensor S is at most tr S/d + √((d-1)/d)
+   *  |dev S|. Exact in 2-D, and where two of three are equal. */
+  template <int dim>
+  double
+  largest_stretch_bound(const Tensor<2, dim> &A)
+  {
+    const SymmetricTensor<2, dim> square   = symmetrize(A * transpose(A));
+    const double                  mean     = trace(square) / dim;
+    constexpr double              rounding = 1e-9;
+    return (1. + rounding) * std::sqrt(mean + std::sqrt((dim - 1.) / dim) *
+                                                deviator(square).norm());
+  }
+
   /**
    * The box x + A ξ, ξ in [-1/2, 1/2]^dim, that a cell occupies, and its
    * quadrature points. There is one in the middle. There are several per edge
@@ -93,17 +107,11 @@ namespace Morula
       return std::sqrt(std::isfinite(largest) ? largest : trace(square) / dim);
     }
 
-    /** A bound of length(), µm, which needs no eigenvalues: the largest one of
-     *  a symmetric tensor S is at most tr S/d + √((d-1)/d) |dev S|. */
+    /** A bound of length(), µm: see largest_stretch_bound(). */
     double
     length_bound() const
     {
-      const SymmetricTensor<2, dim> square =
-        symmetrize(edges * transpose(edges));
-      const double     mean     = trace(square) / dim;
-      constexpr double rounding = 1e-9;
-      return (1. + rounding) * std::sqrt(mean + std::sqrt((dim - 1.) / dim) *
-                                                  deviator(square).norm());
+      return largest_stretch_bound(edges);
     }
 
     /**
@@ -212,6 +220,44 @@ namespace Morula
     const Point<dim> x;
     const double     V, side_;
     Tensor<2, dim>   edges;
+  };
+
+  /** A cube and how it is deformed: a ParticleDomain whose place does not
+   *  matter yet. Most passes over cells need bounds alone, which spare the root
+   *  of the volume. */
+  template <int dim>
+  struct DeformedCube
+  {
+    /** Of the cube, µm^dim. */
+    double         volume;
+    Tensor<2, dim> deformation;
+
+    /** The domain at @p x, µm. */
+    ParticleDomain<dim>
+    at(const Point<dim> &x) const
+    {
+      return {x, std::pow(volume, 1. / dim) * deformation};
+    }
+
+    /** Whether ParticleDomain::length() is at most @p length, µm. False may
+     *  also be said of a cell that is a little shorter. */
+    bool
+    is_within_length(const double length) const
+    {
+      const auto power = [](const double base) {
+        return dim == 2 ? base * base : base * base * base;
+      };
+      return volume * power(largest_stretch_bound(deformation)) <=
+             power(length);
+    }
+
+    /** Whether ParticleDomain::bounds() reach at most @p distance from x, µm;
+     *  false may be said as above. Half a diagonal is √d/2 lengths. */
+    bool
+    is_within(const double distance) const
+    {
+      return is_within_length(2. / std::sqrt(1. * dim) * distance);
+    }
   };
 } // namespace Morula
 

@@ -41,11 +41,19 @@ namespace Morula
     void
     add(const ParticleDomain<dim> &cell);
 
+    /** The same, of a cell at @p x, µm. Cheap, unless it may be the longest. */
+    void
+    add(const Point<dim> &x, const DeformedCube<dim> &cell);
+
     /** The result over all ranks. Collective. */
     CellLengths
     over_all_ranks(const MPI_Comm comm) const;
 
   private:
+    /** Longer than this is too long, µm. */
+    double
+    limit() const;
+
     double        h;
     double        longest = 0.; // µm
     Point<dim>    place;

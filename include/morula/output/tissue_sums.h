@@ -42,7 +42,7 @@ namespace Morula
   public:
     /** Adds one of this rank's cells. */
     void
-    add_cell(const CellQuantities &quantities, const Point<dim> &position);
+    add_cell(const CellScalars &quantities, const Point<dim> &position);
 
     /** Adds one of this rank's boundary points. */
     void

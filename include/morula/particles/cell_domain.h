@@ -10,23 +10,27 @@
 namespace Morula
 {
   /**
-   * The box of volume V around a cell at @p x (µm), deformed as the cell is:
-   * doc/theory.md (2.2b). Where cells proliferate, only their elastic
-   * deformation counts: a cell that grows to double length and divides leaves
-   * two of the shape that it had, though F stays doubled.
+   * The box of volume V around a cell, deformed as the cell is: doc/theory.md
+   * (2.2b). Where cells proliferate, only their elastic deformation counts: a
+   * cell that grows to double length and divides leaves two of the shape that
+   * it had, though F stays doubled.
    */
+  template <int dim>
+  DeformedCube<dim>
+  cell_shape(const CellView<dim, const double> &cell)
+  {
+    if (!cell.columns().parent.exists())
+      return {cell.initial_volume(), cell.F()};
+    return {cell.initial_volume() * determinant(cell.growth()),
+            cell.elastic_deformation()};
+  }
+
+  /** The same around @p x, µm. */
   template <int dim>
   ParticleDomain<dim>
   cell_domain(const Point<dim> &x, const CellView<dim, const double> &cell)
   {
-    if (!cell.columns().parent.exists())
-      return ParticleDomain<dim>(x,
-                                 std::pow(cell.initial_volume(), 1. / dim) *
-                                   cell.F());
-    const double grown = cell.initial_volume() * determinant(cell.growth());
-    return ParticleDomain<dim>(x,
-                               std::pow(grown, 1. / dim) *
-                                 cell.elastic_deformation());
+    return cell_shape<dim>(cell).at(x);
   }
 } // namespace Morula
 

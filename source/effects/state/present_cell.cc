@@ -145,6 +145,16 @@ namespace Morula
 
 
   template <int dim>
+  CellScalars
+  PresentCell<dim>::scalars() const
+  {
+    return has_quantities ?
+             quantities_ :
+             cell_scalars(cell_, reader_.material.material(), lame());
+  }
+
+
+  template <int dim>
   const CellQuantities &
   PresentCell<dim>::quantities() const
   {

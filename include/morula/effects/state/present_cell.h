@@ -102,6 +102,10 @@ namespace Morula
     Tensor<2, dim>
     elastic() const;
 
+    /** Volumes and Ψ: cheaper than quantities(). */
+    CellScalars
+    scalars() const;
+
     /** Volumes, Ψ and the true stress σ, kPa. */
     const CellQuantities &
     quantities() const;

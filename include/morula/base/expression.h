@@ -23,7 +23,7 @@ namespace Morula
 
   class ExpressionParser;
 
-  /** What the values of an expression must be. */
+  /** A condition on the values of an expression. */
   struct ExpressionRule
   {
     std::function<bool(const double)> holds;
@@ -36,15 +36,15 @@ namespace Morula
   /**
    * A user's muParser expression, with one or more components separated by ';'.
    * Its variables are those of its vocabulary: X, Y, Z (a founder's or a
-   * boundary point's initial position, µm) and t (day), or more where it speaks
-   * of a present cell. In 2-D there is no Z and no z. Functions and operators
-   * are those of deal.II's FunctionParser; `pi` is defined. So are hill(s,
-   * half, n), ramp(s, a, b) and, where there is a noise, normal(mean,
-   * deviation). Plain numbers are recognised and cost little to evaluate.
-   * Copies share the parser; evaluation is not thread-safe.
+   * boundary point's initial position, µm) and t (day), and more if it is
+   * evaluated for a present cell. In 2-D there is no Z and no z. Functions and
+   * operators are those of deal.II's FunctionParser; `pi` is defined. So are
+   * hill(s, half, n), ramp(s, a, b) and, if the vocabulary has `noise`,
+   * normal(mean, deviation). Plain numbers are recognised and cost little to
+   * evaluate. Copies share the parser; evaluation is not thread-safe.
    *
-   * What muParser would take silently for something else is refused: a comma
-   * outside parentheses, an assignment, a chain such as 0 < X < 5. So is
+   * It refuses text that muParser would silently misread: a comma outside
+   * parentheses, an assignment, a chain such as 0 < X < 5. It also refuses
    * rand(), whose value would depend on the order of evaluation.
    */
   class Expression
@@ -54,8 +54,8 @@ namespace Morula
      * @param key full path of the key, for error messages
      * @param n_components largest number of components
      * @param min_components smallest number of components; if not given, there
-     *        must be exactly @p n_components. A vector in dim dimensions is
-     *        (3, dim): in 2-D a third component may stand there and is ignored
+     *        must be exactly @p n_components. For a vector pass 3 and dim: in
+     *        2-D a third component is allowed and ignored
      * @throws InputError if the text is not a valid expression or has another
      *         number of components
      */
@@ -66,14 +66,14 @@ namespace Morula
       const unsigned int min_components = numbers::invalid_unsigned_int,
       const Vocabulary  &vocabulary     = place_and_time());
 
-    /** The same expression, but others for some types of cells, by the type's
-     *  number. */
+    /** This expression, with another one for each type of cells in @p of_types,
+     *  by the type's number. */
     Expression
     with_types(const std::map<unsigned int, Expression> &of_types) const;
 
     /**
-     * The value of one component at the initial position @p X and time @p t, of
-     * an expression that speaks of no more.
+     * The value of one component at the initial position @p X (µm) and time
+     * @p t (day). The expression must use no other variables.
      * @throws InputError if the value is not finite, or if Z occurs in 2-D
      */
     template <int dim>
@@ -90,7 +90,7 @@ namespace Morula
     Tensor<1, dim>
     vector(const Point<dim> &X, const double t) const;
 
-    /** Sets what value() requires of cells. */
+    /** Sets the rule that values for cells must obey. */
     void
     set_rule(const ExpressionRule &rule);
 
@@ -99,7 +99,7 @@ namespace Morula
     double
     value(const VariableValues &values, const unsigned int component = 0) const;
 
-    /** The variables in the text, or in that of any type. */
+    /** The variables in the text and in the texts of types. */
     const std::vector<Variable> &
     used() const;
 
@@ -107,11 +107,11 @@ namespace Morula
     bool
     uses(const Variable variable) const;
 
-    /** What variables are called in the text. */
+    /** The variables that the text may use, and their names. */
     const Vocabulary &
     vocabulary() const;
 
-    /** Whether it speaks of more than X, Y, Z and t. */
+    /** Whether it uses other variables than X, Y, Z and t. */
     bool
     depends_on_state() const;
 
@@ -124,12 +124,12 @@ namespace Morula
     bool
     is_always(const double number, const unsigned int n_components = 1) const;
 
-    /** The first component, if all of this text are plain numbers, whatever the
-     *  types' are. */
+    /** The first component, if this text has only plain numbers. The texts of
+     *  types do not count. */
     std::optional<double>
     plain_number() const;
 
-    /** The expressions of types that have another one. */
+    /** The expressions of types that have one of their own. */
     const std::map<unsigned int, Expression> &
     types() const;
 
@@ -139,7 +139,7 @@ namespace Morula
 
     /**
      * Refuses Z and z in two dimensions: they would be 0 at all cells, and Z >
-     * 40 would hold nowhere without a word.
+     * 40 would silently hold nowhere.
      * @throws InputError
      */
     void
@@ -154,7 +154,7 @@ namespace Morula
     text() const;
 
   private:
-    /** The value, whatever the rule says. @throws InputError */
+    /** The value, without a check of the rule. @throws InputError */
     double
     evaluate(const VariableValues &values, const unsigned int component) const;
 

@@ -16,7 +16,8 @@
 
 namespace Morula
 {
-  /** When the expression of a key is evaluated, and so what it can speak of. */
+  /** When the expression of a key is evaluated. That decides which variables it
+   *  may use. */
   enum class Evaluated
   {
     /** Once, for a founder or a boundary point at t = 0: X, Y, Z. */
@@ -24,16 +25,17 @@ namespace Morula
     /** In every step, at its end, for a place on the surface or in the body: X,
      *  Y, Z, t. */
     place,
-    /** When something happens to a cell: all variables, of that moment. */
+    /** When something happens to a cell: all variables, with their values then.
+     */
     event,
-    /** In every step: all variables, of its beginning. */
+    /** In every step: all variables, with their values at its beginning. */
     step,
-    /** In every step, for what the stress depends on: no variables that depend
-     *  on the deformation. */
+    /** In every step, for a property on which the stress depends: no variables
+     *  that depend on the deformation. */
     property
   };
 
-  /** What an expression can speak of. */
+  /** The variables that an expression may use. */
   const std::vector<Variable> &
   variables_of(const Evaluated evaluated);
 
@@ -55,7 +57,7 @@ namespace Morula
                   const Evaluated    evaluated,
                   const unsigned int n_components = 1);
 
-    /** Refuses values <= 0: plain numbers at once, others where they occur.
+    /** Refuses values <= 0: plain numbers at once, others when they occur.
      *  @param unit e.g. "kPa", for the message */
     ExpressionKey &
     positive(const std::string &unit, const std::string &remedy);
@@ -74,8 +76,8 @@ namespace Morula
     ExpressionKey &
     symbol(const std::string &symbol);
 
-    /** Takes plain numbers separated by commas, too: a list was the value of
-     *  the key before it was an expression. */
+    /** Also accepts plain numbers separated by commas: the key was a list
+     *  before it became an expression. */
     void
     admit_commas();
 
@@ -87,8 +89,8 @@ namespace Morula
     ExpressionKey &
     operator=(const double number);
 
-    /** The largest of the plain numbers that stand for any type of cell; none
-     *  if there are only expressions. */
+    /** The largest of the plain numbers that it has for the types of cells;
+     *  none if there are only expressions. */
     std::optional<double>
     largest_number(const unsigned int dim) const;
 
@@ -96,30 +98,31 @@ namespace Morula
     Evaluated
     evaluated() const;
 
-    /** Whether it is evaluated for cells again and again, so that it may speak
-     *  of their types, and be another one for some types. */
+    /** Whether it is evaluated for cells during the run. Then it may use their
+     *  types, and may differ between types. */
     bool
     is_of_cells() const;
 
-    /** Names that the text may have: the types of cells, with their numbers. */
+    /** Sets names that the text may use: the types of cells, with their
+     *  numbers. */
     void
     set_types(const std::map<std::string, double> &types);
 
-    /** Names of the fields of the scene, by number. A text that is evaluated
-     *  at an event or in a step may have them. */
+    /** Sets the names of the scene's fields, by number. A text that is
+     *  evaluated at an event or in a step may use them. */
     void
     set_fields(const std::vector<std::string> &names);
 
-    /** The names of fields that the text may have. */
+    /** The names of fields that the text may use. */
     const std::vector<std::string> &
     field_names() const;
 
-    /** The key in the section of a type of cells, where it is empty if the type
+    /** The same key in the section of a type of cells. It is empty if the type
      *  has no value of its own. */
     ExpressionKey
     in_section_of_type(const std::string &section) const;
 
-    /** Takes another text for cells of a type, by its number.
+    /** Sets another text for the cells of a type, which is given by its number.
      *  @param path of the key that says so */
     virtual void
     set_for_type(const unsigned int type,

@@ -43,7 +43,7 @@ namespace Morula
     const std::vector<Variable> &
     used() const;
 
-    /** The value, which may be infinite or no number. */
+    /** The value, which may be infinite or NaN. */
     double
     value(const VariableValues &values) const;
 

@@ -17,7 +17,7 @@ namespace Morula::ExpressionSyntax
   bool
   uses(const std::string &text, const std::string &name);
 
-  /** A component as muParser reads it well. */
+  /** A component, rewritten so that muParser reads it correctly. */
   struct Readable
   {
     std::string text;
@@ -27,18 +27,19 @@ namespace Morula::ExpressionSyntax
   };
 
   /**
-   * One component with a blank behind each && and ||: deal.II adds the
-   * operators & and | to muParser's own, which then reads the || of X<1||Y<1 as
-   * | and |Y. Without blanks between a function and its parenthesis, where
-   * muParser allows none. And with normal(noise, a, b) for normal(a, b).
+   * Rewrites one component for muParser. It puts a blank behind each && and ||:
+   * deal.II adds the operators & and | to muParser's own, which then reads the
+   * || of X<1||Y<1 as | and |Y. It removes blanks between a function and its
+   * parenthesis, since muParser allows none there. It writes normal(noise, a,
+   * b) for normal(a, b).
    */
   Readable
   readable(const std::string &component);
 
   /**
-   * What muParser would accept in one component although it means something
-   * else than it seems to: a full sentence with the position and the remedy;
-   * empty if there is nothing of the kind.
+   * Looks in one component for text that muParser would accept but misread.
+   * Returns a full sentence with the position and the remedy; empty if there is
+   * none.
    */
   std::string
   misunderstanding(const std::string &component);

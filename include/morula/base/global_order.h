@@ -27,11 +27,11 @@ namespace Morula
 
   namespace Implementation
   {
-    /** Keys that a rank shows to all others. */
+    /** Largest number of keys that a rank shows to all others. */
     constexpr std::size_t n_samples = 32;
 
-    /** At most n_samples of @p sorted keys, evenly spread; all, if these are
-     *  not more. */
+    /** At most n_samples of @p sorted keys, evenly spread; all keys if there
+     *  are no more. */
     template <typename Key>
     std::vector<Key>
     samples_of(const std::vector<Key> &sorted)
@@ -45,9 +45,9 @@ namespace Morula
       return samples;
     }
 
-    /** Keys that cut the whole into a part for each rank, about equal ones:
-     *  rank r orders those from splitter r - 1 up to splitter r. A sample
-     *  stands for as many keys as its rank has for each. */
+    /** Keys that cut the order of all keys into about equal parts, one for each
+     *  rank: rank r orders the keys from splitter r - 1 up to splitter r. A
+     *  sample counts as many keys as its rank has per sample. */
     template <typename Key>
     std::vector<Key>
     splitters(const std::vector<std::vector<Key>> &samples,
@@ -87,7 +87,7 @@ namespace Morula
       return places;
     }
 
-    /** All in one. */
+    /** All keys of the parts, sorted. */
     template <typename Key>
     std::vector<Key>
     sorted_union(const std::vector<std::vector<Key>> &parts)
@@ -129,14 +129,15 @@ namespace Morula
   } // namespace Implementation
 
   /**
-   * Where each of this rank's @p keys stands in the order of all ranks' keys:
-   * the same on any number of ranks, whichever of them has which key. Equal
-   * keys have the same place. Collective.
+   * Where each of this rank's @p keys stands in the order of all ranks' keys.
+   * The place does not depend on the number of ranks or on which rank has which
+   * key. Equal keys have the same place. Collective.
    *
    * A sample sort: no rank ever holds more than about its share of the keys.
-   * Each shows at most 32 to the others; these say which rank orders which
-   * interval, its keys go there, and the places come back. Few keys are all
-   * shown, and nothing needs to be sent.
+   * Each rank shows at most 32 samples to the others. The samples decide which
+   * rank orders which interval; its keys go there, and the places come back. If
+   * no rank has more than 32 keys, all keys are shown and none needs to be
+   * sent.
    * @tparam Key trivially copyable, with operator< and Boost's serialize()
    */
   template <typename Key>

@@ -20,8 +20,8 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * One key of a .prm file, with all that is known about it. Copies stand for
-   * themselves. The typed keys below add the value.
+   * One key of a .prm file, with all that is known about it. Copies are
+   * independent of each other. The typed keys below add the value.
    */
   class AnyKey
   {
@@ -48,15 +48,15 @@ namespace Morula
     std::string
     unit() const;
 
-    /** How --explain calls the key: its symbol, or its name. */
+    /** What --explain calls the key: its symbol, or its name. */
     std::string
     short_name() const;
 
-    /** The texts that values of `Method` give the key, by these. */
+    /** The texts that the key gets from values of `Method`, by these values. */
     const std::map<std::string, std::string> &
     texts_with_methods() const;
 
-    /** Adds a sentence, for what a program adds to the key. */
+    /** Adds a sentence about what a program adds to the key. */
     void
     add_documentation(const std::string &text);
 
@@ -73,7 +73,7 @@ namespace Morula
     virtual void
     assign(const std::string &text) = 0;
 
-    /** What deal.II lets through. */
+    /** The pattern that deal.II lets through. */
     virtual std::unique_ptr<Patterns::PatternBase>
     pattern() const = 0;
 
@@ -81,7 +81,7 @@ namespace Morula
     virtual std::string
     allowed() const = 0;
 
-    /** The words among which the value, or each of its list, is chosen. */
+    /** The words from which the value, or each entry of a list, is chosen. */
     virtual std::vector<std::string>
     choices() const;
 
@@ -96,7 +96,7 @@ namespace Morula
     virtual void
     check(const unsigned int dim) const;
 
-    /** Whether the value is the default, whatever way it is written. */
+    /** Whether the value is the default, in whatever way it is written. */
     bool
     is_default() const;
 
@@ -140,31 +140,31 @@ namespace Morula
   {
     std::string words = {}; // "first|second"; empty: any text
   };
-  /** Numbers from a smallest one on. */
+  /** Numbers not below the smallest. */
   template <>
   struct Limits<double>
   {
     double smallest = Patterns::Double::min_double_value;
   };
-  /** Integers between two. */
+  /** Integers from the smallest to the largest. */
   template <>
   struct Limits<unsigned int>
   {
     int smallest = 0;
     int largest  = Patterns::Integer::max_int_value;
   };
-  /** Both values. */
+  /** True and false; there is nothing to limit. */
   template <>
   struct Limits<bool>
   {};
-  /** Between two numbers of numbers. */
+  /** Lists of numbers, from the fewest to the most. */
   template <>
   struct Limits<std::vector<double>>
   {
     unsigned int fewest = 0;
     unsigned int most   = Patterns::List::max_int_value;
   };
-  /** Some words, at least one. */
+  /** Lists of at least one word; the words as in Limits<std::string>. */
   template <>
   struct Limits<std::vector<std::string>>
   {
@@ -277,7 +277,7 @@ namespace Morula
             const std::string                    &allowed,
             const std::string                    &remedy);
 
-    /** Names the value that the key has with a value of `Method`. */
+    /** Sets the text that the key gets from a value of `Method`. */
     Key &
     with(const std::string &method, const std::string &text);
 
@@ -322,13 +322,13 @@ namespace Morula
     };
 
     T                 value_;
-    T                 assigned; // what text_ says
+    T                 assigned; // the value of text_
     std::string       text_;
     Limits<T>         limits;
     std::vector<Rule> rules;
   };
 
-  // Numbers are compared by themselves; the others need to be told.
+  // Numbers compare by the conversion to T; these types need operators.
 
   /** Compares the values. */
   inline bool

@@ -12,7 +12,7 @@
 
 namespace Morula
 {
-  /** The names in a list, which commas separate, without blanks around them. */
+  /** The names in a comma-separated list, without blanks around them. */
   std::vector<std::string>
   split_names(const std::string &text);
 

@@ -46,8 +46,9 @@ namespace Morula
     bool
     has_section(const std::string &path) const;
 
-    /** Whether the statement would make sense without the innermost ones of
-     *  the subsections around it: which of these lacks its end; or nothing. */
+    /** Looks for a subsection around the statement that lacks its end: without
+     *  it and those inside it, the statement would be known. Returns a sentence
+     *  about it; empty if there is none. */
     std::string
     missing_end(const Statement &statement) const;
 

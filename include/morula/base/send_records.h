@@ -15,8 +15,8 @@ namespace Morula
 {
   namespace Bytes
   {
-    /** The bytes of some records: deal.II wants a serialize() of other types
-     *  than its own, though it copies their bytes, too. */
+    /** The bytes of some records. deal.II would demand a serialize() of each
+     *  type of record, though it copies only bytes, too. */
     template <typename Record>
     std::vector<char>
     of(const std::vector<Record> &records)

@@ -10,9 +10,9 @@ namespace Morula
 {
   /**
    * The step cannot be done with this dt: no convergence, linear solver
-   * failure, or inversion. It means "retry smaller" and is thrown on all ranks
-   * together, or by an action of everywhere(); every other exception ends the
-   * run.
+   * failure, or inversion. It means "retry with a smaller dt". It is thrown on
+   * all ranks together, or by an action of everywhere(); every other exception
+   * ends the run.
    */
   class StepFailed : public std::runtime_error
   {

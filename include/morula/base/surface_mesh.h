@@ -31,16 +31,17 @@ namespace Morula
   {
     /** Distance of the place, µm; negative inside. */
     double distance;
-    /** Unit vector from there away from the surface, towards the outside. */
+    /** Gradient of the distance: a unit vector along the line through the place
+     *  and the nearest point, towards the outside. */
     Tensor<1, 3> direction;
-    /** Second derivative of the distance, per µm: 0 beside a triangle, not
-     *  beside an edge or a vertex. */
+    /** Second derivative of the distance, per µm: 0 if the nearest point is
+     *  inside a triangle, not 0 if it is on an edge or a vertex. */
     Tensor<2, 3> curvature;
   };
 
   /**
    * A closed surface of triangles, read from a file, and the space inside it.
-   * CGAL is used inside this class only.
+   * CGAL does the work, but does not appear in this interface.
    */
   class SurfaceMesh
   {

@@ -8,7 +8,7 @@
 
 namespace Morula
 {
-  /** Times closer than this part of a step are equal. */
+  /** Times closer than this fraction of a step count as equal. */
   constexpr double time_slack = 1e-9;
 
   /** Section "Time". */
@@ -24,11 +24,11 @@ namespace Morula
     /** Path of the key that sets the step, for effects that refuse it. */
     static inline const std::string step_path = "Time/Step";
 
-    /** Times closer than this are equal, day. */
+    /** Times closer than this count as equal, day. */
     double
     slack() const;
 
-    /** Refuses times that contradict each other, too. @throws InputError */
+    /** Also refuses times that contradict each other. @throws InputError */
     void
     check() const;
 

@@ -11,8 +11,8 @@
 
 namespace Morula
 {
-  /** What expressions can have as variables. The names in scenes are those of
-   *  the enumerators; doc/glossary.md lists their units. */
+  /** The variables of expressions. The names in scenes are those of the
+   *  enumerators; doc/glossary.md lists their units. */
   enum class Variable : unsigned int
   {
     /** Initial position of a founder or boundary point, µm. */
@@ -29,7 +29,7 @@ namespace Morula
     generation,
     /** Time since birth, day. */
     age,
-    /** Time since the cell has had its type, day. */
+    /** Time since the cell took its type, day. */
     type_age,
     /** As the column `phase` of cells-NNNN.csv. */
     cycle_phase,
@@ -59,7 +59,7 @@ namespace Morula
   constexpr unsigned int n_variables =
     static_cast<unsigned int>(Variable::noise) + 1;
 
-  /** As many fields can a scene have. */
+  /** Largest number of fields in a scene. */
   constexpr unsigned int most_fields = 32;
 
   /** The variable that is the value of field number @p k of the scene at the
@@ -84,14 +84,14 @@ namespace Morula
     return static_cast<unsigned int>(variable) - n_variables;
   }
 
-  /** A value for each variable; what an expression does not use is not read. */
+  /** A value for each variable. An expression reads only those that it uses. */
   using VariableValues = std::array<double, n_variables + most_fields>;
 
   /** Name in scenes of a variable that is no field. */
   const char *
   name_of(const Variable variable);
 
-  /** What an expression may speak of. */
+  /** The variables and named numbers that an expression may use. */
   struct Vocabulary
   {
     std::vector<Variable> variables;
@@ -113,7 +113,7 @@ namespace Morula
     names() const;
   };
 
-  /** X, Y, Z and t: what is known of any place at any time. */
+  /** X, Y, Z and t: the variables that every place has at every time. */
   const Vocabulary &
   place_and_time();
 } // namespace Morula

@@ -17,7 +17,7 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Where cells are, and how large. */
+  /** Places and volumes of all cells. */
   template <int dim>
   struct AllCells
   {
@@ -26,17 +26,16 @@ namespace Morula
 
     const std::vector<Point<dim>> positions; // µm
     const std::vector<double>     volumes;   // µm^dim
-    /** Of all of them, µm^dim. */
+    /** Sum of the volumes, µm^dim. */
     double volume;
-    /** Of the mean cell, µm; 0 if there are no cells. */
+    /** Length of the mean cell, µm; 0 if there are no cells. */
     double length;
   };
 
   /**
    * The part of space that cells fill, smoothed: each cell spreads its volume
-   * as a Gaussian. Of cells side by side on a lattice, whatever its
-   * direction, it is 1 inside, to 0.5 %, and 1/2 where they end:
-   * doc/theory.md (1.9).
+   * as a Gaussian. For cells side by side on a lattice of any direction it is 1
+   * inside, to 0.5 %, and 1/2 at the surface: doc/theory.md (1.9).
    */
   template <int dim>
   class Filling
@@ -49,7 +48,7 @@ namespace Morula
     std::pair<double, Tensor<1, dim>>
     value_and_gradient(const Point<dim> &x) const;
 
-    /** The upper quartile over some cells: what it is inside. */
+    /** Its value inside the tissue: the upper quartile over some cells. */
     double
     inside() const;
 

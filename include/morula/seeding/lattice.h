@@ -33,7 +33,7 @@ namespace Morula
     std::uint64_t
     n_sites() const;
 
-    /** Position of a site, µm; equal to the last bit for any number of ranks.
+    /** Position of a site, µm; the same to the last bit on any number of ranks.
      */
     Point<dim>
     position(std::uint64_t site) const;

@@ -10,17 +10,17 @@
 
 namespace Morula
 {
-  /** Farther from the origin, in units of h, there are no grid cells: they are
-   *  counted by integers, and positions lose their digits. */
+  /** Largest distance from the origin, in units of h. Farther out positions
+   *  lose their digits, and grid cells are counted by integers. */
   constexpr double farthest_place = 1e8;
 
-  /** Longest tissue along an axis, in units of h. A box of so many grid cells
-   *  in all directions is more than any machine holds; along one direction it
-   *  is some metres of tissue, and nearly always one point that lies astray. */
+  /** Longest tissue along an axis, in units of h. A box of this length in all
+   *  directions is more than any machine holds. In one direction it is some
+   *  metres of tissue, and nearly always due to a single stray point. */
   constexpr double longest_tissue = 1000.;
 
-  /** Longest cell, in units of h: it deforms as a whole, and takes the power
-   *  dim of this number of quadrature points. */
+  /** Longest cell, in units of h. A cell deforms as a whole, and one of this
+   *  length takes longest_cell^dim quadrature points. */
   constexpr double longest_cell = 10.;
 
   /**

@@ -12,7 +12,8 @@
 
 namespace Morula
 {
-  /** How many bodies there are, and how many pieces the grid makes of them. */
+  /** The number of bodies, and the number of pieces that the grid makes of
+   *  them. */
   struct BodyCounts
   {
     /** Groups of founders with a gap of two cells or more between them. */
@@ -35,8 +36,8 @@ namespace Morula
                const MPI_Comm        comm);
 
   /**
-   * Warns of bodies that stick together from the start, as they stand within a
-   * grid spacing of each other. Only shapes that come from a file can be
+   * Warns of bodies that stick together from the start, because they are within
+   * a grid spacing of each other. Only shapes that come from a file can be
    * several bodies. Collective.
    */
   template <int dim>

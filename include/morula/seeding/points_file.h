@@ -18,7 +18,7 @@ namespace Morula
    * Reads this rank's part of the cells in a CSV file. Its header line names
    * the columns in any order: x, y, in 3-D z, in µm, volume, in µm^dim,
    * generation and phase. Without a column of volumes every cell has @p
-   * default_volume. In 2-D a column z is allowed if all of it is zero. Blank
+   * default_volume. In 2-D a column z is allowed if it holds only zeros. Blank
    * lines and lines that begin with # are skipped. The order of the rows is the
    * order of the ids. Every rank reads only its share of the file. Collective.
    * @throws InputError on all ranks with the file's first bad line: values that

@@ -24,7 +24,7 @@ namespace Morula
 
     /** Counted from 1; no_line if nothing is wrong. */
     std::uint64_t line = no_line;
-    /** As the arguments of InputError. */
+    /** The arguments of InputError. */
     std::string value, allowed, remedy;
   };
 
@@ -52,9 +52,8 @@ namespace Morula
 
   /**
    * The meaning of each column that the header line @p text names: 0, 1, 2 for
-   * x, y, z, 3 for the volume, 4 for the generation,
-   * 5 for the phase, 6 for the type. If the names are wrong,
-   * sets @p problem but for its line.
+   * x, y, z, 3 for the volume, 4 for the generation, 5 for the phase, 6 for the
+   * type. If the names are wrong, sets @p problem, except its line.
    */
   template <int dim>
   std::vector<unsigned int>

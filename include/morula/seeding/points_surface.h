@@ -37,9 +37,9 @@ namespace Morula
   /**
    * The same surface around cells at these positions (µm) with these volumes
    * (µm^dim), in patches of about @p patch_area (µm^(dim-1)).
-   * @return nothing where the cells have no common surface: it would enclose
-   * less than half or more than twice their volume, or have more parts than
-   * half the cells
+   * @return nothing if the cells have no common surface: it would enclose less
+   * than half or more than twice their volume, or have more parts than half the
+   * cells
    */
   template <int dim>
   std::optional<SurfacePatches<dim>>

@@ -22,8 +22,8 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** Paths of the keys that name files: reading the files, one knows no more
-   *  of the scene. */
+  /** Paths of the keys that name files. The code that reads the files sees no
+   *  more of the scene. */
   namespace TissueKeys
   {
     inline const std::string surface_mesh = "Tissue/Surface mesh";
@@ -102,7 +102,8 @@ namespace Morula
     types::particle_index   n_global = 0;
     /** Divisions since the founder; empty if the file does not say. */
     std::vector<unsigned int> generations;
-    /** Of the cell cycle: 0 G0, 1 S, 2 G2, 4 G1, 9 never; empty likewise. */
+    /** Phases of the cell cycle: 0 G0, 1 S, 2 G2, 4 G1, 9 never; empty
+     *  likewise. */
     std::vector<unsigned int> phases;
     /** Numbers of their types, in the order of SeedingLimits::types; empty
      *  likewise. */
@@ -125,10 +126,10 @@ namespace Morula
   };
 
   /**
-   * How far a tissue from a file may reach, how large its cells may be, and of
-   * what types.
-   * With one vertex or cell far away from all others, the grid between them
-   * would not fit into memory. Lengths in µm.
+   * Limits of a tissue from a file: how far it may reach, how large its cells
+   * may be, and which types they may have. With one vertex or cell far away
+   * from all others, the grid between them would not fit into memory. Lengths
+   * in µm.
    */
   template <int dim>
   struct SeedingLimits

@@ -23,7 +23,7 @@ namespace Morula
   template <int dim>
   struct SurfacePatch
   {
-    /** Centre: a point on the surface, but on no edge or corner of it; µm. */
+    /** Centre: a point of the surface that is on no edge or corner; µm. */
     Point<dim> position;
     /** Outward unit normal. */
     Tensor<1, dim> normal;
@@ -82,7 +82,7 @@ namespace Morula
   std::unique_ptr<Shape<dim>>
   make_shape(const TissueParameters &parameters);
 
-  /** The first dim numbers of those that the user gave for a point or vector.
+  /** The first dim of the numbers that the user gave for a point or vector.
    */
   template <int dim>
   Point<dim>

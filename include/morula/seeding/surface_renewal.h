@@ -16,20 +16,20 @@ namespace Morula
 {
   /**
    * The boundary points of a surface that is made anew around the cells, as
-   * around cells from a file: see surface_around(). Its patches are as large as
-   * points shall be (BoundaryView::wanted_area()), have F = 1, and take over
-   * from the nearest former point what holds or loads it, and the initial
-   * positions by which that is asked. Held points (fixed, slip) stay as they
-   * are, instead of the patches beside them. doc/theory.md, section 4.5. Rank 0
+   * around cells from a file: see surface_around(). Its patches have the area
+   * that points shall have (BoundaryView::wanted_area()) and F = 1. Each takes
+   * over the conditions of the nearest former point, and the initial position
+   * for which these are evaluated. Held points (fixed, slip) stay as they are
+   * and replace the patches beside them. doc/theory.md, section 4.5. Rank 0
    * makes the surface: it does not depend on the number of ranks. Collective.
    *
    * @param cells   in their places
    * @param former  this rank's points before the step lost any
    * @param present this rank's points now
-   * @param columns of boundary points, of a scene that coarsens the surface
+   * @param columns of the boundary points; the scene must coarsen the surface
    * @param longest_edge of a patch, µm
    * @param next_id is raised by the number of new points
-   * @return the points, all of them on rank 0; nothing where the cells have no
+   * @return the points, all of them on rank 0; nothing if the cells have no
    * common surface, or never had one
    */
   template <int dim>

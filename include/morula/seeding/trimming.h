@@ -20,8 +20,8 @@ namespace Morula
    * of the boxes around it are considered. So the volumes add up to the shape's
    * volume, to the accuracy of the sampling (5e-5 of it at six cells per
    * radius); without trimming every founder has the volume of a lattice box.
-   * Parts of the shape farther from any site, such as thin spikes, belong to no
-   * founder.
+   * Parts of the shape that are farther from every site, such as thin spikes,
+   * belong to no founder.
    * @param sites    the sites of @p founders, ascending
    * @return false if a founder's part is too thin to be sampled; then
    * @p founders must not be used

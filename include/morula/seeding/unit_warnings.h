@@ -12,9 +12,9 @@
 namespace Morula
 {
   /**
-   * Asks whether the file of a tissue is in
-   * um: points whose nearest neighbours are nearer or farther than cells are
-   * long, and meshes of few cells. Collective.
+   * Warns if the file of a tissue seems not to be in µm: the nearest neighbours
+   * of points are nearer or farther than cells are long, or a mesh holds few
+   * cells. Collective.
    */
   template <int dim>
   void

@@ -25,13 +25,13 @@ namespace Morula
     bool
     contains(const Point<dim> &x, const double clearance) const override;
 
+    double
+    volume() const override;
+
     /**
      * Exact: 4 pi R_G(a²b², a²c², b²c²) with Carlson's symmetric elliptic
      * integral (DLMF 19.33.1); in 2-D 4 a E(k), k² = 1 - b²/a².
      */
-    double
-    volume() const override;
-
     double
     surface_area() const override;
 

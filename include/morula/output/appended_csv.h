@@ -16,7 +16,7 @@
 
 namespace Morula
 {
-  /** How much of a table a snapshot keeps. */
+  /** How much of a table stays when a run is resumed from a snapshot. */
   struct TableExtent
   {
     std::uint64_t n_rows = 0; // below the header

@@ -23,7 +23,7 @@ namespace Morula
   public:
     /**
      * @param time           day
-     * @param n_cells        as many as will be added
+     * @param n_cells        number of cells that will be added
      * @param columns        of the cells
      * @param has_checkpoint whether there is a column of the cells that the
      *                       size checkpoint holds
@@ -39,7 +39,7 @@ namespace Morula
      * Adds one cell of this rank.
      * @param position current, µm
      * @param phase    number as in the file; 9: does not proliferate
-     * @param held     at the size checkpoint; nowhere without one
+     * @param held     whether the size checkpoint holds it; false without one
      */
     void
     add(const types::particle_index        id,

@@ -16,9 +16,9 @@ namespace Morula
 {
   /**
    * Writes one CSV file for all ranks: a header, then the rows in the order of
-   * their ids, so that the file is equal for any number of ranks. The file
+   * their ids, so that the file is the same for any number of ranks. The file
    * appears when it is complete. Collective.
-   * @param shared_from size of a file, bytes, from which on all ranks write it
+   * @param shared_from size, bytes, from which on all ranks write the file
    *        together if the file system allows that; else rank 0 does
    * @throws std::runtime_error, on all ranks, with path and reason
    */

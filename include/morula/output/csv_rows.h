@@ -18,8 +18,8 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * Appends @p value as printf's `%.10g` does in the C locale, whatever the
-   * locale is; a negative zero loses its sign.
+   * Appends @p value as printf's `%.10g` does in the C locale, in any locale; a
+   * negative zero loses its sign.
    */
   void
   append_number(std::string &text, const double value);

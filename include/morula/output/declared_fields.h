@@ -12,25 +12,25 @@
 namespace Morula
 {
   /**
-   * What effects want of their columns in the tables of cells or boundary
-   * points: behind the table's own columns, in the order of their declaration.
-   * A vector NAME stands in NAME_x, NAME_y, NAME_z, a tensor in NAME_xx,
-   * NAME_xy, ..., NAME_zz, with zeros in the third direction in 2-D.
+   * The columns that effects add to the tables of cells or boundary points.
+   * They follow the table's own columns, in the order of their declaration. A
+   * vector NAME has the columns NAME_x, NAME_y, NAME_z, a tensor NAME_xx,
+   * NAME_xy, ..., NAME_zz; in 2-D the third direction has zeros.
    */
   template <int dim>
   class DeclaredFields
   {
   public:
-    /** Those of these columns that are in_output. */
+    /** Takes those of @p columns that are in_output. */
     explicit DeclaredFields(const Columns &columns);
 
-    /** Adds the heads to a table whose last columns for CSV files they are. */
+    /** Adds the heads to a table, as its last columns for CSV files. */
     void
     add_names(PointFields<dim> &table) const;
 
     /**
-     * Tells VTU files which of them are vectors and tensors. The last that is
-     * done to a table without rows.
+     * Tells VTU files which of the columns are vectors and tensors. To be
+     * called last, before the table has rows.
      * @throws std::invalid_argument for names that the table has already
      */
     void

@@ -43,8 +43,8 @@ namespace Morula
   };
 
   /**
-   * Refuses to replace a run that would be a loss: a run of another scene file,
-   * an unfinished one, or one that took more than an hour. Refuses also a
+   * Refuses to replace a run whose loss would matter: a run of another scene
+   * file, an unfinished one, or one that took more than an hour. Refuses also a
    * directory that holds files with Morula's names, but no run of Morula.
    * Touches nothing. One rank calls it.
    * @param replace accept any run of Morula

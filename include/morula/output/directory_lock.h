@@ -14,13 +14,13 @@ namespace Morula
    * Keeps other runs out of a directory while this object lives. It holds a
    * lock of the system (flock) on the file `morula.lock` there, which names
    * process and host. The system releases the lock when the process ends, in
-   * whatever way. The file of a killed run is locked by nobody; the next run
-   * takes it over.
+   * whatever way. Nobody locks the file of a killed run; the next run takes it
+   * over.
    *
-   * It is flock, since the process loses a lock of fcntl as soon as it closes
-   * any descriptor of the file. On Linux' NFS both are locks of the server,
-   * which hold between machines. On Lustre, flock needs the mount option of
-   * that name. On a file system without locks nothing keeps another run out;
+   * It is flock and not fcntl: a process loses its fcntl lock as soon as it
+   * closes any descriptor of the file. On Linux' NFS both are locks of the
+   * server, which hold between machines. On Lustre, flock needs the mount
+   * option of that name. A file system without locks keeps no other run out;
    * reason_without_lock() says so.
    */
   class DirectoryLock

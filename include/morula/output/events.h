@@ -13,7 +13,7 @@
 
 namespace Morula
 {
-  /** What stands in events.csv. */
+  /** What events.csv records. */
   struct EventsContents
   {
     /** By the types' numbers; empty: there are no types. */

@@ -19,9 +19,9 @@ namespace Morula
 
   /**
    * This rank's rows of a table about points (cells or boundary points). One
-   * description serves the CSV file, which holds the first columns, and the
-   * VTU file, which holds every number once: a component of a vector or tensor,
-   * a coordinate of the point and the time are no arrays of their own there.
+   * description serves the CSV file, which holds the first columns, and the VTU
+   * file, which holds every number once: components of vectors and tensors,
+   * coordinates of the point and the time have no arrays of their own there.
    */
   template <int dim>
   struct PointFields
@@ -39,20 +39,21 @@ namespace Morula
       std::vector<std::string> components;
     };
 
-    /** Of the columns; empty for those that are part of a nonscalar only. */
+    /** Names of the columns; empty for a column that only belongs to a
+     *  nonscalar. */
     std::vector<std::string> names;
     /** The columns behind these are for VTU files only. */
     unsigned int           n_csv_columns = 0;
     std::vector<Nonscalar> nonscalars;
-    /** Scalars that a VTU file has otherwise. */
+    /** Scalars that a VTU file holds in another way. */
     std::set<std::string> csv_only;
-    /** Names of scalars that are numbers without fraction. */
+    /** Names of scalars that are integers. */
     std::set<std::string> whole;
 
     std::vector<types::particle_index> ids;
     /** Current, µm. */
     std::vector<Point<dim>> positions;
-    /** Row by row, as many in a row as there are names. */
+    /** Row by row; a row has a value for each name. */
     std::vector<double> values;
 
     /** Appends a vector's or tensor's columns. */
@@ -64,9 +65,9 @@ namespace Morula
       names.insert(names.end(), n_columns, "");
     }
 
-    /** Makes a vector or tensor of columns that are there. In VTU files these
-     *  are its components: "xx" of "sigma" is the column "sigma_xx", by which
-     *  name ParaView calls it, too. */
+    /** Makes a vector or tensor of existing columns, which become its
+     *  components in VTU files: the column "sigma_xx" is "xx" of "sigma".
+     *  ParaView shows it as "sigma_xx", too. */
     void
     combine(const std::string &name,
             const std::string &first,
@@ -95,7 +96,7 @@ namespace Morula
         values.push_back(d < dim ? vector[d] : 0.);
     }
 
-    /** Makes room, when all columns are there. */
+    /** Reserves memory. To be called when all columns are there. */
     void
     reserve(const std::size_t n_points)
     {

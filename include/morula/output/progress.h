@@ -15,7 +15,7 @@
 
 namespace Morula
 {
-  /** What the program shows of a step. */
+  /** What the program reports of a step. */
   struct StepReport
   {
     unsigned int  step              = 0;
@@ -26,7 +26,7 @@ namespace Morula
     double        wall_seconds      = 0.; // since this program began
   };
 
-  /** What the program shows at the end of the run. */
+  /** What the program reports at the end of the run. */
   struct FinalReport
   {
     std::string   outcome; // e.g. "Finished: End time reached"

@@ -18,7 +18,7 @@ namespace Morula
    *     CRC-64/XZ 0123456789abcdef
    *
    * filled up with newlines. Number and digest are those of the bytes behind
-   * the seal. HDF5 calls such a place a user block and skips it; 512 is its
+   * the seal. HDF5 calls such a beginning a user block and skips it; 512 is its
    * smallest size.
    *
    * The digest is computed from the file's bytes and not from the values in it.

@@ -20,8 +20,8 @@ namespace Morula
   constexpr int snapshot_format = 3;
 
   /**
-   * Everything that outlives a step. Points and weights are this rank's; of all
-   * else the file gets what rank 0 has. Names of tables hold no '/'.
+   * Everything that outlives a step. Points and weights are those of this rank;
+   * all else is written by rank 0. Names of tables hold no '/'.
    */
   template <int dim>
   struct SnapshotData
@@ -39,8 +39,8 @@ namespace Morula
     PointList<dim>                             boundary_points;
     /** Weights of the last partition, see BackgroundGrid. */
     GridCellCounts grid_weights;
-    /** What the rows of the points are, as Columns::layout() says; empty in
-     *  files of programs that did not write it. */
+    /** The layout of the points' rows, see Columns::layout(); empty in files of
+     *  programs that did not write it. */
     std::string cell_columns, boundary_columns;
     /** The file that this was read from. */
     std::string file;
@@ -60,14 +60,14 @@ namespace Morula
 
   /**
    * @param allowed what the file should be, a noun phrase
-   * @throws InputError about a snapshot that cannot be gone on from
+   * @throws InputError about a snapshot from which no run can go on
    */
   [[noreturn]] void
   refuse_snapshot(const std::string &path, const std::string &allowed);
 
   /**
    * Refuses a snapshot whose points have other columns than these: an effect
-   * would read what another one has written. Collective.
+   * would read what another effect has written. Collective.
    * @throws InputError, on all ranks, which names the columns that differ
    */
   template <int dim>
@@ -91,8 +91,8 @@ namespace Morula
 
   /**
    * Reads a snapshot that any number of ranks wrote; each rank gets a
-   * contiguous piece of the points, in the order of the file. A file whose
-   * bytes do not have their digest is refused before HDF5 opens it. Collective.
+   * contiguous part of the points, in the order of the file. A file whose bytes
+   * do not match their digest is refused before HDF5 opens it. Collective.
    * @throws InputError, on all ranks, if the file is missing, damaged, of
    *   another program, format or dimension
    */

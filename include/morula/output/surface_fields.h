@@ -14,8 +14,8 @@ namespace Morula
 {
   /**
    * The table behind surface-NNNN.csv and surface-NNNN.vtu. The latter also
-   * gets normal and displacement as vectors. Columns that effects have declared
-   * for the output are the last ones of the CSV file.
+   * gets the normal and the displacement as vectors. Columns that effects have
+   * declared for the output are the last ones of the CSV file.
    */
   template <int dim>
   class SurfaceFields

@@ -10,8 +10,8 @@
 namespace Morula
 {
   /**
-   * Estimates how long a run still takes. Tissues grow, and so does the cost of
-   * a simulated day. Therefore the wall time is extrapolated as a power
+   * Estimates how long a run still takes. Tissues grow, and a simulated day
+   * costs more and more. So the wall time is extrapolated as a power
    * (t - t_0)^p of the simulated time; p follows from the wall times of the
    * first and the second half so far. Early in the run this is more sensible
    * than an exponential.

@@ -23,7 +23,7 @@ namespace Morula
    * complete. Collective.
    * @param time   day, for ParaView's annotation
    * @param number of the file in its series
-   * @param shared_from size of a file, bytes, from which on all ranks write it
+   * @param shared_from size, bytes, from which on all ranks write the file
    *        together if the file system allows that; else rank 0 does, group by
    *        group of columns. The file is the same.
    * @throws std::runtime_error, on all ranks, with path and reason

@@ -42,7 +42,8 @@ namespace Morula
   print_version(std::ostream &out);
 
   /** Prints every key with meaning, unit, allowed values and default, as a .prm
-   *  file; also the keys of what the scene of @p command names, if it has one.
+   *  file; also the keys of the types and fields that the scene of @p command
+   *  names, if there is one.
    *  @throws InputError for a scene that cannot be read */
   void
   print_parameters(std::ostream      &out,

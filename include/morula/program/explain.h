@@ -14,10 +14,10 @@ namespace Morula
 {
   /**
    * Seeds the tissue, makes all checks, and prints on rank 0 what the scene
-   * will simulate: number of cells and boundary points, which effects are on
-   * and which are off, the columns of a cell, cells and memory
-   * to expect, also estimates of unknowns and time, and the warnings.
-   * Simulates nothing and writes no file. Collective.
+   * will simulate: numbers of cells and boundary points, effects that are on
+   * and off, the columns of a cell, the expected cells and memory, estimates of
+   * unknowns and time, and the warnings. Simulates nothing and writes no file.
+   * Collective.
    * @throws InputError
    */
   void

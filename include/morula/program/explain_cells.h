@@ -13,15 +13,17 @@
 
 namespace Morula
 {
-  /** Prints the types of cells, and per type what it has otherwise. Nothing
-   *  without types. @param n_founders by type, on all ranks */
+  /** Prints the types of cells, and for each type the keys that it sets
+   *  differently. Prints nothing without types. @param n_founders by type, on
+   *  all ranks */
   void
   print_types(std::ostream                             &out,
               const Scene                              &scene,
               const std::vector<types::particle_index> &n_founders);
 
-  /** Prints which expressions speak of the present cell: of what, and when they
-   *  are evaluated. Nothing if none does. */
+  /** Prints which expressions use variables of the present cell, which
+   *  variables these are, and when they are evaluated. Prints nothing if there
+   *  are none. */
   void
   print_cell_expressions(std::ostream &out, const Scene &scene);
 } // namespace Morula

@@ -16,9 +16,9 @@ namespace Morula
    *
    * If all ranks fail, the first one prints their messages to the standard
    * error, equal messages once, and the function returns the largest
-   * @p exit_code, which main() returns. If some ranks do not fail within a few
-   * seconds, they would wait for the failed ones for ever. Then every failed
-   * rank prints its message and aborts all ranks with @p exit_code.
+   * @p exit_code, which main() returns. A rank that does not fail within a few
+   * seconds would wait for the failed ones for ever. If there is one, every
+   * failed rank prints its message and aborts all ranks with @p exit_code.
    */
   int
   end_all_ranks(const int          exit_code,

@@ -15,8 +15,8 @@
 
 namespace Morula
 {
-  /** What effects may look at: founders and boundary points of this rank, which
-   *  must outlive the result. Collective. */
+  /** What effects may inspect before the run: founders and boundary points of
+   *  this rank, which must outlive the result. Collective. */
   template <int dim>
   Preview<dim>
   preview(const Scene                       &scene,
@@ -36,11 +36,11 @@ namespace Morula
                     const std::vector<unsigned int> &given = {});
 
   /**
-   * Lets growth, division, forces and the material look at all founders: growth
+   * Lets growth, division, forces and the material check all founders: growth
    * stretch and stiffness are positive, the cycle fits the step, forces are
-   * finite, some founder proliferates where there is a cell cycle; and refuses
-   * a scene that does not fit into memory.
-   * Collective; every rank gives its own founders, and all throw together.
+   * finite, and with a cell cycle some founder proliferates. Refuses a scene
+   * that does not fit into memory. Collective; every rank gives its own
+   * founders, and all throw together.
    * @param founders initial positions, µm
    * @return number of founders, over all ranks, that proliferate
    * @throws InputError
@@ -51,20 +51,20 @@ namespace Morula
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm);
 
-  /** At how many boundary points conditions win, over all ranks. */
+  /** The number of boundary points, over all ranks, at which conditions win. */
   struct ConditionCounts
   {
     types::particle_index points = 0;
     types::particle_index fixed  = 0;
-    /** At how many each condition does something, by its name; 0 for those that
-     *  are off. */
+    /** The number of points at which each condition does something, by its
+     *  name; 0 for those that are off. */
     std::map<std::string, types::particle_index> acting;
   };
 
   /**
-   * Lets the conditions look at all boundary points, and asks for the stiffness
-   * where points are held. Refuses a condition that acts nowhere. Collective;
-   * every rank gives its own points, and all throw together.
+   * Lets the conditions check all boundary points, and evaluates the stiffness
+   * at held points. Refuses a condition that acts nowhere. Collective; every
+   * rank gives its own points, and all throw together.
    * @throws InputError
    */
   template <int dim>

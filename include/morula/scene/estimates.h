@@ -23,8 +23,9 @@ namespace Morula
   };
 
   /**
-   * Estimates, rough ones of the time, fitted to the runs of doc/performance.md
-   * ("What --explain expects"). Collective; every rank gives its own founders.
+   * Estimates the size of a run; its time only roughly, fitted to the runs of
+   * doc/performance.md ("What --explain expects"). Collective; every rank gives
+   * its own founders.
    * @param n_unknowns of the first step; 0: estimated, too
    * @param free_growth what free_growth() says; else growth that depends on
    *        the cells' state counts as none
@@ -40,9 +41,9 @@ namespace Morula
 
   /**
    * Memory that a run of this size needs on all ranks together, bytes:
-   * particles and what is copied of them, matrix and preconditioner on the
-   * grid around a compact tissue. An estimate, right within a factor of about
-   * two (doc/performance.md, "What --explain expects").
+   * particles and their copies, matrix and preconditioner on the grid around a
+   * compact tissue. An estimate, right within a factor of about two
+   * (doc/performance.md, "What --explain expects").
    */
   double
   estimated_memory(const Scene &scene, const SceneSize &size);

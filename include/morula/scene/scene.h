@@ -28,9 +28,8 @@
 namespace Morula
 {
   /**
-   * Everything a .prm file says. One section, one struct of keys, which stands
-   * in the room it belongs to; here they are put together and checked against
-   * each other.
+   * Everything a .prm file says. Each section has a struct of keys in the room
+   * it belongs to; the scene holds them all and checks them against each other.
    */
   struct Scene : public Keys
   {
@@ -38,7 +37,7 @@ namespace Morula
     explicit Scene(const Catalogue &catalogue = Catalogue());
 
     /**
-     * One word for several keys: those that have another default with it
+     * One word that sets several keys: it changes their defaults
      * (AnyKey::texts_with_methods()). A key that the scene sets itself keeps
      * the scene's value. doc/accuracy-and-cost.md says why it is these keys.
      */
@@ -67,15 +66,15 @@ namespace Morula
 
     /**
      * The values of the keys as the file and the overrides wrote them, by full
-     * path; what is missing has its default. By it check() can tell an effect
-     * that was switched off from one that was forgotten.
+     * path; what is missing has its default. It tells check() whether an effect
+     * was switched off or forgotten.
      */
     std::map<std::string, std::string> as_written;
 
     /** Where they were written, "file:line: " or "-s: ", by full path. */
     std::map<std::string, std::string> places;
 
-    /** The file that read() read; empty without. */
+    /** The file that read() has read; empty if there is none. */
     std::string file;
 
     /** Whether the run may delete any run that it finds in its directory. */
@@ -84,7 +83,8 @@ namespace Morula
     /** What to say about keys that were written by a former name. */
     std::vector<std::string> renamed;
 
-    /** The growth law of all types of cells that have one; "none" without. */
+    /** The growth law of all types of cells that grow; "none" if there is none.
+     */
     std::string
     law_of_growth() const;
 
@@ -92,7 +92,7 @@ namespace Morula
     const std::string &
     division_axis(const unsigned int type) const;
 
-    /** Those of all types. */
+    /** The division axes of all types. */
     std::set<std::string>
     division_axes() const;
 
@@ -147,8 +147,8 @@ namespace Morula
     /**
      * Reads a .prm file and applies "Section/Key=value" overrides, without
      * checking more than each value by itself. Keys that neither of them sets
-     * have the values that `Method` gives them. Without Output directory it is
-     * that of the file's name, `output/NAME`.
+     * have the values that `Method` gives them. Without `Output directory` the
+     * run goes to `output/NAME`, after the file's name.
      * @throws InputError with the key's full path, the file and the line
      */
     static Scene
@@ -180,16 +180,16 @@ namespace Morula
     void
     declare_sections(const std::map<std::string, std::string> &names);
 
-    /** Tells the keys of cells what fields there are and what types have
-     *  otherwise; after all keys have their values. */
+    /** Tells the keys of cells the fields and the values that types set
+     *  differently. To be called when all keys have their values. */
     void
     apply_types();
 
     /**
-     * Refuses what can be seen to be wrong without cells: numbers out of
-     * range, expressions that do not parse, shapes that do not exist, values
-     * of effects that were never switched on, ... See checks.h for the checks
-     * that need the cells.
+     * Refuses what is wrong even without a look at the cells: numbers out of
+     * range, expressions that do not parse, shapes that do not exist, values of
+     * effects that were never switched on, ... See checks.h for the checks that
+     * need the cells.
      * @throws InputError
      */
     void
@@ -207,7 +207,7 @@ namespace Morula
       std::unique_ptr<const Force<dim>> force;
     };
 
-    /** What they need in a cell. */
+    /** The columns that the effects need in a cell. */
     CellColumns<dim> columns;
     /** Which variables their expressions use. */
     StateColumns<dim> state;

@@ -31,9 +31,9 @@ namespace Morula
 
   /**
    * Seeds the tissue, with a surface around cells from a file if Tissue/Points
-   * surface or a boundary condition asks for one, and lets all effects look at
-   * it. Both are the longest work before the first step, so it is done once,
-   * for --explain as for a run. Collective, and all throw together.
+   * surface or a boundary condition asks for one, and lets all effects check
+   * it. This is the longest work before the first step, so --explain and the
+   * run share its result. Collective, and all throw together.
    * @throws InputError for a scene that cannot be run
    */
   template <int dim>

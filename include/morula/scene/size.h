@@ -15,12 +15,12 @@
 
 namespace Morula
 {
-  /** How large a scene is or becomes. */
+  /** The present or expected size of a scene. */
   struct SceneSize
   {
     double cells  = 0.;
     double volume = 0.; // µm^dim, without stress
-    // of the box around the tissue; 0: not known, it is little for compact ones
+    // of the box around the tissue; 0: not known (few for compact tissue)
     double grid_cells = 0.;
   };
 
@@ -33,10 +33,10 @@ namespace Morula
 
   /**
    * Expected size at End time of the descendants of @p founders, no more than
-   * twice 'Stop at cells'. With a size checkpoint, whose effect only
-   * the run can tell, the founders alone are counted: a lower bound.
-   * Collective; every rank gives its own founders.
-   * @throws InputError, on some ranks only, where an expression has no value
+   * twice 'Stop at cells'. With a size checkpoint only the founders are
+   * counted, since only the run shows its effect: a lower bound. Collective;
+   * every rank gives its own founders.
+   * @throws InputError, on some ranks only, if an expression has no value
    */
   template <int dim>
   SceneSize

@@ -16,11 +16,12 @@
 namespace Morula
 {
   /**
-   * What is legal in a scene but unwise: each a line with key, value, what was
-   * measured and where, and what to do. A warning needs a measurement in doc/,
-   * or must follow from what the keys say. Empty for a scene in order.
-   * Collective; the same on all ranks, every rank gives its own founders and
-   * boundary points of a scene that has passed all checks.
+   * Warnings of what is legal in a scene but unwise. Each is a line with key,
+   * value, what was measured and where, and what to do. A warning needs a
+   * measurement in doc/, or must follow from what the keys say. Empty if there
+   * is nothing to warn of. Collective: the scene has passed all checks, every
+   * rank gives its own founders and boundary points, and all get the same
+   * warnings.
    * @param counts what check_at_surface() has returned
    */
   template <int dim>

@@ -10,7 +10,7 @@
 namespace Morula
 {
   /** Writes a message to the terminal and into log.txt. To be called on all
-   *  ranks, of which the first one writes. */
+   *  ranks; rank 0 writes. */
   using Announce = std::function<void(const std::string &text)>;
 } // namespace Morula
 

@@ -16,11 +16,12 @@
 namespace Morula
 {
   /**
-   * J_e of this rank's cells after a step, in the order of Tissue::cells(),
-   * where the volumetric strain is that of grid cells: e^ϑ, doc/theory.md
-   * (2.6), (2.10). A cell in several grid cells takes the mean of theirs,
-   * pooled by its parts, so that the tissue's volume is that of the step. Empty
-   * where the volumetric strain is pointwise. Collective.
+   * J_e of this rank's cells after a step, in the order of Tissue::cells(), if
+   * the volumetric strain is averaged over grid cells: e^ϑ, doc/theory.md
+   * (2.6), (2.10). In several grid cells a cell takes a mean: if the strain is
+   * pooled, that of e^ϑ over its parts, so that the tissue's volume is that of
+   * the step; else e to the mean of ϑ. Empty if the volumetric strain is
+   * pointwise. Collective.
    * @param growth       of the step, not yet committed
    * @param kernel       value of Solver/Kernel
    * @param displacement of the step, um

@@ -11,9 +11,9 @@
 namespace Morula
 {
   /**
-   * How the surface follows the tissue: its patches split where it stretches
-   * and merge where it shrinks, and it is made anew where tissue was lost, as
-   * the scene asks. Keeps references to the model, the id and the timer.
+   * Lets the surface follow the tissue, as the scene asks: patches split where
+   * it stretches and merge where it shrinks, and it is made anew when tissue
+   * was lost. Keeps references to the model, the id and the timer.
    */
   template <int dim>
   class FollowingSurface
@@ -29,14 +29,14 @@ namespace Morula
     void
     begin(Tissue<dim> &tissue);
 
-    /** The points before a step loses any, where the scene will ask for them;
-     *  else none. */
+    /** A copy of the points, to be taken before a step loses any; empty if the
+     *  scene never renews the surface. */
     PointList<dim>
     before_losses(const Tissue<dim> &tissue) const;
 
     /**
-     * Makes the surface anew where it is time to, or the step has lost points;
-     * splits and merges patches. Collective.
+     * Makes the surface anew if that is due, or if the step has lost too many
+     * points or stretched one too much; splits and merges patches. Collective.
      * @param space  of the step
      * @param former as from before_losses()
      * @param t      end of the step, day
@@ -58,7 +58,8 @@ namespace Morula
                  const PointList<dim> &former,
                  const double          t,
                  const double          dt);
-    /** Whether that can be done. Collective. */
+    /** Makes the surface anew. @return whether that was possible. Collective.
+     */
     bool
     renew(Tissue<dim> &tissue, const PointList<dim> &former);
     void

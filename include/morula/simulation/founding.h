@@ -17,13 +17,12 @@ namespace Morula
   struct FirstPoints
   {
     PointList<dim> cells, boundary_points;
-    /** The founders as they stand in lineage.csv. */
+    /** The founders' rows in lineage.csv. */
     std::vector<Birth<dim>> births;
   };
 
   /** Gives founders and patches the state in which they begin. Collective.
-   *  @throws InputError on all ranks for what an effect cannot do with a
-   *  founder */
+   *  @throws InputError on all ranks if an effect cannot handle a founder */
   template <int dim>
   FirstPoints<dim>
   found(const TissueModel<dim>  &model,

@@ -16,7 +16,7 @@
 
 namespace Morula
 {
-  /** What outlives a step of a lumen. */
+  /** The state of a lumen that outlives a step. */
   struct LumenMemory
   {
     double volume_at_start = 0.; // µm^dim, at t = 0
@@ -28,14 +28,14 @@ namespace Morula
   std::optional<LumenMemory>
   lumen_at_start(const TissueModel<dim> &model, const Tissue<dim> &tissue);
 
-  /** What statistics.csv says of it. Collective. */
+  /** The lumen's state for statistics.csv. Collective. */
   template <int dim>
   std::optional<LumenState>
   lumen_state(const TissueModel<dim>           &model,
               const Tissue<dim>                &tissue,
               const std::optional<LumenMemory> &memory);
 
-  /** What fills the lumen before the pressure of the step is known.
+  /** The lumen's content before the pressure of the step is known.
    *  @param t_next end of the step, day
    *  @param volume at its beginning, µm^dim
    *  @param typical_stiffness of the tissue, kPa
@@ -56,11 +56,11 @@ namespace Morula
   };
 
   /**
-   * Solves a step again with other pressures until the lumen has its volume;
-   * once where a gas fills it: doc/theory.md (4.8j). Collective.
+   * Solves a step again with other pressures until the lumen has its volume. If
+   * a gas fills it, once is enough: doc/theory.md (4.8j). Collective.
    * @param solve   finds the displacement @p u that balances @p content
    * @param content of the lumen; the pressure that is sought is changed
-   * @throws StepFailed where it does not get its volume
+   * @throws StepFailed if it does not get its volume
    */
   template <int dim>
   LumenEquilibrium

@@ -15,7 +15,7 @@ namespace Morula
   class PieceNews
   {
   public:
-    /** @param counts whether to count pieces, which only death can part */
+    /** @param counts whether to count pieces; only death can part the tissue */
     PieceNews(const bool counts, const Announce &announce);
 
     /** Looks at the splines of a step that begins at @p t (day). */

@@ -17,7 +17,7 @@ namespace Morula
   struct RunState
   {
     types::particle_index next_id          = 0; // of cells
-    types::particle_index next_boundary_id = 0; // where the surface is refined
+    types::particle_index next_boundary_id = 0; // if the surface is refined
     unsigned int          n_steps          = 0;
     unsigned int          n_rejected       = 0;
     std::optional<LumenMemory> lumen       = {};
@@ -41,12 +41,12 @@ namespace Morula
   void
   restore_tissue(const SnapshotData<dim> &data, Tissue<dim> &tissue);
 
-  /** The place in the sequence of steps. @throws InputError likewise */
+  /** The place in the sequence of steps. @throws InputError if it is missing */
   template <int dim>
   TimeSteps::State
   saved_time_steps(const SnapshotData<dim> &data);
 
-  /** The rest. @param has_lumen whether the scene has a lumen. @throws
+  /** The run state. @param has_lumen whether the scene has a lumen. @throws
    *  InputError likewise */
   template <int dim>
   RunState

@@ -37,7 +37,7 @@ namespace Morula
      */
     Simulation(const Scene &scene, const MPI_Comm comm, const bool resume);
 
-    /** A new run with what seed_tissue() has made of the same scene. */
+    /** A new run from the result of seed_tissue() for the same scene. */
     Simulation(const Scene             &scene,
                const MPI_Comm           comm,
                const SeededTissue<dim> &seeded);
@@ -48,8 +48,8 @@ namespace Morula
      *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
-     * @throws StoppedBySignal where SIGINT, SIGTERM or SIGUSR1 asked for it,
-     * after the step in which they came; the state is saved
+     * @throws StoppedBySignal if SIGINT, SIGTERM or SIGUSR1 asked for it, after
+     * the step in which it came; the state is saved
      */
     void
     run(const std::function<void()> &observe = {});
@@ -58,7 +58,8 @@ namespace Morula
     const Tissue<dim> &
     state() const;
 
-    /** What statistics.csv says of the present state, and of the step to it. */
+    /** The row of statistics.csv for the present state and the step that led to
+     *  it. */
     const StatisticsRow &
     last_row() const;
 
@@ -108,7 +109,8 @@ namespace Morula
     void
     follow_surface(const SplineSpace<dim> &space, const PointList<dim> &former);
 
-    /** Lets the row say what the state is; what it says of the step stays. */
+    /** Updates what the row says of the state, and keeps what it says of the
+     *  step. */
     void
     describe_state();
     void
@@ -124,10 +126,11 @@ namespace Morula
     void
     stop_if_asked(const StopSignals &signals); // StoppedBySignal
 
-    /** Ends the run where @p find cannot find the fields. */
+    /** Calls @p find, and ends the run if it cannot find the fields. */
     void
     find_fields(const std::function<void()> &find);
-    /** The longest that the present attempt asks for, µm. Collective. */
+    /** The longest way that the present attempt asks of a held point, µm.
+     *  Collective. */
     double
     way_of_held_points() const;
     [[noreturn]] void

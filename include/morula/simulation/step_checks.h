@@ -21,9 +21,9 @@ namespace Morula
           const MPI_Comm                comm);
 
   /**
-   * Whether the tissue slips through its clamp: whether a held point is more
-   * than @p largest_gap grid spacings @p h (µm) from where it is held; 0: any
-   * gap is allowed.
+   * Refuses a step in which the tissue slips through its clamp: a held point is
+   * more than @p largest_gap grid spacings @p h (µm) from where it is held.
+   * With 0 any gap is allowed.
    * @throws StepFailed
    */
   template <int dim>

@@ -26,7 +26,7 @@ namespace Morula
   class StepEquilibrium
   {
   public:
-    /** A step that is tried. */
+    /** One attempt at a step. */
     struct Attempt
     {
       double                   t, t_next; // day
@@ -40,7 +40,7 @@ namespace Morula
     struct Solution
     {
       Equilibrium::Vector        u;     // displacement, µm
-      std::optional<LumenMemory> lumen; // behind the step
+      std::optional<LumenMemory> lumen; // after the step
     };
 
     /** Collective. */
@@ -53,7 +53,7 @@ namespace Morula
     /**
      * Solves for the end of a step. Collective.
      * @param report in/out: this attempt's work is added
-     * @param condition in/out: of the first tangent, where the scene asks for
+     * @param condition in/out: set for the first tangent, if the scene asks for
      * it and it is not known yet
      * @throws StepFailed, InputError on all ranks together
      */
@@ -74,24 +74,24 @@ namespace Morula
     /** The lumen at the beginning of the step, if there is one. */
     std::optional<Enclosure<dim>>
     lumen_of(const Attempt &attempt) const;
-    /** Where the iterations begin, if not at rest. */
+    /** Where Newton's iterations begin; nothing if they begin at u = 0. */
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const;
     void
     estimate_condition(MomentumBalance<dim>             &balance,
                        const LinearProblem              &linear,
                        std::optional<ConditionEstimate> &condition) const;
-    /** What keeps the step free of unsupported motions. */
+    /** Vectors that keep rigid motions without support out of the step. */
     std::vector<Equilibrium::Vector>
     inertia() const;
 
     TermList
     terms(const Attempt &attempt, const MaterialPoints<dim> &points) const;
     /** Adds the terms of the conditions that load the surface. @throws
-     *  StepFailed on all ranks where a condition finds the step too long */
+     *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
-    /** For pieces that loads only push. */
+    /** A weak drag, for pieces that are pushed by loads and held by nothing. */
     std::unique_ptr<Term<dim>>
     drag(const double typical_stiffness) const;
     MassList

@@ -17,9 +17,9 @@
 namespace Morula
 {
   /**
-   * The fields of a scene in the steps of a run. What the fields of one
-   * configuration share is made for the first of them and kept until the tissue
-   * moves. Keeps references to the model and the timer.
+   * The fields of a scene in the steps of a run. The solver is made for the
+   * first field of a configuration, shared by the others, and kept until the
+   * tissue moves. Keeps references to the model and the timer.
    */
   template <int dim>
   class StepFields
@@ -29,7 +29,7 @@ namespace Morula
                TimerOutput            &timer,
                const Announce         &announce);
 
-    /** Begins to count what is clipped in the next step. */
+    /** Resets the counts of clipped values for the next step. */
     void
     begin_step();
 
@@ -57,7 +57,7 @@ namespace Morula
     statistics(const Tissue<dim> &tissue) const;
 
   private:
-    /** Those of a kind, at @p t1. */
+    /** The fields of one kind at @p t1. */
     FieldsOfStep<dim>
     find(const FieldKind         kind,
          const Tissue<dim>      &tissue,

@@ -13,7 +13,7 @@ namespace Morula
 {
   /**
    * The tissue's quadrature points for one step. A cell is one point, or
-   * several points in its domain if that is large on the grid (see
+   * several points in its domain if the domain is large on the grid (see
    * ParticleDomain). All points of a cell have its F and F_g. Collective.
    */
   template <int dim>

@@ -18,8 +18,8 @@
 
 namespace Morula
 {
-  /** What a scene makes of its tissue: the material, and all effects that it
-   *  has. None of it changes during a run. */
+  /** The material and all effects of a scene. Nothing in it changes during a
+   *  run. */
   template <int dim>
   struct TissueModel
   {
@@ -43,8 +43,9 @@ namespace Morula
     bool
     is_held(const PresentCell<dim> &cell, const double t) const;
 
-    /** The largest Young's modulus of the tissue, kPa. Collective. @param
-     *  growth of the step, where moduli depend on the state of cells */
+    /** The largest Young's modulus of the tissue, kPa. Collective.
+     *  @param growth of the step, used if moduli depend on the state of cells
+     */
     double
     typical_stiffness(const Tissue<dim>       &tissue,
                       const GrowthOfStep<dim> &growth,

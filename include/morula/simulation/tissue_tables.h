@@ -11,9 +11,8 @@
 
 namespace Morula
 {
-  /** Sets in @p row what statistics.csv says of the tissue as it is at @p t
-   *  (day), but for pieces, fields and lumen. What it says of the step stays.
-   *  Collective. */
+  /** Sets the columns of @p row about the tissue at @p t (day), except those of
+   *  pieces, fields and lumen. The columns about the step stay. Collective. */
   template <int dim>
   void
   set_state(const TissueModel<dim> &model,
@@ -33,7 +32,7 @@ namespace Morula
   SurfaceFields<dim>
   surface_table(const Tissue<dim> &tissue, const double t);
 
-  /** What the user should know of cells that are too long for the grid. */
+  /** The warning about cells that are too long for the grid. */
   template <int dim>
   std::string
   long_cells_warning(const StatisticsRow &row, const double grid_spacing);

@@ -29,8 +29,9 @@ namespace Morula
   };
 
   /**
-   * The columns of the boundary points. They are equal in all scenes, but for
-   * those of a point's patch, which exist if the scene refines the surface.
+   * The columns of the boundary points. All scenes have the same ones, except
+   * those of a point's patch, which exist only if the scene refines the
+   * surface.
    */
   template <int dim>
   class BoundaryColumns : public Columns
@@ -44,8 +45,8 @@ namespace Morula
     /**
      * The row of a point at t = 0: at @p X (µm), with outward unit normal
      * @p N and @p area (µm^(dim-1)). Its patch, if it has one, is square:
-     * doc/theory.md, section 4.5. The patch's edges are parallel to the axes
-     * where the normal is.
+     * doc/theory.md, section 4.5. If the normal is parallel to an axis, so are
+     * the patch's edges.
      */
     std::vector<double>
     initial_point(const Point<dim>      &X,
@@ -55,8 +56,8 @@ namespace Morula
 
     /**
      * Gives a point the deformation gradient @p F and the present area vector
-     * @p area (µm^(dim-1)): N, a⁰ and the edges of a patch that is square now.
-     * Only with patch.
+     * @p area (µm^(dim-1)): sets N, a⁰ and the edges so that the patch is
+     * square now. Only with patch.
      */
     void
     set_square_patch(const ArrayView<double> &row,
@@ -73,14 +74,14 @@ namespace Morula
     Column<SurfaceCondition> condition;
     /** F. */
     Column<Tensor<2, dim>> deformation;
-    /** With patch: initial position of the point of t = 0 that this one is a
-     *  part of, µm. */
+    /** With patch: initial position of the point at t = 0 of which this one is
+     *  a part, µm. */
     Column<Point<dim>> seed_position;
     /** With patch: its tangential edges in the initial configuration, µm. They
      *  span a⁰. */
     std::array<Column<Tensor<1, dim>>, dim - 1> edges;
-    /** If the surface is coarsened: what area a patch shall have, that of the
-     *  point of t = 0, µm^(dim-1). */
+    /** If the surface is coarsened: the area that a patch shall have, that of
+     *  the point at t = 0, µm^(dim-1). */
     Column<double> reference_area;
   };
 
@@ -179,7 +180,7 @@ namespace Morula
       return determinant(F) * initial_area() * (initial_normal() * invert(F));
     }
 
-    /** Whether the patch's edges are known: only where the scene refines the
+    /** Whether the patch's edges are known: only if the scene refines the
      *  surface. */
     bool
     has_patch() const
@@ -203,9 +204,9 @@ namespace Morula
       return get(columns.edges[k]);
     }
 
-    /** The area that the patch shall have where edges longer than
-     *  @p longest_edge (µm) are split: doc/theory.md (4.12b), µm^(dim-1). Only
-     *  where the surface is coarsened. */
+    /** The area that the patch shall have if edges longer than @p longest_edge
+     *  (µm) are split: doc/theory.md (4.12b), µm^(dim-1). Only if the surface
+     *  is coarsened. */
     double
     wanted_area(const double longest_edge) const
     {

@@ -13,16 +13,16 @@ namespace Morula
   /** Why a cell died. */
   enum class DeathCause
   {
-    none, // it did not
+    none, // it did not die
     rate, // Death/Rate
     when  // Death/When
   };
 
-  /** Something that befalls a cell between its birth and its end: a row of
+  /** Something that happens to a cell between its birth and its end: a row of
    *  events.csv. */
   struct CellEvent
   {
-    /** In the order in which they can befall a cell at the same time. */
+    /** In the order in which they can happen to a cell at the same time. */
     enum class Kind
     {
       transition, // to another type
@@ -34,7 +34,7 @@ namespace Morula
     types::particle_index id;   // of the cell
     Kind                  kind;
     unsigned int          from; // number of the cell's type before
-    unsigned int          to;   // and behind; the same but in transitions
+    unsigned int          to;   // and after; differs in transitions only
     DeathCause            cause = DeathCause::none;
   };
 } // namespace Morula

@@ -17,7 +17,7 @@ namespace Morula
 
   /**
    * The columns of the cells. Every cell has the first three. Effects declare
-   * the others that they need; what no effect needs takes no storage.
+   * the others that they need; a column that no effect needs takes no storage.
    */
   template <int dim>
   class CellColumns : public Columns
@@ -26,12 +26,13 @@ namespace Morula
     /** Declares the columns of every cell. */
     CellColumns();
 
-    /** Declares growth, if not yet declared. Effects that grow call it. */
+    /** Declares growth, if not yet declared. Effects that let cells grow call
+     *  it. */
     void
     need_growth();
 
-    /** Declares parent and generation, if they are not declared. All effects
-     *  that divide cells call it. */
+    /** Declares parent and generation, if not yet declared. Effects that divide
+     *  cells call it. */
     void
     need_lineage();
 
@@ -110,7 +111,7 @@ namespace Morula
       return get(columns_.deformation);
     }
 
-    /** F_g; the identity where no effect grows. */
+    /** F_g; the identity if no effect lets cells grow. */
     Tensor<2, dim>
     growth() const
     {

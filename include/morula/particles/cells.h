@@ -66,7 +66,7 @@ namespace Morula
       return (*this)[p].F();
     }
 
-    /** F_g; the identity where no effect grows. */
+    /** F_g; the identity if no effect lets cells grow. */
     Tensor<2, dim>
     growth(const unsigned int p) const
     {

@@ -17,8 +17,8 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** The value of a daughter in a column. An effect may overwrite it, as the
-   *  cell cycle does with its clock. */
+  /** Which value a daughter gets in a column. An effect may overwrite it, as
+   *  the cell cycle does with its clock. */
   enum class AtDivision
   {
     copied, // the mother's value
@@ -46,7 +46,7 @@ namespace Morula
 
   /**
    * Handle of a column: the place of its value in a point's row of numbers.
-   * Columns::add() makes it. A default-constructed handle is that of a column
+   * Columns::add() makes it. A default-constructed handle stands for a column
    * that does not exist and takes no storage.
    */
   template <typename T>
@@ -109,7 +109,7 @@ namespace Morula
       unsigned int first, n;
       /** 0 for scalars, 1 for vectors, 2 for tensors. */
       unsigned int rank;
-      /** Whether the numbers have no fraction. */
+      /** Whether the numbers are integers. */
       bool       whole;
       AtDivision at_division;
       bool       in_output;
@@ -139,8 +139,8 @@ namespace Morula
       return Column<T>(first);
     }
 
-    /** The column of this name and type. If there is none, a handle without a
-     *  column. For programs that read columns which others declare. */
+    /** The column of this name and type, or a handle without a column. For
+     *  programs that read columns declared elsewhere. */
     template <typename T>
     Column<T>
     find(const std::string &name) const

@@ -22,14 +22,15 @@ namespace Morula
   surface_reach(const CellView<dim, const double> &cell, const double h);
 
   /**
-   * How much a boundary point belongs to the tissue, by its distance to the
-   * nearest cell and that cell's reach (µm): 1 up to the reach, 0 from 4/3 of
-   * it on, linear between.
+   * How much a boundary point belongs to the tissue. It follows from the
+   * distance to the nearest cell and that cell's reach (µm): 1 up to the reach,
+   * 0 from 4/3 of it on, linear between.
    */
   double
   attachment(const double distance, const double reach);
 
-  /** The same for positions of boundary points on this rank. Collective. */
+  /** The attachment of each of these boundary points of this rank. Collective.
+   */
   template <int dim>
   std::vector<double>
   attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue);
@@ -42,10 +43,10 @@ namespace Morula
   detached_points(const Tissue<dim> &tissue);
 
   /**
-   * Pulls detached boundary points back to the tissue. Where no cell is near,
-   * the displacement is extrapolated, and a point ahead of the tissue moves
-   * away from it ever faster. Such a point goes towards its nearest cell until
-   * it is within 4/3 of that cell's reach, and takes over its deformation
+   * Pulls detached boundary points back to the tissue. Away from cells the
+   * displacement is extrapolated, and a point ahead of the tissue would move
+   * away ever faster. Such a point is moved towards its nearest cell until it
+   * is within 4/3 of that cell's reach, and takes over the cell's deformation
    * gradient. Fixed points stay where they are held, slip points in their
    * plane.
    * @return how many points were moved, over all ranks. Collective.

@@ -10,13 +10,13 @@
 namespace Morula
 {
   /**
-   * Brings the volumes of cells in line with the space that they take: F of
-   * cells that overlap becomes smaller, F of cells with gaps between them
-   * larger, so that the next step moves them apart or together. Only inside
-   * the tissue: in grid cells that are nearly full, like all their neighbours.
-   * doc/theory.md (6.9c).
+   * Adapts the volumes of cells to the space that they take: it makes F smaller
+   * if cells overlap and larger if there are gaps between them, so that the
+   * next step moves them apart or together. Only inside the tissue: in grid
+   * cells that are nearly full, like all their neighbours. doc/theory.md
+   * (6.9c).
    * @param occupancy of a configuration not long before
-   * @param part      of the difference that is made up for, at most 1
+   * @param part      fraction of the difference that is removed, at most 1
    */
   template <int dim>
   void

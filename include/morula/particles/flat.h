@@ -35,7 +35,7 @@ namespace Morula
     static constexpr unsigned int n = 1;
     /** 0 for scalars, 1 for vectors, 2 for tensors. */
     static constexpr unsigned int rank = 0;
-    /** Whether the numbers have no fraction. */
+    /** Whether the numbers are integers. */
     static constexpr bool whole = !std::is_same_v<T, double>;
 
     /** The value of the numbers from @p numbers on. */

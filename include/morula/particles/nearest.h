@@ -13,15 +13,15 @@
 
 namespace Morula
 {
-  /** What counts where several points are equally near. */
+  /** Which points count if several are equally near. */
   enum class Ties
   {
-    mean,     // of all of them, which is the same in any frame
+    mean,     // the mean of all of them: the same in any frame
     lowest_id // only the one with the lowest id
   };
 
-  /** What is wanted of a point, given by its position p in the canonical order:
-   *  append(p, list) adds @p n numbers to the list. */
+  /** The numbers that a query asks of a point, which is given by its position p
+   *  in the canonical order: append(p, list) adds @p n numbers to the list. */
   struct WantedNumbers
   {
     unsigned int                                             n;
@@ -30,9 +30,9 @@ namespace Morula
   };
 
   /**
-   * What is wanted of the point nearest to each query position, over all ranks,
-   * one after the other. Queries lie in grid cells of this rank. Asks only for
-   * points near any query. Collective.
+   * The wanted numbers of the point nearest to each query position, over all
+   * ranks, query by query. Queries lie in grid cells of this rank. Only points
+   * near some query are sent. Collective.
    */
   template <int dim>
   std::vector<double>

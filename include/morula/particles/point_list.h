@@ -19,8 +19,8 @@ namespace Morula
   /**
    * Plain copies of points (cells or boundary points) on their way from the
    * seeding, from a snapshot, to another rank, or into a file: ids, positions
-   * (µm) and a row of numbers each, one row after the other. What the numbers
-   * are the points' Columns say, or a value that is Flat.
+   * (µm) and a row of numbers each, one row after the other. The points'
+   * Columns say what the numbers mean; or they are a value that is Flat.
    */
   template <int dim>
   struct PointList
@@ -75,7 +75,7 @@ namespace Morula
       numbers.insert(numbers.end(), row.begin(), row.end());
     }
 
-    /** Adds the points of another list with rows as long. */
+    /** Adds the points of another list, whose rows must be as long. */
     void
     append(const PointList &others)
     {
@@ -101,7 +101,7 @@ namespace Morula
       append_flat(numbers, value);
     }
 
-    /** The value that add_value() made a row of. */
+    /** The value that add_value() has added as row number @p i. */
     template <typename T>
     T
     value(const std::size_t i) const

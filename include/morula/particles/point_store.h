@@ -17,10 +17,10 @@ namespace Morula
 {
   /**
    * Points (cells, or boundary points) on the background grid: a deal.II
-   * ParticleHandler whose particles stand with the rank that owns their grid
-   * cell, and a canonical order over them: by grid cell, then by id. The order
-   * does not depend on the history, so that sums over points come out the same
-   * in a resumed run.
+   * ParticleHandler whose particles are on the rank that owns their grid cell,
+   * and a canonical order over them: by grid cell, then by id. The order does
+   * not depend on the history, so that sums over points come out the same in a
+   * resumed run.
    */
   template <int dim>
   class PointStore
@@ -44,7 +44,7 @@ namespace Morula
     attach(const BackgroundGrid<dim> &grid);
 
     /**
-     * Inserts points, wherever they are: each is sent to the rank that owns
+     * Inserts points, which may be anywhere: each is sent to the rank that owns
      * its grid cell. Collective.
      */
     void
@@ -75,14 +75,15 @@ namespace Morula
     void
     clear();
 
-    /** Likewise, and returns them in order. */
+    /** Takes all points of this rank out of the store, and returns them in
+     *  order. */
     PointList<dim>
     take();
 
     /**
-     * Puts the points of this rank in memory in the canonical order, if many
-     * have been replaced or have changed their grid cell since they last were:
-     * what goes through them in this order is then several times as fast.
+     * Sorts the memory of this rank's points into the canonical order, if many
+     * have been replaced or have changed their grid cell since the last time.
+     * Loops in this order are then several times as fast.
      */
     void
     defragment(const BackgroundGrid<dim> &grid);
@@ -116,7 +117,7 @@ namespace Morula
       return order[p]->get_location();
     }
 
-    /** Where all points of this rank are, µm. */
+    /** Positions of all points of this rank, µm. */
     std::vector<Point<dim>>
     positions() const;
 
@@ -174,7 +175,7 @@ namespace Morula
     reserve(const std::size_t n);
 
     const unsigned int n_numbers;
-    std::size_t        capacity = 0; // points there is room for
+    std::size_t        capacity = 0; // number of points that fit
     /** Points inserted or removed since all of them were in order, without
      *  gaps, in memory. */
     std::size_t                     n_disordered = 0;

@@ -14,16 +14,16 @@
 namespace Morula
 {
   /**
-   * Merges boundary points whose patches have shrunk to less than half of what
-   * they shall have, the reference area of doc/theory.md (4.12b), with the
-   * nearest that are like them, again and again until nothing is left to merge:
-   * doc/theory.md (4.12c), (4.12d). So Σ a n and Σ a n·x do not change. A
-   * merged patch is no larger than 1.6 times its reference area, and square. It
-   * has the condition of both, and the smaller id.
+   * Merges boundary points whose patches have shrunk to less than half of the
+   * area that they shall have, doc/theory.md (4.12b). Each merges with the
+   * nearest point that is alike, until nothing is left to merge: doc/theory.md
+   * (4.12c), (4.12d). Σ a n and Σ a n·x do not change. A merged patch is no
+   * larger than 1.6 times its reference area, and square. It has the condition
+   * of both, and the smaller id.
    *
    * All ranks look at all patches that may merge, and so find the same pairs,
-   * for any number of ranks. There are none in most steps, and a surface has
-   * few points beside the cells.
+   * for any number of ranks. In most steps there are none, and a surface has
+   * few points compared with the cells.
    *
    * @param points       this rank's boundary points
    * @param columns      of these, with patches and reference areas

@@ -26,22 +26,22 @@ namespace Morula
   /**
    * Splits every boundary point whose patch has an edge F E, doc/theory.md
    * (4.11), longer than @p longest_edge (µm) in two along its longest edge,
-   * again and again until none is left: each takes half of the area and stands
-   * in the middle of its half, X ∓ E/4 and x ∓ F E/4, with the same N, F and
-   * condition: doc/theory.md (4.12). Where the surface is coarsened, also those
-   * with more than twice the area of (4.12b). So Σ a n, Σ a n·x and Σ a⁰ do not
-   * change, and tangential displacement is the only one.
+   * until none is left. Each new point takes half of the area and sits in the
+   * middle of its half, X ∓ E/4 and x ∓ F E/4, with the same N, F and
+   * condition: doc/theory.md (4.12). If the surface is coarsened, points with
+   * more than twice the area of (4.12b) are split, too. Σ a n, Σ a n·x and Σ a⁰
+   * do not change, and points move only tangentially.
    *
-   * The point on the -E side keeps its id, the other one gets a new id: those
-   * of one round of splitting are in the order of the split points' ids, for
-   * any number of ranks.
+   * The point on the -E side keeps its id, the other one gets a new id. The new
+   * ids of one round of splitting are in the order of the split points' ids,
+   * for any number of ranks.
    *
-   * Points where the surface is crowded are left as they are: there it is
-   * crumpled, and further points would be carried apart like these, ever more
-   * of them.
+   * Points where the surface is crowded are not split: there the surface is
+   * crumpled, and further points would be carried apart, too, ever more of
+   * them.
    *
    * @param points  this rank's boundary points
-   * @param columns of these, with patches
+   * @param columns of the points, with patches
    * @param crowded whether there are enough points around a place already
    * @param next_id first free id, the same on all ranks; advanced
    * @return whether any rank has split a point. Collective.

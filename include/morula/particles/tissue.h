@@ -22,7 +22,7 @@ namespace Morula
   class Tissue
   {
   public:
-    /** A tissue of no cells yet, which will have these columns. */
+    /** A tissue without cells. Its points will have these columns. */
     Tissue(
       const GridParameters       &parameters,
       const CellColumns<dim>     &cell_columns,
@@ -30,8 +30,8 @@ namespace Morula
       const BoundaryColumns<dim> &boundary_columns = BoundaryColumns<dim>());
 
     /**
-     * Takes these points as the tissue, wherever they are; this rank gives any
-     * part of them. The grid is kept as long as the tissue stays inside its
+     * Takes these points, which may be anywhere, as the tissue; this rank gives
+     * any part of them. The grid is kept as long as the tissue stays inside its
      * padding and the ranks' loads stay balanced. Collective.
      */
     void
@@ -39,8 +39,8 @@ namespace Morula
 
     /**
      * Moves this rank's cells and boundary points to these positions (µm), in
-     * the order of their stores; what has been written to cell() and
-     * boundary_point() goes with them. Collective.
+     * the order of their stores; values written by cell() and boundary_point()
+     * move with them. Collective.
      */
     void
     move(const std::vector<Point<dim>> &cells,
@@ -55,9 +55,8 @@ namespace Morula
     boundary_point(const unsigned int p);
 
     /**
-     * The same as place() on a given box and partition, as they were when a
-     * snapshot was written; this rank gives any part of the weights.
-     * Collective.
+     * Like place(), but with the box and partition that a snapshot stored; this
+     * rank gives any part of the weights. Collective.
      */
     void
     restore(const PointList<dim> &cells,
@@ -102,8 +101,8 @@ namespace Morula
     const BoundaryPoints<dim> &
     boundary_points() const;
 
-    /** The box that cell @p p of this rank occupies: its cube, deformed where
-     *  cells have several points by the scene's wish, doc/theory.md (2.2b). */
+    /** The box that cell @p p of this rank occupies: its cube, deformed if the
+     *  scene gives cells several points, doc/theory.md (2.2b). */
     ParticleDomain<dim>
     domain(const unsigned int p) const;
 

@@ -52,8 +52,8 @@ namespace Morula
         name, section("Proliferation/Cell cycle/", name)));
     }
 
-    /** Adds a force, which is there if its keys say so; they stand in
-     *  `<Name>`. */
+    /** Adds a force. A scene has it if its keys say so; they stand in `<Name>`.
+     */
     template <template <int> class AddedForce>
     void
     add_force(const std::string &name)
@@ -62,8 +62,8 @@ namespace Morula
       forces.push_back(Choice<Force>::of<AddedForce>(name, section("", name)));
     }
 
-    /** Adds a fate, which is there if its keys say so; they stand in
-     *  `<Name>`. */
+    /** Adds a fate. A scene has it if its keys say so; they stand in `<Name>`.
+     */
     template <template <int> class AddedFate>
     void
     add_fate(const std::string &name)
@@ -72,7 +72,7 @@ namespace Morula
       fates.push_back(Choice<Fate>::of<AddedFate>(name, section("", name)));
     }
 
-    /** Adds a condition on the surface, which is there if its keys say so; they
+    /** Adds a condition on the surface. A scene has it if its keys say so; they
      *  stand in `Boundary conditions/<Name>`. */
     template <template <int> class Condition>
     void
@@ -120,7 +120,7 @@ namespace Morula
     Choices<BoundaryCondition> boundary_conditions;
 
   private:
-    /** Does something with all effects of all kinds. */
+    /** Calls @p action for all effects of all kinds. */
     template <typename Action>
     void
     for_each(const Action &action)

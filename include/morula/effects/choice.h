@@ -15,8 +15,8 @@ namespace Morula
 {
   /**
    * An effect of one kind that a scene can have: its name, its keys with their
-   * values, and how it is made of them. @p Interface is GrowthLaw, ... Copies
-   * have values of their own.
+   * values, and a function that makes the effect from them. @p Interface is
+   * GrowthLaw, ... Copies have values of their own.
    */
   template <template <int> class Interface>
   class Choice
@@ -70,7 +70,7 @@ namespace Morula
       return *this;
     }
 
-    /** In the scene, e.g. "stress limited". */
+    /** Its name in the scene, e.g. "stress limited". */
     const std::string &
     name() const
     {

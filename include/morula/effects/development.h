@@ -22,45 +22,45 @@
 
 namespace Morula
 {
-  /** What all cells of a rank become over one step, in the order of
-   *  Tissue::cells(). */
+  /** The growth and the events of all cells of a rank in one step, in the order
+   *  of Tissue::cells(). */
   template <int dim>
   struct GrowthOfStep
   {
     bool                        present = false; // else nothing grows
     std::vector<Tensor<2, dim>> previous;        // F_g at t
     std::vector<Tensor<2, dim>> current;         // F_g at t + dt
-    /** λ and μ at t + dt where they depend on the cells' state; else empty. */
+    /** λ and μ at t + dt if they depend on the cells' state; else empty. */
     std::vector<Lame> lame;
-    /** The cells' rows at t + dt, one after the other, but for F; empty where
-     *  commit() computes them anew. */
+    /** The cells' rows at t + dt, one after the other, without a new F; empty
+     *  if commit() computes them anew. */
     std::vector<double> rows;
-    /** What befell cells. */
+    /** Changes of type and deaths. */
     std::vector<CellEvent> events;
   };
 
-  /** What the file of a founder may say of it. */
+  /** What the points file may say of a founder. */
   struct GivenState
   {
-    /** In which it begins: see CellCycle::founder_in_phase(). */
+    /** The phase in which it begins: see CellCycle::founder_in_phase(). */
     std::optional<unsigned int> phase;
     /** Number of its type. */
     std::optional<unsigned int> type;
   };
 
-  /** The effects that decide what becomes of a cell. */
+  /** The effects that decide how cells develop. */
   template <int dim>
   struct DevelopmentEffects
   {
     /** Or null. */
     std::unique_ptr<const GrowthLaw<dim>> law;
     std::optional<CellCycle<dim>>         cycle;
-    /** Where the cycle keeps its clock; as present as the cycle. */
-    std::optional<CycleColumns<dim>> clock;
-    /** Of the axes of cycles, each of them once. */
-    std::vector<std::unique_ptr<const DivisionRule<dim>>> rules;
-    /** Which of them a type of cells has, or null; empty: all have the first.
+    /** The columns in which the cycle keeps its clock; present with the cycle.
      */
+    std::optional<CycleColumns<dim>> clock;
+    /** The rules for axes that the cell types use, each of them once. */
+    std::vector<std::unique_ptr<const DivisionRule<dim>>> rules;
+    /** The rule of each type of cells, or null; empty: all have the first. */
     std::vector<const DivisionRule<dim> *> rule_of_type = {};
     std::optional<CellTypes<dim>>          types        = {};
     std::optional<Death<dim>>              death        = {};
@@ -72,11 +72,11 @@ namespace Morula
     std::unique_ptr<const Relaxation<dim>> relaxation;
     /** Whether cells that change their type forget their stress. */
     bool forgets_stress = false;
-    /** F_law, where the contraction stands left of it. */
+    /** F_law, if a contraction is multiplied from its left. */
     Column<Tensor<2, dim>> law_growth;
-    /** F_r of (8.7), where there is no cycle to keep it. */
+    /** F_r of (8.7), if there is no cycle that keeps it. */
     Column<Tensor<2, dim>> relaxed;
-    /** All effects that have columns of their own; they stand elsewhere. */
+    /** All effects that have columns of their own; others own these effects. */
     std::vector<const Effect<dim> *> with_state = {};
 
     /** The rule of a type of cells, or null: its axes are those that the cycle
@@ -86,10 +86,10 @@ namespace Morula
   };
 
   /**
-   * All that becomes of a cell in a step before anything moves: its clock, what
-   * effects keep in columns, and F_g, the product of the effects' parts:
-   * doc/theory.md (8.7). Pure functions of the committed state. Knows nothing
-   * of the balance of momentum.
+   * The development of cells in a step, before anything moves: the clock, the
+   * columns of effects, and F_g, the product of the effects' parts:
+   * doc/theory.md (8.7). Pure functions of the committed state. It knows
+   * nothing of the balance of momentum.
    */
   template <int dim>
   class CellDevelopment
@@ -97,7 +97,7 @@ namespace Morula
   public:
     /**
      * @param columns  of the cells, all declared
-     * @param state    which of them are behind variables of expressions
+     * @param state    the columns behind the variables of expressions
      * @param material of the tissue
      */
     CellDevelopment(DevelopmentEffects<dim>  effects,
@@ -106,7 +106,8 @@ namespace Morula
                     const TissueMaterial    &material,
                     const std::uint64_t      random_seed);
 
-    /** With these effects alone, in cells of the default material. */
+    /** A development with these effects alone, in cells of the default
+     *  material. */
     CellDevelopment(std::unique_ptr<const GrowthLaw<dim>>    law,
                     std::optional<CellCycle<dim>>            cycle,
                     std::unique_ptr<const DivisionRule<dim>> rule = nullptr);
@@ -115,7 +116,7 @@ namespace Morula
     bool
     grows() const;
 
-    /** Whether anything becomes of cells. */
+    /** Whether any effect changes cells. */
     bool
     present() const;
 
@@ -123,7 +124,7 @@ namespace Morula
     const CellCycle<dim> *
     cycle() const;
 
-    /** The columns of cells that develop so. */
+    /** The columns of the cells. */
     const CellColumns<dim> &
     columns() const;
 
@@ -131,7 +132,7 @@ namespace Morula
     const StateColumns<dim> &
     state() const;
 
-    /** How to read cells that are in their state of time @p t, day. */
+    /** A reader for cells whose state is that of time @p t, day. */
     CellReader<dim>
     reader(const double t) const;
 
@@ -145,8 +146,8 @@ namespace Morula
               const CycleState<dim>       &state) const;
 
     /**
-     * Sets a founder's columns, at t = 0, and refuses what effects cannot do
-     * with it.
+     * Sets a founder's columns at t = 0, and refuses a founder that some effect
+     * cannot handle.
      * @param step of the run, day
      * @param given what its file says of it
      * @throws InputError
@@ -157,12 +158,12 @@ namespace Morula
                const double                 step  = 0.,
                const GivenState            &given = {}) const;
 
-    /** What becomes of the cells in (t0, t1]. @throws InputError */
+    /** The development of the cells in (t0, t1]. @throws InputError */
     GrowthOfStep<dim>
     of_step(const Tissue<dim> &tissue, const double t0, const double t1) const;
 
-    /** Sets all columns but F to the end of the step, where F is still that at
-     *  @p t0. */
+    /** Sets all columns but F to their values at the end of the step. F must
+     *  still be that at @p t0. */
     void
     commit(Tissue<dim>             &tissue,
            const GrowthOfStep<dim> &of_step,
@@ -186,8 +187,8 @@ namespace Morula
     death() const;
 
     /**
-     * Sets what a daughter has that her mother has not, and lets her live until
-     * the end of the step.
+     * Sets what distinguishes a daughter from her mother, and lets her live
+     * until the end of the step.
      * @param daughter has her mother's columns, by their rules, and her clock
      * @param which    0 for the one at -n_s, 1 for the other
      * @param birth    exact time, day
@@ -216,7 +217,7 @@ namespace Morula
                const double            t0,
                const double            t1) const;
 
-    /** What befalls a cell first, if anything does. */
+    /** The first event of a cell, or none. */
     struct NextEvent
     {
       double                                         time; // day
@@ -225,11 +226,11 @@ namespace Morula
     };
 
     /**
-     * Death, or the first way out of its type, in (t, t1], but not behind its
+     * Death, or the first way out of its type, in (t, t1], but not after its
      * division. Integrates the rates until then.
      * @param cell  of its present type
      * @param after keeps the integrals
-     * @param next  its clock at t1 if nothing befalls it
+     * @param next  its clock at t1 if nothing happens to it
      */
     NextEvent
     next_event(const PresentCell<dim>      &cell,
@@ -240,8 +241,8 @@ namespace Morula
 
     /**
      * The clock at t1, or at the cell's death if that comes first, through all
-     * changes of type in (t0, t1]; sets the columns of type and death. What a
-     * mother would do behind her division is her daughters'.
+     * changes of type in (t0, t1]; sets the columns of type and death. What
+     * happens after a division happens to the daughters, not to the mother.
      * @param before the cell at the beginning of the step
      * @param after  a copy of its row
      */
@@ -269,15 +270,15 @@ namespace Morula
                const CellView<dim, double> &after,
                std::vector<CellEvent>      &events) const;
 
-    /** Gives a cycle that begins between these states the rule's axis. */
+    /** If a cycle begins between these states, sets its axis by the rule. */
     void
     choose_axis(const CycleState<dim>  &before,
                 const PresentCell<dim> &cell,
                 const double            t,
                 CycleState<dim>        &after) const;
 
-    /** What stands right of the law's part of F_g, at the time @p t of the
-     *  clock: the cycle's part and what has relaxed. */
+    /** The factors of F_g to the right of the law's part, at the time @p t of
+     *  the clock: the cycle's part and what has relaxed. */
     Tensor<2, dim>
     behind_law(const CellView<dim, const double> &cell,
                const CycleState<dim>             &clock,
@@ -289,7 +290,7 @@ namespace Morula
                const double            t0,
                const double            t1) const;
 
-    /** The law's part and what stands right of it, at t1, of a cell in its
+    /** The law's part and the factors to its right, at t1, of a cell in its
      *  state at t0. */
     Tensor<2, dim>
     growth(const PresentCell<dim> &cell,
@@ -298,7 +299,7 @@ namespace Morula
            const double            t1) const;
 
     /**
-     * F_g of law, cycle and contraction at t1, which is noted in @p after.
+     * F_g of law, cycle and contraction at t1, also written to @p after.
      * @param next the clock of t1
      */
     Tensor<2, dim>
@@ -309,7 +310,7 @@ namespace Morula
                   const double                 t1) const;
 
     /**
-     * D F_g, which is noted in @p after: as if D had come before all growth.
+     * D F_g, also written to @p after, as if D had come before all growth.
      * @param F_g   of all effects at t1
      * @param after has the clock of t1
      */
@@ -319,7 +320,7 @@ namespace Morula
            const CellView<dim, double> &after) const;
 
     /**
-     * F_g after relaxation, which is noted in @p after.
+     * F_g after relaxation, also written to @p after.
      * @param F_g   of the other effects at t1
      * @param after has the clock of t1
      */

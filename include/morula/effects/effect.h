@@ -24,8 +24,8 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The keys of an effect. Where a scene does not choose the effect by its
-   * name, they say whether it is on.
+   * The keys of an effect. Unless a scene chooses the effect by its name, they
+   * say whether it is on.
    */
   struct EffectKeys : public Keys
   {
@@ -33,7 +33,7 @@ namespace Morula
     virtual bool
     is_on() const;
 
-    /** The key that switches the effect on, or null where a name does. */
+    /** The key that switches the effect on, or null if a name does. */
     virtual const AnyKey *
     switch_key() const;
 
@@ -58,7 +58,7 @@ namespace Morula
   template <int dim>
   class PresentCell;
 
-  /** What a scene tells to every effect whose constructor wants to know. */
+  /** What a scene offers to the constructor of every effect. */
   template <int dim>
   struct EffectSetting
   {
@@ -70,15 +70,15 @@ namespace Morula
      *  own, and keeps the handles. They are saved and resumed with the others.
      */
     CellColumns<dim> &columns;
-    /** The state of cells that expressions speak of: an effect takes its
-     *  expressions of cells from here. */
+    /** The variables of cells in expressions: an effect takes its expressions
+     *  of cells from here. */
     StateColumns<dim> &state;
-    /** Tissue/Center where the shape has one, else the origin, µm. */
+    /** Tissue/Center if the shape has one, else the origin, µm. */
     Point<dim> center = Point<dim>();
   };
 
   /**
-   * What an effect may look at before a run: plain values. The founders and
+   * What an effect may inspect before a run: plain values. The founders and
    * boundary points are those of this rank.
    */
   template <int dim>
@@ -104,21 +104,21 @@ namespace Morula
   };
 
   /** What all effects have in common. An effect keeps nothing between calls: a
-   *  state that outlives a step stands in columns of the cells. */
+   *  state that outlives a step is in columns of the cells. */
   template <int dim>
   class Effect
   {
   public:
     virtual ~Effect() = default;
 
-    /** Sets the effect's columns of a founder, at t = 0, where they differ from
-     *  what was declared. Only called where the effect has columns. */
+    /** Sets the effect's columns of a founder at t = 0, if they differ from the
+     *  declared values. Only called if the effect has columns. */
     virtual void
     begin(const CellView<dim, double> &cell) const;
 
     /**
      * Sets the effect's columns of a cell at the end @p t1 (day) of a step.
-     * Only called where the effect has columns, in every attempt of a step.
+     * Only called if the effect has columns; in every attempt of a step.
      * @param before the cell at @p t0, which evaluates expressions, too
      * @param after  the same cell: what this effect does not write, others may
      *               have written already
@@ -129,8 +129,8 @@ namespace Morula
             const double                 t0,
             const double                 t1) const;
 
-    /** Refuses what the effect cannot do with a founder in its state at t = 0,
-     *  in steps of @p step days. @throws InputError */
+    /** Refuses a founder that the effect cannot handle, in its state at t = 0
+     *  and with steps of @p step days. @throws InputError */
     virtual void
     check_cell(const PresentCell<dim> &founder, const double step) const;
 

@@ -10,7 +10,7 @@
 
 /**
  * The library's own division rules, for `Proliferation/Cell cycle/Division
- * axis`. Where a cell has no state yet, or its state singles out no direction,
+ * axis`. If a cell has no state yet, or its state singles out no direction,
  * they take its random direction.
  */
 namespace Morula
@@ -30,7 +30,7 @@ namespace Morula
   };
 
   /** `Division axis = fixed`: along a vector in the reference configuration.
-   *  @throws InputError from axis() where the vector is zero */
+   *  @throws InputError from axis() if the vector is zero */
   template <int dim>
   class FixedAxis : public DivisionRule<dim>
   {
@@ -42,7 +42,7 @@ namespace Morula
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override;
 
-    /** Nothing: check_cell() asks those founders that proliferate. */
+    /** Does nothing: check_cell() checks the founders that proliferate. */
     void
     check(const Preview<dim> &scene) const override;
 
@@ -61,7 +61,8 @@ namespace Morula
     }
   };
 
-  /** What the rules have in common that look at the present configuration. */
+  /** The common base of rules that give the axis in the present configuration.
+   */
   template <int dim>
   class PresentAxis : public DivisionRule<dim>
   {
@@ -147,7 +148,8 @@ namespace Morula
     axis(const CellAtOnset<dim> &cell) const override;
   };
 
-  /** `Division axis = gradient of NAME`: where a field rises fastest now. */
+  /** `Division axis = gradient of NAME`: along the direction in which a field
+   *  rises fastest now. */
   template <int dim>
   class GradientAxis : public PresentAxis<dim>
   {
@@ -155,7 +157,7 @@ namespace Morula
     /** @param field its name */
     GradientAxis(const std::string &field, const EffectSetting<dim> &setting);
 
-    /** Random where the field is uniform. */
+    /** Random if the field is uniform. */
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override;
 

@@ -21,9 +21,9 @@ namespace Morula::Directions
 
   /**
    * The part of @p direction perpendicular to the unit vector @p axis, made a
-   * unit vector: uniform in the perpendicular plane (2-D: on the line) if @p
-   * direction is uniform on the sphere. Of a direction along the axis, some
-   * perpendicular one.
+   * unit vector: uniform in the perpendicular plane (2-D: on the line) if
+   * @p direction is uniform on the sphere. If the direction is along the axis,
+   * any perpendicular one.
    */
   template <int dim>
   Tensor<1, dim>

@@ -20,21 +20,21 @@ namespace Morula
             const CellDevelopment<dim> &development,
             const double                t);
 
-  /** What divisions bring. */
+  /** The result of divisions. */
   template <int dim>
   struct Divisions
   {
     /** The daughters born on this rank. */
     std::vector<Birth<dim>> births;
-    /** What befell them before the end of the step. */
+    /** What happened to them before the end of the step. */
     std::vector<CellEvent> events;
   };
 
   /**
-   * Divides each of these cells into two. The daughters stand where
-   * daughter_distances() says. They inherit every column by its rule, so F,
-   * equation (17) of the paper, F_g and half of V⁰, equation (18), and the
-   * clock of the cycle. All divisions see the same configuration. Collective.
+   * Divides each of these cells into two. daughter_distances() gives the
+   * daughters' places. They inherit every column by its rule: F, equation (17)
+   * of the paper, F_g and half of V⁰, equation (18), and the clock of the
+   * cycle. All divisions see the same configuration. Collective.
    * @param t1 end of the step, day
    * @param next_id first free id, the same on all ranks; advanced
    */

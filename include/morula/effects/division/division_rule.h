@@ -21,30 +21,31 @@ namespace Morula
     Point<dim> founder_position;
     /** F_e at the beginning of the step; the identity at t = 0. */
     Tensor<2, dim> elastic;
-    /** Unit vector, uniformly distributed and the cell's own: what Division
-     *  axis = random would take. */
+    /** The cell's own random unit vector, uniformly distributed: the axis for
+     *  Division axis = random. */
     Tensor<1, dim> random;
     /** Its state at the beginning of the step; null before there are cells. */
     const PresentCell<dim> *present = nullptr;
     /** Time of that state, day. */
     double time = 0.;
-    /** Ratio of a larger to a smaller stretch, >= 1, below which the cell
-     *  cannot tell them apart: `Least anisotropy`. */
+    /** Ratio of two stretches, the larger over the smaller, >= 1, below which
+     *  the cell cannot tell them apart: `Least anisotropy`. */
     double least_anisotropy = 1.;
   };
 
-  /** What the direction of an axis is given in. */
+  /** The configuration in which an axis is given. */
   enum class AxisFrame
   {
-    /** The body as it was at t = 0: n_s itself. */
+    /** That of t = 0: the axis is n_s itself. */
     reference,
-    /** The present one: n_s is what the deformation will carry to it, and the
-     *  daughters are placed along the direction that n_s is carried to. */
+    /** The present one: n_s is the direction that the deformation carries to
+     *  the axis. The daughters are placed along the direction to which n_s is
+     *  carried. */
     present
   };
 
   /**
-   * Along which axis a cell grows and divides: n_s of (6.2), for
+   * Chooses the axis along which a cell grows and divides, n_s of (6.2), for
    * `Proliferation/Cell cycle/Division axis`. A rule keeps nothing between
    * calls.
    */
@@ -53,19 +54,20 @@ namespace Morula
   {
   public:
     /** The axis of the cycle that begins, of any length but zero. Called again
-     *  with the same cell where a step is halved. */
+     *  with the same cell if a step is halved. */
     virtual Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const = 0;
 
-    /** What axis() is given in. */
+    /** The configuration in which axis() is given. */
     virtual AxisFrame
     frame() const;
 
-    /** Asks for the axes of the founders. */
+    /** Evaluates the axes of the founders, so that errors appear before the
+     *  run. */
     void
     check(const Preview<dim> &scene) const override;
 
-    /** Asks for the axis of a founder in its state. */
+    /** Evaluates the axis of a founder in its state. */
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;

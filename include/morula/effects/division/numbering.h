@@ -15,7 +15,7 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** When which cell divides; ordered by time, then by the mother's id. */
+  /** The division of a cell; ordered by time, then by the mother's id. */
   struct DivisionEvent
   {
     double                time;   // day, exact
@@ -27,7 +27,7 @@ namespace Morula
       return std::tie(a.time, a.mother) < std::tie(b.time, b.mother);
     }
 
-    /** For messages: deal.II wants it of every type, and copies the bytes. */
+    /** For messages: deal.II demands it of every type, and copies the bytes. */
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)

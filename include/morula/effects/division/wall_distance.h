@@ -45,18 +45,19 @@ namespace Morula
    * wall farther than the cell's length counts as absent.
    *
    * The Voronoi wall along the unit vector n, doc/theory.md (6.5), is at
-   * min_q |q-p|² / (2 (q-p)·n) over the cells q with (q-p)·n > 0; those within
-   * two lengths hold all walls that count: exact and local. Dirichlet boundary
-   * points act as half-spaces, each within one point spacing of where the ray
-   * hits it. Where only one side has a wall, the other daughter takes its
-   * distance, (19); without walls both stand at a quarter of the length, (20).
+   * min_q |q-p|² / (2 (q-p)·n) over the cells q with (q-p)·n > 0; the cells
+   * within two lengths make all walls that count, so the result is exact and
+   * local. Dirichlet boundary points act as half-spaces, each within one point
+   * spacing of where the ray hits it. If only one side has a wall, the other
+   * daughter takes its distance, (19); without walls both are at a quarter of
+   * the length, (20).
    *
    * Daughters keep away from each other and from walls: another cell within
-   * 1e-3 lengths counts as coinciding and bounds nothing, and a cell that
-   * stands nearer than 1e-3 lengths to a Dirichlet half-space, on it, or up to
-   * 0.1 lengths beyond counts as 1e-3 lengths inside (farther beyond, the
+   * 1e-3 lengths counts as coinciding and bounds nothing, and a cell that is
+   * nearer than 1e-3 lengths to the plane of a Dirichlet half-space, or up to
+   * 0.1 lengths beyond it, counts as 1e-3 lengths inside (farther beyond, the
    * boundary is that of another part of the body). So no distance is below
-   * 2.5e-4 lengths, and a daughter leaves by at most 5e-4 lengths.
+   * 2.5e-4 lengths, and a daughter crosses the plane by at most 5e-4 lengths.
    *
    * The result for a cell does not depend on the order of the points, nor on
    * which other cells divide.

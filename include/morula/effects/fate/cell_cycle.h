@@ -52,7 +52,7 @@ namespace Morula
                     const Preview<dim>        &scene,
                     Review                    &review);
 
-  /** Where a cell stands in its cycle. S and G2 differ by the clock alone. */
+  /** A cell's place in its cycle. S and G2 differ by the clock alone. */
   enum class CyclePhase
   {
     waiting = 0, // G0, or held at the size checkpoint
@@ -72,25 +72,25 @@ namespace Morula
     Tensor<2, dim> growth_pre;      // F_g,cycle before the onset of S
     /** T of the running cycle, day, if cells store it; else 0. */
     double duration = 0.;
-    /** The rate that cells leave G0 with, integrated since the wait began, if
-     *  cells store it. */
+    /** The rate of leaving G0, integrated since the wait began, if cells store
+     *  it. */
     double hazard = 0.;
   };
 
-  /** Whether only a present cell tells the value. */
+  /** Whether the value depends on more than the founder's place. */
   inline bool
   depends_on_more_than_place(const Expression &expression)
   {
     return expression.depends_on_state() || expression.depends_on_time();
   }
 
-  /** Where the expressions of a cell cycle are evaluated: at a founder's place,
-   *  or for a present cell. */
+  /** Evaluates the expressions of a cell cycle, at a founder's place or for a
+   *  present cell. */
   template <int dim>
   class CellAt
   {
   public:
-    /** At a founder's place, for expressions that speak of no more. */
+    /** At a founder's place, for expressions of X, Y, Z alone. */
     CellAt(const Point<dim> &X)
       : X(X)
     {}
@@ -115,7 +115,7 @@ namespace Morula
     double                  t    = 0.;
   };
 
-  /** Where a cell's clock stands: the columns that the cell cycle needs. */
+  /** The columns of a cell's clock: those that the cell cycle needs. */
   template <int dim>
   class CycleColumns
   {
@@ -155,19 +155,19 @@ namespace Morula
   /**
    * The cell cycle of section 2.3 of the paper: an exponential wait in G0, then
    * S, G2, M, G1 of fixed total duration T with unidirectional growth (15) and
-   * division at T/2, and the size checkpoint of section 3.2. A pure function of
-   * a cell's state: it keeps nothing.
+   * division at T/2, and the size checkpoint of section 3.2. It is a pure
+   * function of a cell's state and keeps nothing.
    *
-   * All events have exact times, whatever the steps. A wait that ends in
-   * (t0, t1] starts S at its exact time if J_e(t0) > J_th; otherwise the cell
-   * is held, and starts S at the first later step start t0 with J_e(t0) > J_th.
-   * As J_th goes to zero this becomes no checkpoint. Each cell draws at most
-   * one wait and one axis, from its own key.
+   * All events have exact times, for any length of the steps. A wait that ends
+   * in (t0, t1] starts S at its exact time if J_e(t0) > J_th; otherwise the
+   * cell is held, and starts S at the first later step start t0 with J_e(t0) >
+   * J_th. As J_th goes to zero this becomes no checkpoint. Each cell draws at
+   * most one wait and one axis, from its own key.
    *
    * Expressions are evaluated at the founder's initial position, or for the
-   * present cell if they depend on its state: @p at, passed to every call. T is
-   * that of the onset of S. A rate of leaving G0 that depends on the state is
-   * integrated over the steps; the cell leaves when the integral reaches a
+   * present cell if they depend on its state: every call gets @p at for that. T
+   * is fixed at the onset of S. A rate of leaving G0 that depends on the state
+   * is integrated over the steps; the cell leaves when the integral reaches a
    * number that is exponentially distributed with mean 1: the same draw as that
    * of a constant rate.
    */
@@ -184,14 +184,13 @@ namespace Morula
               const std::uint64_t        seed,
               const double               slack);
 
-    /** The same with the scene's columns of state, for expressions that depend
-     *  on it. */
+    /** A cycle whose expressions may depend on the cells' state. */
     CellCycle(const CellCycleParameters &parameters,
               const std::uint64_t        seed,
               const double               slack,
               StateColumns<dim>         &state);
 
-    /** Whether every cell has a T of its own, since it depends on its state. */
+    /** Whether every cell stores its own T, since T depends on its state. */
     bool
     has_own_duration() const;
 
@@ -223,7 +222,7 @@ namespace Morula
 
     /**
      * State at t = 0 of founder number @p id in a given phase, with the numbers
-     * of phase_number() but for M, which is a moment. How far it has come in S,
+     * of phase_number() except M, which is a moment. How far it has come in S,
      * G2 or G1 is drawn, uniformly: doc/theory.md (6.2a). Call begin_growth()
      * when its axis is chosen.
      */
@@ -282,8 +281,8 @@ namespace Morula
     placement_axis(const CycleState<dim> &state,
                    const Tensor<2, dim>  &F_e) const;
 
-    /** Whether daughters stay inside the whole surface, not only inside what
-     *  is held of it. */
+    /** Whether daughters stay inside the whole surface, not only inside its
+     *  held parts. */
     bool
     stays_inside() const;
 
@@ -326,8 +325,8 @@ namespace Morula
     double
     cycle_duration(const CycleState<dim> &state, const CellAt<dim> &at) const;
 
-    /** T of a cell from @p X; refuses its numbers that depend on its state, or
-     *  the others. */
+    /** T of a cell from @p X. Refuses bad values: of the expressions that
+     *  depend on its state, or of the others. */
     double
     checked_duration(const CellAt<dim> &at,
                      const Point<dim>  &X,

@@ -13,7 +13,7 @@
 
 namespace Morula
 {
-  /** What a type of cells may choose from by name, separated by '|'. */
+  /** The names from which a type of cells may choose, separated by '|'. */
   struct LawsOfCells
   {
     std::string growth, division_axes;
@@ -25,7 +25,8 @@ namespace Morula
     /**
      * @param name   of the type
      * @param others names of the other types
-     * @param of_cells keys of cells, which the type may have otherwise
+     * @param of_cells keys of cells, for which the type may have values of its
+     *        own
      * @param laws that there are
      */
     CellTypeKeys(const std::string                        &name,
@@ -41,10 +42,10 @@ namespace Morula
     Key<std::string> division_axis;
     /** Rates of becoming one of the other types, in their order. */
     std::deque<ExpressionKey> transitions;
-    /** Values of keys for this type; empty: those of all. */
+    /** Values of keys for this type; empty: the values of all types. */
     std::deque<ExpressionKey> overrides;
 
-    /** Where a key of cells stands for this type. */
+    /** The path of a key of cells in the section of this type. */
     std::string
     path_of(const AnyKey &key) const;
 
@@ -72,7 +73,8 @@ namespace Morula
     /**
      * Makes the sections of the types.
      * @param names as `Names` has them
-     * @param of_cells keys of cells, which types may have otherwise
+     * @param of_cells keys of cells, for which types may have values of their
+     *        own
      * @param laws that there are
      * @param fields names that are taken
      * @throws InputError for names that expressions cannot have, or that are
@@ -84,8 +86,7 @@ namespace Morula
                   const LawsOfCells                        &laws,
                   const std::vector<std::string>           &fields);
 
-    /** Tells the keys of cells which types there are, and what these have
-     *  otherwise. */
+    /** Tells the keys of cells the types and their own values. */
     void
     apply(const std::vector<ExpressionKey *> &of_cells);
 

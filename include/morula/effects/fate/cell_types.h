@@ -14,12 +14,12 @@
 namespace Morula
 {
   /**
-   * The types of cells, and how cells change theirs. Each way out of a type has
-   * a rate r (1/day), an expression of the cell's state at the beginning of the
-   * step, and is taken when ∫ r dt since the cell got its type reaches a number
-   * that is exponentially distributed with mean 1, drawn from the lineage key:
-   * doc/theory.md, section 6.8. So events have exact times, and where rates do
-   * not depend on steps, neither do the events.
+   * The types of cells, and how cells change their type. Each way out of a type
+   * has a rate r (1/day), an expression of the cell's state at the beginning of
+   * the step, and is taken when ∫ r dt since the cell got its type reaches a
+   * number that is exponentially distributed with mean 1, drawn from the
+   * lineage key: doc/theory.md, section 6.8. So events have exact times, and if
+   * the rates do not depend on steps, neither do the events.
    */
   template <int dim>
   class CellTypes
@@ -29,12 +29,13 @@ namespace Morula
     CellTypes(const CellTypesParameters &parameters,
               const EffectSetting<dim>  &setting);
 
-    /** Of a founder at @p X: the last type whose `Where` holds, or the first.
-     */
+    /** The type of a founder at @p X: the last one whose `Where` holds, or the
+     *  first. */
     unsigned int
     founder_type(const Point<dim> &X) const;
 
-    /** Of the daughters of a cell of this type, -n_s daughter first. */
+    /** The types of the daughters of a cell of this type, -n_s daughter first.
+     */
     std::pair<unsigned int, unsigned int>
     daughters(const unsigned int type) const;
 

@@ -29,8 +29,8 @@ namespace Morula
     bool
     is_on() const override;
 
-    /** Whether cells shrink before they go, or stay as debris: whether a dead
-     *  cell is ever in the balance of momentum. */
+    /** Whether cells shrink before they are removed, or stay as debris: then
+     *  dead cells are in the balance of momentum. */
     bool
     shrinks() const;
 
@@ -40,11 +40,11 @@ namespace Morula
   };
 
   /**
-   * How cells die: at a rate (1/day), or at once where a condition holds at the
+   * How cells die: at a rate (1/day), or at once if a condition holds at the
    * beginning of a step. A dead cell neither grows nor divides nor changes its
-   * type; its volume falls linearly from that at death to its final part of it,
-   * and then the cell is removed, or stays as debris: doc/theory.md, section
-   * 6.9. Keeps its state in columns of the cells.
+   * type; its volume falls linearly from that at death to a final fraction, and
+   * then the cell is removed, or stays as debris: doc/theory.md, section 6.9.
+   * Keeps its state in columns of the cells.
    */
   template <int dim>
   class Death : public Effect<dim>
@@ -85,8 +85,8 @@ namespace Morula
     set_integral(const CellView<dim, double> &row, const double value) const;
 
     /**
-     * The cell is dead from @p t (day) on. Its numbers are those of this
-     * moment.
+     * Lets the cell die at @p t (day). Shrinking time, final volume and whether
+     * debris stays are evaluated now.
      * @throws InputError
      */
     void
@@ -94,24 +94,25 @@ namespace Morula
          const CellView<dim, double> &row,
          const double                 t) const;
 
-    /** Lets a dead cell shrink until @p t (day): the factor by which the
-     *  stretch of F_g changes, which is noted. */
+    /** Lets a dead cell shrink until @p t (day). Returns the factor by which
+     *  the stretch of F_g changes, and stores it. */
     double
     shrink(const CellView<dim, double> &row, const double t) const;
 
-    /** When the cell goes, day; infinity: never, as far as is known. */
+    /** When the cell will be removed, day; infinity: never, as far as is known.
+     */
     double
     removal_time(const CellView<dim, const double> &cell) const;
 
-    /** With which living cells die, 1/day. */
+    /** The rate with which living cells die, 1/day. */
     const Expression &
     rate() const;
 
-    /** Whether a dead cell has a time to shrink before it goes. */
+    /** Whether a dead cell shrinks over time before it is removed. */
     bool
     shrinks(const CellView<dim, const double> &cell) const;
 
-    /** Whether it goes at @p t (day) at the latest. */
+    /** Whether it is removed at @p t (day) at the latest. */
     bool
     is_gone(const CellView<dim, const double> &cell, const double t) const;
 

@@ -30,14 +30,14 @@ namespace Morula
   class Descendants
   {
   public:
-    /** Until @p end_time, day. */
+    /** Counts descendants until @p end_time, day. */
     Descendants(const CellCycleParameters &cycle, const double end_time);
 
     /**
      * The number for a founder at @p X, the founder included. With a size
-     * checkpoint, or numbers that depend on the cells' state, 1: a lower bound,
-     * as only the run can tell.
-     * @throws InputError where an expression has no value
+     * checkpoint, or expressions that depend on the cells' state, it is 1: a
+     * lower bound, since only the run shows more.
+     * @throws InputError if an expression has no value
      */
     double
     expected(const Point<dim> &X);

@@ -12,7 +12,7 @@ namespace Morula
   /**
    * What becomes of a cell over time, besides its growth and its cell cycle: a
    * state in columns of its own, which other effects may read by the columns'
-   * names. A daughter has of her mother's what the columns declare.
+   * names. The columns declare what a daughter inherits.
    */
   template <int dim>
   class Fate : public Effect<dim>

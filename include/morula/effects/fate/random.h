@@ -15,7 +15,7 @@
  */
 namespace Morula::Random
 {
-  /** What a number is drawn for; every cell draws each at most once. */
+  /** The purpose of a random number; every cell draws each at most once. */
   enum class Draw : std::uint32_t
   {
     wait,
@@ -70,8 +70,8 @@ namespace Morula::Random
   double
   part_of_phase(const std::uint64_t seed, const std::uint64_t key);
 
-  /** Key for the axis of a cycle that began before a founder's time: not the
-   *  founder's own, by which it draws the axis of its next cycle. */
+  /** Key for the axis of a cycle that began before t = 0. It is not the
+   *  founder's own key, which draws the axis of its next cycle. */
   std::uint64_t
   past_key(const std::uint64_t seed, const std::uint64_t founder_key);
 
@@ -81,9 +81,8 @@ namespace Morula::Random
   direction(const std::uint64_t seed, const std::uint64_t key);
 
   /**
-   * Distributed around a direction as von Mises and Fisher have it, with the
-   * density C exp(κ n·axis) on the unit sphere (2-D: circle), doc/theory.md
-   * (6.3d).
+   * A von Mises-Fisher distribution around a direction, with the density
+   * C exp(κ n·axis) on the unit sphere (2-D: circle), doc/theory.md (6.3d).
    * @param axis          unit vector
    * @param concentration κ > 0: the larger, the nearer to the axis; the mean
    *        square angle tends to (dim - 1)/κ

@@ -13,9 +13,9 @@
 namespace Morula
 {
   /**
-   * Takes the dead cells that go at or before @p t (day) out of the tissue, and
-   * with them the boundary points that have no cell within reach any more. What
-   * is left of cells that have shrunk is handed to those in their grid cells:
+   * Removes the dead cells that are due at or before @p t (day) from the
+   * tissue, and the boundary points that then have no cell within reach. The
+   * remaining volume of shrunken cells goes to the cells in their grid cells:
    * doc/theory.md, section 6.9. Only with death. Collective.
    * @return the removals of this rank
    */

@@ -15,19 +15,19 @@
 
 namespace Morula
 {
-  /** When a field has its values. */
+  /** How a field depends on time. */
   enum class FieldKind
   {
     steady,   // its steady state in every configuration
     transient // it changes with time
   };
 
-  /** What a cell uses up of a field at a value c. */
+  /** A cell's consumption of a field at a value c. */
   struct Uptake
   {
     /** k c, in the field's unit per day. */
     double used;
-    /** d(kc)/dc, or 0 where that is negative, 1/day. */
+    /** d(kc)/dc, or 0 if that is negative, 1/day. */
     double slope;
   };
 
@@ -50,7 +50,7 @@ namespace Morula
     FieldKind
     kind() const;
 
-    /** Whether its amount stays where cells grow. */
+    /** Whether growth of cells dilutes it: the amount stays the same. */
     bool
     is_diluted() const;
 
@@ -62,7 +62,7 @@ namespace Morula
     bool
     is_nonlinear() const;
 
-    /** Whether its diffusion or production does. */
+    /** Whether its diffusion or production depends on the field itself. */
     bool
     has_nonlinear_source() const;
 

@@ -13,21 +13,21 @@
 
 namespace Morula
 {
-  /** What a field's equation says of one cell. */
+  /** The coefficients of a field's equation in one cell. */
   struct FieldAtCell
   {
     /** V, µm^dim. */
     double volume;
     /** D, µm²/day. */
     double diffusion;
-    /** k: how fast what is sought decays here, with 1/dt where it changes with
-     *  time; 1/day. */
+    /** k: the decay rate of the unknown here, plus 1/dt for a transient field;
+     *  1/day. */
     double rate;
-    /** s: what comes, in the field's unit per day. */
+    /** s: the source, in the field's unit per day. */
     double load;
   };
 
-  /** What a field's equation says of one boundary point. */
+  /** The coefficients of a field's equation at one boundary point. */
   template <int dim>
   struct FieldAtSurface
   {
@@ -44,9 +44,9 @@ namespace Morula
 
   /**
    * The equation of a field in a configuration, doc/theory.md (11.2), for
-   * Assembly<dim, 1>: what is sought is added to a field that is known. The
-   * matrix is that of what is sought; the residual is the load, less what the
-   * known field's diffusion and its exchange at the surface take.
+   * Assembly<dim, 1>. The unknown is added to a known field. The matrix belongs
+   * to the unknown; the residual is the load minus the known field's diffusion
+   * and its exchange at the surface.
    */
   template <int dim>
   struct FieldEquation
@@ -65,8 +65,8 @@ namespace Morula
     /** In the order of the places. */
     std::vector<FieldAtCell>         cells;
     std::vector<FieldAtSurface<dim>> surface;
-    /** By grid cell: whether N_a N_b is lumped, as the field varies within less
-     *  than a grid cell. */
+    /** By grid cell: whether N_a N_b is lumped, since the field varies within
+     *  less than a grid cell. */
     std::vector<bool> lumped;
 
   private:

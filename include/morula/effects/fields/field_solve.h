@@ -64,7 +64,8 @@ namespace Morula
                 const MakeLinearSolver &make_solver);
 
     /**
-     * The field number @p number. Later fields see it. Collective.
+     * The field number @p number. Fields solved later see its values.
+     * Collective.
      * @param t  of the expressions of cells, day
      * @param t1 of the values at the surface, day: t for the steady state, else
      *        the end of the step that begins at t
@@ -79,7 +80,8 @@ namespace Morula
   private:
     using Vector = Equilibrium::Vector;
 
-    /** The values of the fields that were not sought yet, too. */
+    /** The value of a field at a cell; fields not solved yet keep their former
+     *  value. */
     double
     value(const unsigned int field, const unsigned int p) const;
 
@@ -103,7 +105,7 @@ namespace Morula
     void
     evaluate_surface(const Field<dim> &field, const double t, const double t1);
 
-    /** Refuses a steady field that nothing holds. */
+    /** Refuses a steady field whose level nothing determines. */
     void
     check_sink(const Field<dim> &field) const;
 
@@ -125,7 +127,7 @@ namespace Morula
     /**
      * Iterates from the values of now, with no grid cell lumped at first.
      * @param dt    0 for the steady state, day
-     * @param known what is not sought of the values
+     * @param known the known part of the values
      * @return the first change, as relative_change()
      */
     double

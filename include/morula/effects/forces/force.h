@@ -14,7 +14,7 @@
 
 namespace Morula
 {
-  /** What acts on the cells, as a term of the momentum balance. */
+  /** A force on the cells, as a term of the momentum balance. */
   template <int dim>
   class Force : public Effect<dim>
   {
@@ -26,7 +26,7 @@ namespace Morula
      *                  with its state, which evaluates expressions
      * @param positions of the cells in their grid cells, in the order of
      *                  Tissue::cells()
-     * @throws InputError where an expression has no value
+     * @throws InputError if an expression has no value
      */
     virtual std::unique_ptr<Term<dim>>
     term(const Tissue<dim>        &tissue,

@@ -32,8 +32,8 @@ namespace Morula
   };
 
   /**
-   * F_a = γ a⊗a + γ' (I - a⊗a), doc/theory.md (9.1): what the length of a cell
-   * would become along the unit vector @p a if nothing held it.
+   * F_a = γ a⊗a + γ' (I - a⊗a), doc/theory.md (9.1): the deformation of a cell
+   * that nothing holds, which contracts along the unit vector @p a.
    * @param gamma γ > 0
    * @param keep_volume whether det F_a = 1; otherwise γ' = 1
    */
@@ -57,7 +57,7 @@ namespace Morula
     /**
      * F_a at @p t1 (day), with the state at the beginning of the step. Writes
      * γ into the column `contraction` of @p after.
-     * @throws InputError where γ is not positive
+     * @throws InputError if γ is not positive
      */
     Tensor<2, dim>
     strain(const PresentCell<dim>      &before,
@@ -68,7 +68,8 @@ namespace Morula
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
-    /** Warns of steps in which γ changes by more than was measured. */
+    /** Warns of steps in which γ changes by more than the steps that were
+     *  measured. */
     void
     review(const Preview<dim> &scene, Review &review) const override;
 

@@ -19,7 +19,7 @@ namespace Morula
   {
     /** X of the founder, µm. */
     Point<dim> founder_position;
-    /** What the law made of the cell until t0: F_g without the cell cycle. */
+    /** The law's part of F_g at t0, without the cell cycle. */
     Tensor<2, dim> growth;
     /** F_e, equation (1.3). */
     Tensor<2, dim> elastic;
@@ -30,7 +30,7 @@ namespace Morula
   };
 
   /**
-   * How cells grow without dividing: `Growth/Law`. With a cell cycle as well,
+   * A law of growth without division: `Growth/Law`. With a cell cycle as well,
    * F_g is the product of the law's part and the cycle's, (6.1) and (6.2).
    *
    * A law keeps nothing between calls. All that it may depend on is a cell's
@@ -42,8 +42,8 @@ namespace Morula
   public:
     /**
      * The law's part of F_g at @p t1, from the state at @p t0 (day). Called
-     * again with a smaller @p t1 where a step is halved. The part is the
-     * identity at t = 0.
+     * again with a smaller @p t1 if a step is halved. The part is the identity
+     * at t = 0.
      * @throws InputError where the law has no value
      */
     virtual Tensor<2, dim>
@@ -52,10 +52,9 @@ namespace Morula
            const double            t1) const = 0;
 
     /**
-     * The determinant that growth() is expected to have at time @p t (day) in
-     * the descendants of the founder at @p X, at most: for the memory that a
-     * scene will need. Called for all founders, at t = 0 and End time, before
-     * any work.
+     * An upper estimate of the determinant of growth() at time @p t (day) in
+     * the descendants of the founder at @p X, for the memory that a scene will
+     * need. Called for all founders, at t = 0 and End time, before any work.
      * @throws InputError where the law has no value
      */
     virtual double
@@ -67,8 +66,8 @@ namespace Morula
     is_known_before() const;
 
     /**
-     * Writes what the law keeps in columns of its own, at the end of the step
-     * that growth() spoke of.
+     * Writes the law's own columns at the end of the step for which growth()
+     * was called.
      * @param after the cell at @p t1
      */
     virtual void
@@ -77,11 +76,11 @@ namespace Morula
              const double                 t1,
              const CellView<dim, double> &after) const;
 
-    /** Asks for what the first step and the last will ask. */
+    /** Evaluates the law as the first and the last step will. */
     void
     check(const Preview<dim> &scene) const override;
 
-    /** Warns of steps in which cells grow by much. */
+    /** Warns of steps in which cells grow too much. */
     void
     review(const Preview<dim> &scene, Review &review) const override;
   };

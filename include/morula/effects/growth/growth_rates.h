@@ -19,8 +19,8 @@ namespace Morula
                         const double          across);
 
   /**
-   * exp(Δt L) @p before: what growth at the rate @p L (1/day) makes of a cell
-   * in @p dt (day), doc/theory.md (10.1). Exact where L is constant.
+   * exp(Δt L) @p before: F_law after growth at the rate @p L (1/day) for @p dt
+   * (day), doc/theory.md (10.1). Exact if L is constant.
    */
   template <int dim>
   Tensor<2, dim>
@@ -28,7 +28,7 @@ namespace Morula
         const SymmetricTensor<2, dim> &L,
         const double                   dt);
 
-  /** How a rate of growth answers to growth, over one step. */
+  /** A rate of growth, and how it falls with growth during one step. */
   struct GrowthFeedback
   {
     /** k, at the beginning of the step, 1/day. */
@@ -39,9 +39,9 @@ namespace Morula
   };
 
   /**
-   * What the predictor makes of the rates k and h that add up to the growth of
-   * a cell, doc/theory.md (10.5): the linearly implicit rate of @p part, where
-   * the cell's place widens at the rate @p widening (1/day).
+   * The predictor for one of the rates k and h whose sum is the growth of a
+   * cell, doc/theory.md (10.5): the linearly implicit rate of @p part, if the
+   * cell's place widens at the rate @p widening (1/day).
    * @param all k + h, with the sum of their c
    */
   double
@@ -49,11 +49,11 @@ namespace Morula
                  const GrowthFeedback &all,
                  const double          widening);
 
-  /** What the first step withheld, and what is due once it is seen how far the
-   *  tissue gave way, doc/theory.md (10.6). */
+  /** The growth to make up for after the first step, when it is known how far
+   *  the tissue gave way, doc/theory.md (10.6). */
   struct FirstStep
   {
-    /** Growth that is made good, of ln det F_g. */
+    /** Growth to make up for, in ln det F_g. */
     double due = 0.;
     /** The rate at which the cell's place would have widened, 1/day. */
     double widening = 0.;

@@ -32,8 +32,8 @@ namespace Morula
 
   /**
    * Growth at rates that follow the state of each cell: F_law(t1) = exp(Δt L)
-   * F_law(t0) with a rate of the volume, along and across a direction, and one
-   * towards a homeostatic stress: doc/theory.md, section 10.
+   * F_law(t0) with a rate of the volume, split along and across a direction,
+   * and a rate towards a homeostatic stress: doc/theory.md, section 10.
    */
   template <int dim>
   class RateGrowth : public GrowthLaw<dim>
@@ -105,8 +105,8 @@ namespace Morula
              const PresentCell<dim> *cell,
              const double            t) const;
 
-    /** What the first step leaves to be made good, and how fast the cell's
-     *  place widens. */
+    /** The growth that the first step leaves to make up for, and the rate at
+     *  which the cell's place widens. */
     FirstStep
     seen(const GrowingCell<dim> &cell, const double t0) const;
 

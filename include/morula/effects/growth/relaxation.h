@@ -23,8 +23,8 @@ namespace Morula
     Relaxation(const MaterialParameters &parameters, StateColumns<dim> &state);
 
     /**
-     * D of (8.4), which takes the place of the identity in F_g <- D F_g: what
-     * flows in (t0, t1], day.
+     * D of (8.4) in F_g <- D F_g: the flow in (t0, t1], day; the identity if
+     * nothing flows.
      * @param cell in its state at @p t0
      * @param F_g  of the other effects at @p t1
      * @throws InputError for a relaxation time or yield stress < 0
@@ -39,8 +39,8 @@ namespace Morula
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
-    /** Warns of steps that are long for creep under a load. To be called where
-     *  there is one. */
+    /** Warns of steps that are too long for creep under a load. To be called
+     *  only if there is a load. */
     void
     review(const Preview<dim> &scene, Review &review) const override;
 

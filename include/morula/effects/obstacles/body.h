@@ -19,7 +19,7 @@ namespace Morula
   {
     /** µm; positive outside of the body. */
     double value = 0.;
-    /** Unit vector away from the body; 0 where there is none. */
+    /** Unit vector away from the body; 0 if it is undefined. */
     Tensor<1, dim> gradient;
     /** Per µm. */
     Tensor<2, dim> curvature;
@@ -32,7 +32,7 @@ namespace Morula
   public:
     virtual ~Body() = default;
 
-    /** How far @p x (µm) is from the surface. */
+    /** Distance of @p x (µm) to the surface. */
     virtual Distance<dim>
     distance(const Point<dim> &x) const = 0;
   };

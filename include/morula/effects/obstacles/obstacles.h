@@ -29,7 +29,7 @@ namespace Morula
     kind() const override;
     bool
     acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
-    /** @throws StepFailed where an obstacle comes too far in the step */
+    /** @throws StepFailed if an obstacle moves too far in the step */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
     bool

@@ -27,7 +27,7 @@ namespace Morula
     radial,
     /** The outward normal of the surface near the founder, at t = 0. */
     surface_normal,
-    /** Where a field rises fastest. */
+    /** The direction in which a field rises fastest. */
     gradient
   };
 
@@ -52,15 +52,15 @@ namespace Morula
     DirectionKind
     kind(const unsigned int type) const;
 
-    /** Whether some type's direction is given so. */
+    /** Whether some type's direction is given in this way. */
     bool
     has(const DirectionKind kind) const;
 
-    /** What gives the direction of cells of a type. */
+    /** The text that gives the direction of cells of a type. */
     const std::string &
     text_of(const unsigned int type) const;
 
-    /** What gives the directions of cells of any type. */
+    /** The texts that give the directions of all types of cells. */
     std::vector<std::string>
     texts() const;
 
@@ -73,12 +73,12 @@ namespace Morula
                  const std::string &path,
                  const std::string &text) override;
 
-    /** Refuses a vector of zeros, too. @throws InputError */
+    /** Also refuses a vector of zeros. @throws InputError */
     void
     check(const unsigned int dim) const override;
 
   private:
-    /** @throws InputError for the gradient of a field that there is not */
+    /** @throws InputError for the gradient of a field that does not exist */
     void
     check_field(const std::string &path, const std::string &text) const;
 
@@ -104,9 +104,9 @@ namespace Morula
 
     /**
      * Unit vector in the body as it was at t = 0, at time @p t (day). A founder
-     * in the very centre has no radial direction, and a cell where a field is
-     * uniform no gradient; they get the first axis.
-     * @throws InputError where the expression's vector is zero
+     * in the very centre has no radial direction, and a cell in a uniform field
+     * has no gradient; both get the first axis.
+     * @throws InputError if the expression's vector is zero
      */
     Tensor<1, dim>
     of(const PresentCell<dim> &cell, const double t) const;

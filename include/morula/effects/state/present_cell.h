@@ -18,14 +18,14 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** What the cells of a scene have in common at one moment, for those who read
-   *  their variables. Refers to objects that must outlive it. */
+  /** What all cells of a scene share at one moment, for code that reads their
+   *  variables. Refers to objects that must outlive it. */
   template <int dim>
   struct CellReader
   {
-    /** Where cells keep their state. */
+    /** The columns of the cells' state. */
     const StateColumns<dim> &columns;
-    /** What they are made of. */
+    /** The cells' material. */
     const TissueMaterial &material;
     /** Their clocks; null without a cell cycle. */
     const CycleColumns<dim> *clock;
@@ -33,17 +33,17 @@ namespace Morula
     const CellCycle<dim> *cycle;
     /** Of the scene. */
     std::uint64_t random_seed;
-    /** When the cells are in their state, day. */
+    /** The time of the cells' state, day. */
     double time;
 
-    /** As in cells-NNNN.csv. */
+    /** The phase of a cell, by its number in cells-NNNN.csv. */
     unsigned int
     phase(const CellView<dim, const double> &cell) const;
   };
 
   /**
    * A cell in its state at one moment, as effects and their expressions see it.
-   * What it says is computed when it is first asked for. Does not own the
+   * Its values are computed when they are first asked for. Does not own the
    * cell's row, nor the reader.
    */
   template <int dim>
@@ -59,11 +59,11 @@ namespace Morula
                 const Point<dim>                  &position,
                 const CellReader<dim>             &reader);
 
-    /** As particles are numbered. */
+    /** The cell's id. */
     types::particle_index
     id() const;
 
-    /** What its expressions are read by. */
+    /** The reader that evaluates its expressions. */
     const CellReader<dim> &
     reader() const;
 
@@ -75,7 +75,7 @@ namespace Morula
     const Point<dim> &
     position() const;
 
-    /** Number of the type; 0 where the scene has no types. */
+    /** Number of the type; 0 if the scene has no types. */
     unsigned int
     type() const;
 
@@ -83,18 +83,19 @@ namespace Morula
     std::uint64_t
     lineage_key() const;
 
-    /** Outward unit normal of the surface near the founder, at t = 0, where
+    /** Outward unit normal of the surface near the founder, at t = 0. Only if
      *  StateColumns::need_surface_normal() asked for it. */
     Tensor<1, dim>
     surface_normal() const;
 
-    /** Gradient of a field by its number, per µm, where
-     *  StateColumns::need_gradient() asked for it: in the configuration in
-     * which the field was solved; zero before. */
+    /** Gradient of a field by its number, per µm, in the configuration in which
+     *  the field was solved; zero before. Only if StateColumns::need_gradient()
+     *  asked for it. */
     Tensor<1, dim>
     gradient(const unsigned int field) const;
 
-    /** Takes this value for that of a field, by its number, from now on. */
+    /** Sets the value of a field, which is given by its number, in this object.
+     */
     void
     set_field(const unsigned int field, const double value);
 
@@ -125,9 +126,9 @@ namespace Morula
     Tensor<1, dim>
     vector(const Expression &expression, const double t) const;
 
-    /** The value of an expression if the cell had grown isotropically by the
-     *  factor @p ratio in volume while F stayed: what a confined cell would
-     *  feel. @throws InputError */
+    /** The value that an expression would have if the cell had grown
+     *  isotropically by the factor @p ratio in volume while F stayed, as in a
+     *  confined cell. @throws InputError */
     double
     value_if_grown(const Expression &expression,
                    const double      t,

@@ -15,9 +15,9 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * The columns behind the variables of expressions. Only what some expression
-   * of the scene uses takes storage: effects name their expressions to use()
-   * when they are made, then declare() is called.
+   * The columns behind the variables of expressions. A column takes storage
+   * only if some expression of the scene uses it: effects pass their
+   * expressions to use() when they are made, then declare() is called.
    */
   template <int dim>
   class StateColumns
@@ -40,7 +40,8 @@ namespace Morula
     void
     need_surface_normal();
 
-    /** Asks for the gradient of a field at the cells. @return its number */
+    /** Asks for the gradient of a field at the cells. @return the field's
+     *  number */
     unsigned int
     need_gradient(const std::string &field);
 
@@ -57,7 +58,7 @@ namespace Morula
     void
     declare(CellColumns<dim> &columns);
 
-    /** Whether founders need to know the surface near them. */
+    /** Whether a column needs the surface near the founders. */
     bool
     needs_surface() const;
 
@@ -80,8 +81,8 @@ namespace Morula
 
     /** Values of the scene's fields at the cell, by the fields' numbers. */
     std::vector<Column<double>> fields;
-    /** Their gradients, in the configuration in which they were solved, per µm;
-     *  only those that need_gradient() asked for exist. */
+    /** The fields' gradients, in the configuration in which they were solved,
+     *  per µm. Only columns that need_gradient() asked for exist. */
     std::vector<Column<Tensor<1, dim>>> gradients;
     /** Number of the cell's type. */
     Column<unsigned int> type;

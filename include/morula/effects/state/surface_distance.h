@@ -27,7 +27,7 @@ namespace Morula
 
   /**
    * The surface near each place, at t = 0, over all ranks' boundary points.
-   * Without any the surface is infinitely far. Collective.
+   * Without boundary points the surface is infinitely far. Collective.
    * @param places  µm
    * @param points  positions of this rank's boundary points, µm
    * @param normals their outward unit normals

@@ -42,7 +42,8 @@ namespace Morula
       gradient(const unsigned int a) const;
     };
 
-    /** Adds what @p system wants of a boundary point. */
+    /** Adds the energy, residual and tangent that @p system asks for at a
+     *  boundary point. */
     virtual void
     add_load(const Load       &load,
              const Deformed   &point,

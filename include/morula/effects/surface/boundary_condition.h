@@ -22,8 +22,8 @@ namespace Morula
     /** One boundary point. */
     struct Point
     {
-      /** Initial position of the point of t = 0 that this one is a part of, µm:
-       *  there a condition is asked whether it acts. */
+      /** Initial position of the point at t = 0 of which this one is a part,
+       *  µm. It decides whether a condition acts. */
       dealii::Point<dim> X_seed;
       /** Initial position, µm. */
       dealii::Point<dim> X;
@@ -39,20 +39,20 @@ namespace Morula
 
     /** In the order of xi. */
     std::vector<Point> points;
-    /** Of the configuration, day. */
+    /** Time of the configuration, day. */
     double time = 0.;
-    /** Of the stiffest cell, kPa. */
+    /** Young's modulus of the stiffest cell, kPa. */
     double youngs_modulus = 0.;
   };
 
   /**
-   * A condition on the surface. It holds its points (in all directions, or
-   * along their normal), which Nitsche's term does for all of them together; or
-   * it loads them by a term of its own.
+   * A condition on the surface. It holds its points, in all directions or along
+   * their normal, or it loads them by a term of its own. One Nitsche term does
+   * the holding for all conditions.
    *
-   * Where several act on a point, one that fixes wins over one that lets slip,
-   * and that over those that load; of two that fix or let slip, the one that
-   * was added first. All that load act together.
+   * If several act on a point, one that fixes wins over one that lets slip, and
+   * that one over those that load. Of two that fix, or two that let slip, the
+   * one that was added first wins. All that load act together.
    */
   template <int dim>
   class BoundaryCondition : public Effect<dim>
@@ -71,13 +71,13 @@ namespace Morula
     virtual Tensor<1, dim>
     displacement(const Point<dim> &X, const double t) const;
 
-    /** The term of a condition that loads, at the end @p t (day) of a step, on
-     *  those of the points that it acts on; null: it has none. Not collective.
-     *  @throws StepFailed where the step is too long for it */
+    /** The term of a condition that loads, at the end @p t (day) of a step, for
+     *  those of @p points on which it acts; null: it has none. Not collective.
+     *  @throws StepFailed if the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const;
 
-    /** Whether it pushes tissue where it meets it, and holds it nowhere. */
+    /** Whether it only pushes tissue that it touches, and never holds it. */
     virtual bool
     only_pushes() const;
 

@@ -44,9 +44,9 @@ namespace Morula
     winner(const Point<dim> &X, const Tensor<1, dim> &N) const;
 
     /**
-     * Prescribed displacement of a fixed point, µm. Which condition fixes it
-     * was decided at @p X_seed, the initial position of the point of t = 0 that
-     * this one is a part of.
+     * Prescribed displacement of a fixed point, µm. @p X_seed decides which
+     * condition fixes it: the initial position of the point at t = 0 of which
+     * this one is a part.
      */
     Tensor<1, dim>
     displacement(const Point<dim>     &X_seed,
@@ -54,8 +54,8 @@ namespace Morula
                  const Point<dim>     &X,
                  const double          t) const;
 
-    /** Whether the same conditions were asked for two points at t = 0: at the
-     *  points of t = 0 that they are parts of. */
+    /** Whether the same conditions act on two points. That is decided at the
+     *  points at t = 0 of which they are parts. */
     bool
     alike(const BoundaryView<dim> &a, const BoundaryView<dim> &b) const;
 

@@ -65,8 +65,8 @@ namespace Morula
            const SplineSpace<dim>        &space);
 
   /** Where the fixed and slip points of this rank are held at @p t and at
-   *  @p t_next; at the start of the run (@p t = 0) nothing has moved yet, also
-   *  where the displacement has a value. */
+   *  @p t_next; at the start of the run (@p t = 0) nothing has moved yet, even
+   *  if the prescribed displacement is not 0. */
   template <int dim>
   std::vector<HeldPoint<dim>>
   held_points(const BoundaryConditions<dim> &conditions,

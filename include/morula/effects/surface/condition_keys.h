@@ -15,8 +15,8 @@ namespace Morula
   struct ConditionKeys : public EffectKeys
   {
     /**
-     * @param path     of the key that says where; without text: nowhere
-     * @param anywhere what it says if the scene does not set it
+     * @param path     of the key that says where it acts; without text: nowhere
+     * @param anywhere its text if the scene does not set it
      */
     ConditionKeys(const std::string &path,
                   const std::string &documentation,

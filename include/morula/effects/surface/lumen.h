@@ -29,7 +29,7 @@ namespace Morula
     details() const override;
   };
 
-  /** A piece of the surface around a lumen. */
+  /** A patch of the surface around a lumen. */
   template <int dim>
   struct LumenPatch
   {
@@ -42,7 +42,7 @@ namespace Morula
 
   /**
    * The volume that patches enclose, µm^dim: doc/theory.md (4.8g). It does not
-   * change where all of them move together. Collective.
+   * change if all patches move together. Collective.
    */
   template <int dim>
   double
@@ -59,16 +59,16 @@ namespace Morula
   public:
     using Parameters = LumenParameters;
 
-    /** @throws InputError for expressions that cannot be parsed or speak of
-     *  places, and unless just one of volume and pressure is given */
+    /** @throws InputError for expressions that cannot be parsed or depend on
+     *  places, and unless exactly one of volume and pressure is given */
     explicit Lumen(const Parameters &parameters);
 
     /** Whether the volume is given. */
     bool
     keeps_volume() const;
 
-    /** V*, µm^dim, at @p t (day), where it was @p at_start at t = 0.
-     *  @throws InputError where the key has no value or is not positive */
+    /** V*, µm^dim, at @p t (day), if it was @p at_start at t = 0.
+     *  @throws InputError if the key has no value or is not positive */
     double
     volume(const double t, const double at_start) const;
 

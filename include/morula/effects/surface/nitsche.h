@@ -13,7 +13,7 @@
 
 namespace Morula
 {
-  /** How the traction stands in Nitsche's term: the signs of doc/theory.md
+  /** The sign of the traction's variation in Nitsche's term: doc/theory.md
    *  (4.4), (4.5). */
   enum class NitscheForm
   {
@@ -46,7 +46,8 @@ namespace Morula
       Tensor<2, dim> projection;
       /** M (x_t - x̄), µm. */
       Tensor<1, dim> gap;
-      /** max(|x_t|, |x̄|), µm: what the gap is a difference of. */
+      /** max(|x_t|, |x̄|), µm: the size of the numbers whose difference is the
+       *  gap. */
       double position_scale;
       /** n_t, unit outward normal of the configuration at t. */
       Tensor<1, dim> normal;
@@ -54,15 +55,15 @@ namespace Morula
       double area;
       /** β, kPa/µm. */
       double penalty;
-      /** Part of the traction that counts, 0 to 1: less than 1 where the point
-       *  has no cell near, so that its traction is extrapolated. */
+      /** Fraction of the traction that counts, 0 to 1. It is less than 1 if no
+       *  cell is near the point, since its traction is extrapolated then. */
       double trust = 1.;
       Lame   lame;
     };
 
     /**
      * Keeps a reference to the material.
-     * @param part     of the law that T counts
+     * @param part     part of the law that enters T
      * @param current  states with growth at t + dt
      * @param previous states with growth at t; empty if nothing grows
      * @param add_products what adds up the tangent

@@ -23,8 +23,8 @@ namespace Morula
     KeyList
     list() override;
 
-    /** Warns of penalties that have no effect, or that are too low where
-     *  @p all_is_fixed, all of the surface. For scenes that hold points. */
+    /** Warns of penalties that have no effect, or that are too low if
+     *  @p all_is_fixed (all of the surface). For scenes that hold points. */
     void
     review(const MaterialParameters &material,
            const bool                all_is_fixed,
@@ -35,7 +35,7 @@ namespace Morula
   class NitschePenalty
   {
   public:
-    /** Made of the keys. */
+    /** Takes the values of the keys. */
     explicit NitschePenalty(const NitscheParameters &parameters);
 
     /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
@@ -48,8 +48,8 @@ namespace Morula
             const VolumetricStrain volumetric_form,
             const double           h) const;
 
-    /** The least penalty of the symmetric form where tissue is at rest, in
-     *  units of E/h, with Poisson's ratio @p nu. */
+    /** The least penalty of the symmetric form for tissue at rest, in units of
+     *  E/h, with Poisson's ratio @p nu. */
     static double
     least(const double nu);
 

@@ -27,12 +27,12 @@ namespace Morula
     /** @throws InputError for an expression that cannot be parsed */
     PlacedCondition(const SurfaceCondition kind, const ConditionKeys &keys);
 
-    /** Refuses what the condition cannot do at @p X (µm) and @p t (day), where
-     *  it acts. @throws InputError */
+    /** Refuses what the condition cannot do at a point @p X (µm) on which it
+     *  acts, at @p t (day). @throws InputError */
     virtual void
     check_at(const Point<dim> &X, const double t) const;
 
-    /** @p value of each point that it acts on, and Value() for the others. */
+    /** @p value of each point on which it acts, and Value() for the others. */
     template <typename Value, typename Function>
     std::vector<Value>
     loads(const LoadedPoints<dim> &points, const Function &value) const

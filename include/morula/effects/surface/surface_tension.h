@@ -35,7 +35,7 @@ namespace Morula
     /** @throws InputError for expressions that cannot be parsed */
     explicit SurfaceTension(const Parameters &parameters);
 
-    /** @throws InputError where the tension has no value or is negative */
+    /** @throws InputError if the tension has no value or is negative */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
 

@@ -14,13 +14,14 @@ namespace Morula
   class IncompleteCholesky
   {
   public:
-    /** What decides about the factor. */
+    /** Parameters that determine the factor. */
     struct Parameters
     {
       /** Blocks of the factor over those of the matrix's triangle; the largest
        *  of each column are kept. */
       double fill = 1.;
-      /** The diagonal is multiplied by the one and raised by the other. */
+      /** The diagonal is multiplied by the relative one and raised by the
+       *  absolute one. */
       double relative_diagonal = 1.;
       double absolute_diagonal = 0.;
     };
@@ -130,7 +131,7 @@ namespace Morula
     void
     eliminate(const int k, Column &column);
 
-    /** Factors the block on the diagonal; false where it is not positive. */
+    /** Factors the block on the diagonal; false if it is not positive. */
     bool
     invert_diagonal(const int k, const Block &block);
 

@@ -21,8 +21,8 @@ namespace Morula
     double        smallest = 0.; // negative: K is indefinite
     double        largest  = 0.;
 
-    /** Their ratio. No more than 1/ε can be told from a singular matrix; that
-     *  is also the value of an indefinite one. */
+    /** Their ratio, at most 1/ε: beyond that a matrix cannot be told from a
+     *  singular one. An indefinite matrix has that value, too. */
     double
     condition() const;
   };

@@ -70,7 +70,7 @@ namespace Morula
   }
 
   /**
-   * Preconditioned conjugate gradients that stop where they meet negative
+   * Preconditioned conjugate gradients that stop when they meet negative
    * curvature. deal.II's SolverCG and Trilinos' AztecOO and Belos do not look
    * at the curvature: they iterate on for thousands of steps on an indefinite
    * tangent, or return one along which the energy rises.

@@ -29,7 +29,7 @@ namespace Morula
     /** @param problem kept as a reference */
     explicit DirectSolver(const LinearProblem &problem);
 
-    /** The next matrix is another one. */
+    /** Forgets the factor, since the next matrix is another one. */
     void
     forget();
 
@@ -49,8 +49,8 @@ namespace Morula
           double                     &largest_shift,
           const Equilibrium::RankOne *rank_one = nullptr);
 
-    /** Whether the factor is that of a raised diagonal, but for what supports
-     *  unsupported motions. */
+    /** Whether the factor is that of a raised diagonal. The least shift, which
+     *  supports unsupported motions, does not count. */
     bool
     has_shifted() const;
 
@@ -61,8 +61,7 @@ namespace Morula
     void
     solve_bordered(const Matrix &K, Vector &x, const Vector &b);
 
-    /** Makes of @p x, the solution with the factor, the one with what K lacks.
-     */
+    /** Corrects @p x, the solution with the factor, for what K lacks. */
     void
     add_correction(const Matrix               &K,
                    const Equilibrium::RankOne &part,

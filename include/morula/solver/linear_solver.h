@@ -19,14 +19,13 @@ namespace Morula
   /**
    * Solves the linear systems of one step. Symmetric systems go to a conjugate
    * gradient method that reacts to negative curvature, with an incomplete
-   * Cholesky factorisation that is made once a step and kept
-   * (doc/theory.md, section 5); where that is not positive, Jacobi.
+   * Cholesky factorisation that is made once a step and kept (doc/theory.md,
+   * section 5); if that is not positive, with Jacobi's preconditioner.
    * Unsymmetric systems (following pressure) go to flexible GMRES, with the
    * factorisation of their symmetric part. Along the problem's null space
    * nothing is solved for: there rounding could pass for negative curvature.
    * `automatic` does the same, and turns to the direct solver for a system that
-   * this cannot solve.
-   * `direct` uses MUMPS, or KLU where Trilinos lacks it.
+   * this cannot solve. `direct` uses MUMPS, or KLU where Trilinos lacks it.
    */
   class LinearSolver
   {
@@ -64,7 +63,8 @@ namespace Morula
     double
     largest_shift() const;
 
-    /** Whether any tangent was, so that a diagonal has been raised. */
+    /** Whether any tangent was indefinite, so that a diagonal has been raised.
+     */
     bool
     has_shifted() const;
 

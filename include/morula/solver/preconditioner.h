@@ -14,9 +14,9 @@ namespace Morula
   /**
    * The incomplete Cholesky factorisation of a step's first matrix, kept for
    * the others. Several are tried, one after the other, until one is positive.
-   * Of an unsymmetric matrix it is that of the symmetric part: positive
-   * definite where the body is stable, so that the preconditioned operator is
-   * the identity and a bounded skew part.
+   * For an unsymmetric matrix it factorises the symmetric part, which is
+   * positive definite if the body is stable. Then the preconditioned operator
+   * is the identity and a bounded skew part.
    */
   class Preconditioner
   {
@@ -31,7 +31,8 @@ namespace Morula
     void
     make_next(const Matrix &K);
 
-    /** The last one made; null: there is none, Jacobi has to do. */
+    /** The last factorisation; null: there is none, and Jacobi's preconditioner
+     *  has to do. */
     const OverlappingCholesky *
     factorisation() const;
 

@@ -20,9 +20,9 @@ namespace Morula
    * doc/theory.md (3.5). Without a number of components the field is the
    * displacement. Keeps a reference to the space.
    *
-   * The equations of one grid cell are what add(grid_cell, field, local) makes
-   * of `local`, a LocalEquations<dim, n_components> or a class derived from it,
-   * where the field has the coefficients `field`.
+   * add(grid_cell, field, local) adds the equations of one grid cell to
+   * `local`, a LocalEquations<dim, n_components> or a class derived from it;
+   * `field` holds the field's coefficients there.
    */
   template <int dim, int n_components = dim>
   class Assembly

@@ -12,8 +12,8 @@
 namespace Morula
 {
   /**
-   * Between the 3^dim splines of a grid cell and its m unknowns, within the
-   * grid cell: u = C ũ, r̃ = Cᵀ r, K̃ = Cᵀ K C. Doing this per grid cell with
+   * Converts between the 3^dim splines of a grid cell and its m unknowns:
+   * u = C ũ, r̃ = Cᵀ r, K̃ = Cᵀ K C. Doing this per grid cell with
    * small dense products is several times cheaper than a global sparse triple
    * product or entrywise constraint resolution: doc/theory.md (3.5).
    *
@@ -55,8 +55,8 @@ namespace Morula
 
     /**
      * @param matrix (n 3^dim)² values, row by row
-     * @return @p matrix itself where the unknowns are the splines, else a
-     *         vector in @p work
+     * @return @p matrix itself if the unknowns are the splines, else a vector
+     *         in @p work
      */
     const std::vector<double> &
     condense(const std::vector<double> &matrix, Work &work) const;

@@ -11,9 +11,10 @@
 namespace Morula
 {
   /**
-   * What resists the displacement of cells in a step, energy Σ η V⁰ |u|²/2: so
-   * weak that it does not count, but it decides where a piece of tissue goes
-   * that nothing holds but loads that only push: doc/theory.md (4.8f).
+   * A resistance to the displacement of cells in a step, with the energy
+   * Σ η V⁰ |u|²/2. It is too weak to matter, except that it decides where a
+   * piece of tissue goes that loads only push and nothing holds: doc/theory.md
+   * (4.8f).
    */
   template <int dim>
   class Drag : public PointTerm<dim>

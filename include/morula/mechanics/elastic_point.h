@@ -24,7 +24,7 @@ namespace Morula
   public:
     /**
      * @param F_e   elastic part of the deformation gradient, det F_e > 0
-     * @param theta the mean of ln J_e where the volumetric strain is projected
+     * @param theta the mean of ln J_e if the volumetric strain is projected
      */
     ElasticPoint(const Tensor<2, dim> &F_e,
                  const Lame           &lame,
@@ -42,14 +42,14 @@ namespace Morula
       return b_;
     }
 
-    /** tr b_e, J_e and what else the law saw. */
+    /** The law's input: tr b_e, J_e and the rest. */
     const Strain<double> &
     strain() const
     {
       return strain_;
     }
 
-    /** What the law answered. */
+    /** The law's response. */
     const CoupledResponse<double> &
     response() const
     {
@@ -63,7 +63,8 @@ namespace Morula
       return volumetric(response_.volumetric.energy) + response_.energy;
     }
 
-    /** Size of what Ψ is a difference of, for its rounding error, kPa. */
+    /** Size of the numbers whose difference is Ψ, for its rounding error, kPa.
+     */
     double
     energy_magnitude() const
     {

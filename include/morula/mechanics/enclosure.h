@@ -12,9 +12,9 @@
 namespace Morula
 {
   /**
-   * The pressure of what fills an enclosed space at its volume V:
-   * p = C/V + p_0 - κ (V - V*), a gas, or a content of given volume whose
-   * pressure p_0 is being found: doc/theory.md (4.8i).
+   * The content of an enclosed space. Its pressure at the volume V is
+   * p = C/V + p_0 - κ (V - V*): a gas, or a content of given volume whose
+   * pressure p_0 is being sought: doc/theory.md (4.8i).
    */
   struct EnclosedContent
   {
@@ -42,8 +42,8 @@ namespace Morula
       return (gas != 0. ? gas / (V * V) : 0.) + stiffness_at_target;
     }
 
-    /** The energy -∫ p dV from the volume @p before on, kPa µm^dim; infinite
-     *  where no volume is left. */
+    /** The energy -∫ p dV from the volume @p before on, kPa µm^dim; infinite if
+     *  no volume is left. */
     double
     energy(const double V, const double before) const
     {
@@ -56,15 +56,15 @@ namespace Morula
     }
   };
 
-  /** A space that boundary points enclose, and what fills it. */
+  /** A space that boundary points enclose, and its content. */
   template <int dim>
   struct Enclosure
   {
-    /** What it gains in the step. */
+    /** The volume that it gains in the step. */
     SweptVolume<dim> gain;
     /** Its volume at the beginning of the step, µm^dim. */
     double volume;
-    /** What fills it. */
+    /** Its content. */
     EnclosedContent content;
   };
 } // namespace Morula

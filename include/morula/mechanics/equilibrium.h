@@ -37,7 +37,7 @@ namespace Morula
       Point<3> place;
     };
 
-    /** What an evaluation of the residual gives besides. */
+    /** What an evaluation of the residual returns besides R. */
     struct Evaluation
     {
       /** Energy, kPa µm^dim; infinite where the body is inverted on any
@@ -117,7 +117,7 @@ namespace Morula
     bool costly = true;
   };
 
-  /** What Newton's method compares with. */
+  /** The scales with which Newton's method compares. */
   struct NewtonScales
   {
     /** A force that counts as small in this scene, kPa µm^(dim-1). */

@@ -102,7 +102,8 @@ namespace Morula
       energy = energy_magnitude = 0.;
     }
 
-    /** @param magnitude of what @p e is a sum of, for its rounding error */
+    /** @param magnitude sum of the magnitudes of the parts of @p e, for its
+     *         rounding error */
     void
     add_energy(const double e, const double magnitude)
     {

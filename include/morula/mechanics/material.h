@@ -52,7 +52,7 @@ namespace Morula
     void
     review(Review &review) const;
 
-    /** The one that the law names. @throws InputError if there is none */
+    /** The material that `Law` names. @throws InputError if there is none */
     std::shared_ptr<const Material>
     chosen_material() const;
 
@@ -84,8 +84,8 @@ namespace Morula
   }
 
   /** Refuses a Young's modulus that is not positive at @p X, initial position
-   *  in µm, at t = 0, or a Poisson's ratio out of range, where they depend on
-   * no more than the place. @throws InputError */
+   *  in µm, at t = 0, or a Poisson's ratio out of range, if they depend on the
+   *  place alone. @throws InputError */
   template <int dim>
   void
   require_elastic(const MaterialParameters &material, const Point<dim> &X);

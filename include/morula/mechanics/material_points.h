@@ -83,7 +83,7 @@ namespace Morula
   template <int dim>
   struct MaterialPoints : public GroupedPoints<dim>
   {
-    /** What they are made of; it must outlive them. */
+    /** Their material; it must outlive them. */
     const Material *material = nullptr;
     /** One for each point, or a single one for all. */
     std::vector<Lame> lame;

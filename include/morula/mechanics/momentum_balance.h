@@ -20,7 +20,7 @@
 
 namespace Morula
 {
-  /** Where a state of the tissue is at its worst. */
+  /** The extreme values of a state of the tissue, and their places. */
   template <int dim>
   struct Extremes
   {
@@ -73,8 +73,8 @@ namespace Morula
     Extremes<dim>
     extremes(const Evaluation &evaluation) const;
 
-    /** What a user should know of the state u, where Newton's method fails
-     *  there: extreme values and their places. Collective. */
+    /** Describes the state u to the user if Newton's method fails there:
+     *  extreme values and their places. Collective. */
     std::string
     describe(const Vector &u) const;
 
@@ -106,8 +106,8 @@ namespace Morula
                    std::vector<Vector> null_space,
                    const unsigned int  n_cells) const;
 
-    /** What Newton's method compares with, where @p youngs_modulus is a typical
-     *  one (kPa): doc/theory.md (5.3). */
+    /** The scales with which Newton's method compares; @p youngs_modulus is a
+     *  typical one (kPa): doc/theory.md (5.3). */
     NewtonScales
     scales(const double youngs_modulus) const;
 
@@ -144,7 +144,7 @@ namespace Morula
                     const unsigned int      number,
                     Evaluation             &evaluation) const;
 
-    /** Near which place the largest entry of @p R acts. */
+    /** A place near which the largest entry of @p R acts. */
     Point<dim>
     place_of_largest(const Vector &R) const;
 

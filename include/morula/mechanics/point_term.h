@@ -25,7 +25,7 @@ namespace Morula
 
   protected:
     /**
-     * Adds what @p system wants of point number @p p.
+     * Adds what @p system asks for at point number @p p.
      * @param splines at the point
      * @param field   displacement since the beginning of the step
      */
@@ -47,7 +47,7 @@ namespace Morula
                LocalSystem<dim>        &system);
 
   /**
-   * Adds what @p system wants of a force at a place that depends on the
+   * Adds what @p system asks for of a force at a place that depends on the
    * displacement there.
    * @param energy    kPa µm^dim
    * @param force     its derivative, kPa µm^(dim-1)

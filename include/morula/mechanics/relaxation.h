@@ -40,8 +40,8 @@ namespace Morula
    *
    * @param F_e elastic part of the deformation gradient, det F_e > 0
    * @return D, symmetric and positive definite with det D = 1: F_e becomes F_e
-   *         D⁻¹, so that F stays where D is multiplied to what stands right of
-   *         F_e
+   *         D⁻¹, and F stays if the factor to the right of F_e is multiplied by
+   *         D from the left
    */
   template <int dim>
   SymmetricTensor<2, dim>

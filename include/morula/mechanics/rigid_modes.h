@@ -26,7 +26,7 @@ namespace Morula
   class RigidModes
   {
   public:
-    /** A particle: what counts for the mean motion. */
+    /** A particle, with its weight in the mean motion. */
     struct Mass
     {
       unsigned int piece;

@@ -12,10 +12,10 @@ namespace Morula
 {
   /**
    * The volume that a space enclosed by boundary points gains in a step:
-   * doc/theory.md (4.8h). What stands for the energy is this volume (µm^dim),
-   * for the residual its derivative (µm^(dim-1)), for the tangent its second
-   * one (µm^(dim-2)). It is no term of the momentum balance by itself; that has
-   * it times the pressure of what fills the space.
+   * doc/theory.md (4.8h). Its "energy" is this volume (µm^dim), its "residual"
+   * the first derivative (µm^(dim-1)), its "tangent" the second (µm^(dim-2)).
+   * It is not itself a term of the momentum balance, which multiplies it by the
+   * pressure of the content.
    */
   template <int dim>
   class SweptVolume : public PointTerm<dim>

@@ -31,8 +31,8 @@ namespace Morula
     virtual ~Term() = default;
 
     /**
-     * Adds what @p system wants of this term on one active grid cell. All that
-     * it finds out stands in @p system afterwards: a term remembers nothing.
+     * Adds what @p system asks for on one active grid cell. All results go to
+     * @p system: a term remembers nothing.
      * @param grid_cell active grid cell
      * @param field     displacement since the beginning of the step
      * @param growth    which growth to use

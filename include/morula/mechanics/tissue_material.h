@@ -9,12 +9,13 @@
 
 namespace Morula
 {
-  /** The material of the tissue, by initial position or by what cells are. */
+  /** The material of the tissue. It may depend on the initial position or on
+   *  the state of cells. */
   class TissueMaterial
   {
   public:
     /** @throws InputError for an expression that cannot be parsed, or a law
-     *          that there is not */
+     *          that does not exist */
     explicit TissueMaterial(const MaterialParameters &parameters)
       : E(parameters.youngs_modulus.expression(3))
       , nu(parameters.poissons_ratio.expression(3))
@@ -37,8 +38,8 @@ namespace Morula
       return E.is_constant() && nu.is_constant();
     }
 
-    /** Whether it depends on more than the initial position: then only a
-     *  present cell tells. */
+    /** Whether it depends on more than the initial position: then it is known
+     *  only for a present cell. */
     bool
     depends_on_state() const
     {

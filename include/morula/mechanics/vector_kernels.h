@@ -31,8 +31,8 @@ namespace Morula
     const void   *law; // of the material that the kernels were made for
   };
 
-  /** What the volumetric strain of a grid cell needs summed over its points:
-   *  see VolumeMean. */
+  /** The sums over a grid cell's points that its volumetric strain needs: see
+   *  VolumeMean. */
   struct KernelVolume
   {
     VolumetricStrain form; // not pointwise
@@ -42,7 +42,7 @@ namespace Morula
     double          *gradients = nullptr; // dim 3^dim values by component
   };
 
-  /** What a kernel finds. */
+  /** The result of a kernel. */
   struct KernelResult
   {
     double       smallest_J = 0.; // J_e, or det f where that is not positive

@@ -57,7 +57,7 @@ namespace Morula
   };
 
   /**
-   * The internal force as a scene wants it.
+   * The internal force that a scene asks for.
    * @param kernel value of Solver/Kernel: "plain", the name of one of the
    *        material's vector_kernels(), or "automatic"
    */

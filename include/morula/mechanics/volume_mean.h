@@ -12,7 +12,7 @@
 
 namespace Morula
 {
-  /** The volumetric strain of one grid cell, of the sums over its points, and
+  /** The volumetric strain of one grid cell, from sums over its points, and
    *  what follows from it: projected, doc/theory.md (2.6), (2.7); pooled,
    *  doc/theory.md (2.8), (2.9). */
   template <int dim>

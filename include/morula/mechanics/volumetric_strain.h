@@ -9,8 +9,8 @@
 
 namespace Morula
 {
-  /** What stands for ln J_e in the volumetric part of the energy
-   *  (doc/theory.md, section 2). */
+  /** The form of ln J_e in the volumetric part of the energy (doc/theory.md,
+   *  section 2). */
   enum class VolumetricStrain
   {
     /** ln J_e of the point itself. */

@@ -32,7 +32,7 @@ namespace Morula
     distortion
   };
 
-  /** A material's law, as code sees it that does not know which. */
+  /** A material's law, for code that does not know which law it is. */
   class Material
   {
   public:
@@ -47,7 +47,7 @@ namespace Morula
     third_derivatives(const Strain<double> &strain,
                       const PartOfLaw       part) const = 0;
 
-    /** Whether α depends on the strain: where not, B, C and D2 to D4 are 0. */
+    /** Whether α depends on the strain; if not, B, C and D2 to D4 are 0. */
     virtual bool
     coupled() const = 0;
 

@@ -11,7 +11,7 @@
 namespace Morula
 {
   /**
-   * The Material that a law's one function template makes.
+   * A Material made from a law's one function template.
    * @tparam Law copyable, with the member response() of NeoHookean
    */
   template <typename Law>

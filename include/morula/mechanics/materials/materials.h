@@ -31,7 +31,7 @@ namespace Morula
     add(const std::string                     &name,
         const std::shared_ptr<const Material> &material);
 
-    /** Of this name, or null. */
+    /** The material of this name, or null. */
     std::shared_ptr<const Material>
     find(const std::string &name) const;
 

@@ -21,7 +21,7 @@ namespace Morula
   /**
    * The Material of a program's own law, for Materials::add(), with the plain
    * code and the kernels for any processor.
-   * @tparam Law as MaterialOf<Law> wants it
+   * @tparam Law as MaterialOf<Law> requires
    */
   template <typename Law>
   std::shared_ptr<const Material>

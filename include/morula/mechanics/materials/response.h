@@ -11,8 +11,8 @@
 namespace Morula
 {
   /**
-   * What a material's law sees of a point, or in the kernels of as many points
-   * as a Number has: an isotropic material's energy is a function of tr b_e and
+   * A law's input at one point or, in the kernels, at as many points as a
+   * Number holds: an isotropic material's energy is a function of tr b_e and
    * J_e (doc/theory.md, section 1.4). In plane strain too, b_e is the 3-D
    * tensor, with b_e,zz = 1.
    */
@@ -21,7 +21,8 @@ namespace Morula
   {
     /** tr b_e - 3. */
     Number trace;
-    /** What the trace is a difference of, for its rounding error. */
+    /** Size of the numbers whose difference is the trace, for its rounding
+     *  error. */
     Number trace_magnitude;
     /** J_e. */
     Number J;
@@ -48,7 +49,7 @@ namespace Morula
     Number modulus = {};
     /** U. */
     Number energy = {};
-    /** What U is a difference of, for its rounding error. */
+    /** Size of the numbers whose difference is U, for its rounding error. */
     Number magnitude = {};
     /** U'. */
     Number slope = {};
@@ -70,7 +71,8 @@ namespace Morula
   {
     /** Ψ_d, kPa. */
     Number energy = {};
-    /** What Ψ_d is a difference of, for its rounding error, kPa. */
+    /** Size of the numbers whose difference is Ψ_d, for its rounding error,
+     *  kPa. */
     Number magnitude = {};
     /** α > 0, kPa. */
     Number alpha = {};

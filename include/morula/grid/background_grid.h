@@ -70,8 +70,8 @@ namespace Morula
     void
     partition(const GridCellCounts &weights);
 
-    /** This rank's part of the weights of the last partition. With all parts
-     *  it can be made again. */
+    /** This rank's part of the weights of the last partition. With the parts of
+     *  all ranks the partition can be made again. */
     const GridCellCounts &
     weights() const;
 

@@ -63,7 +63,7 @@ namespace Morula
     inner(const int rings) const;
 
     /**
-     * Tells the owners of grid cells what ranks know of them. Collective.
+     * Sends records of grid cells to their owners. Collective.
      * @tparam Record with a `number` in the grid's box
      * @return the records of this rank's grid cells, from all ranks
      */

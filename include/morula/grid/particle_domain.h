@@ -33,9 +33,9 @@ namespace Morula
 
   /**
    * The box x + A ξ, ξ in [-1/2, 1/2]^dim, that a cell occupies, and its
-   * quadrature points. There is one in the middle. There are several per edge
-   * where the scene asks for them, or where the edge is longer than half a grid
-   * spacing: otherwise a full grid cell could hold no point at all.
+   * quadrature points. By default there is one, in the middle. There are
+   * several per edge if the scene asks for them, or if the edge is longer than
+   * half a grid spacing: otherwise a full grid cell could hold no point at all.
    */
   template <int dim>
   class ParticleDomain

@@ -13,9 +13,9 @@
 namespace Morula
 {
   /**
-   * The wholes that the parts of all ranks make up, where parts of two ranks
-   * belong together if they have a grid cell in common. Every rank gets the
-   * list of all wholes. (Boost's disjoint sets, one for each part of a rank.)
+   * Joins the parts of all ranks to wholes. Parts of two ranks belong together
+   * if they have a grid cell in common. Every rank gets the list of all wholes.
+   * (Boost's disjoint sets, one for each part of a rank.)
    */
   class PartsOnRanks
   {

@@ -82,7 +82,7 @@ namespace Morula
     unsigned int
     n_pieces() const;
 
-    /** That of the grid. */
+    /** The box of the grid. */
     const GridBox<dim> &
     box() const;
 

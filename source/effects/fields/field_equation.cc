@@ -5,11 +5,16 @@
 #include <morula/effects/fields/spline_moments.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Morula
 {
   namespace
   {
+    /** Penalty of fixed values in units of D/h: the least one of the mechanical
+     *  conditions, doc/theory.md (4.6). */
+    constexpr double penalty = 20.;
+
     /** g·∇N_a of all splines. */
     template <int dim>
     std::array<double, BSpline<dim>::n>
@@ -26,6 +31,7 @@ namespace Morula
     template <int dim>
     void
     add_matrix(const FieldAtSurface<dim> &point,
+               const double               weight,
                const SplineValues<dim>   &splines,
                std::vector<double>       &matrix)
     {
@@ -35,7 +41,7 @@ namespace Morula
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int b = 0; b < n; ++b)
           matrix[a * n + b] +=
-            point.weight * N[a] * N[b] - slope[a] * N[b] - N[a] * slope[b];
+            weight * N[a] * N[b] - slope[a] * N[b] - N[a] * slope[b];
     }
 
     /** Takes what a cell loses by the diffusion of the known field. */
@@ -55,6 +61,7 @@ namespace Morula
     template <int dim>
     void
     add_load(const FieldAtSurface<dim> &point,
+             const double               weight,
              const SplineValues<dim>   &splines,
              const LocalField<dim, 1>  &known,
              LocalEquations<dim, 1>    &local)
@@ -65,7 +72,7 @@ namespace Morula
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         local.add_force(0,
                         a,
-                        (point.weight * splines.value[a] - slope[a]) * gap +
+                        (weight * splines.value[a] - slope[a]) * gap +
                           (flux + point.inflow) * splines.value[a]);
     }
   } // namespace
@@ -89,12 +96,25 @@ namespace Morula
          ++p)
       {
         const SplineValues<dim> splines(surface_places.xi[p], surface_places.h);
+        const double            w = weight(c, surface[p]);
         if (is_matrix)
-          add_matrix(surface[p], splines, local.matrix);
+          add_matrix(surface[p], w, splines, local.matrix);
         else
-          add_load(surface[p], splines, known, local);
+          add_load(surface[p], w, splines, known, local);
       }
     return true;
+  }
+
+
+  template <int dim>
+  double
+  FieldEquation<dim>::weight(const unsigned int         c,
+                             const FieldAtSurface<dim> &point) const
+  {
+    const double of_grid = penalty / surface_places.h;
+    return point.weight +
+           point.fixed *
+             (steepness.empty() ? of_grid : std::hypot(of_grid, steepness[c]));
   }
 
 
@@ -109,7 +129,10 @@ namespace Morula
       moments.add(cell_places.xi[p],
                   {{cells[p].volume * cells[p].diffusion,
                     cells[p].volume * cells[p].rate}});
-    add_matrix(moments, cell_places.h, lumped[c], local.matrix);
+    add_matrix(moments,
+               cell_places.h,
+               !lumped.empty() && lumped[c],
+               local.matrix);
   }
 
 
@@ -143,31 +166,49 @@ namespace Morula
 
   template <int dim>
   void
-  mark_lumped(FieldEquation<dim> &equation, const double dt)
+  find_steepness(FieldEquation<dim> &equation)
   {
     const GroupedPoints<dim> &places = equation.cell_places;
-    const double              h2     = places.h * places.h;
+    equation.steepness.assign(places.offsets.size() - 1, 0.);
     for (unsigned int c = 0; c + 1 < places.offsets.size(); ++c)
       {
-        double volume = 0., rate = 0., diffusion = 0.;
+        double rate = 0., diffusion = 0.;
         for (unsigned int p = places.offsets[c]; p < places.offsets[c + 1]; ++p)
           {
             const FieldAtCell &cell = equation.cells[p];
-            volume += cell.volume;
             rate += cell.volume * cell.rate;
             diffusion += cell.volume * cell.diffusion;
           }
-        if (dt > 0.)
-          rate += volume / dt;
-        if (rate * h2 > 6. * diffusion)
+        // Without diffusion nothing comes from the surface.
+        if (diffusion > 0.)
+          equation.steepness[c] = std::sqrt(rate / diffusion);
+      }
+  }
+
+
+  template <int dim>
+  void
+  mark_lumped(FieldEquation<dim> &equation)
+  {
+    const double n_lengths = equation.cell_places.h / std::sqrt(6.);
+    for (unsigned int c = 0; c < equation.lumped.size(); ++c)
+      {
+        bool is_fixed = false;
+        if (!equation.surface.empty())
+          for (unsigned int p = equation.surface_places.offsets[c];
+               p < equation.surface_places.offsets[c + 1];
+               ++p)
+            is_fixed = is_fixed || equation.surface[p].fixed > 0.;
+        if (!is_fixed && equation.steepness[c] * n_lengths > 1.)
           equation.lumped[c] = true;
       }
   }
 
 
-#define INSTANTIATE(dim)              \
-  template struct FieldEquation<dim>; \
-  template void mark_lumped(FieldEquation<dim> &, const double);
+#define INSTANTIATE(dim)                           \
+  template struct FieldEquation<dim>;              \
+  template void mark_lumped(FieldEquation<dim> &); \
+  template void find_steepness(FieldEquation<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

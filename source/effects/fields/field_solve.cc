@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/fields/field_solve.h>
+#include <morula/effects/fields/keep_positive.h>
 #include <morula/effects/fields/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
@@ -17,9 +18,9 @@ namespace Morula
 {
   namespace
   {
-    /** Penalty of fixed values in units of D/h: the least one of the mechanical
-     *  conditions, doc/theory.md (4.6). */
-    constexpr double penalty = 20.;
+    /** Differences within a grid cell level out at this rate, in units of D/h²:
+     *  about that of a wave of two grid cells. */
+    constexpr double levelling = 10.;
 
     /** What depends on the field itself is solved again until the field's
      *  largest change is so small, relative to its largest value. */
@@ -125,22 +126,24 @@ namespace Morula
                                    const unsigned int         number,
                                    const double               t,
                                    const double               dt,
-                                   const std::vector<double> &known)
+                                   const std::vector<double> &before)
   {
     const double most =
       Utilities::MPI::max(largest(values[number]), tissue.communicator());
+    const double inverse_dt = dt > 0. ? 1. / dt : 0.;
     everywhere(tissue.communicator(), [&]() {
       for (unsigned int p = 0; p < equation.cells.size(); ++p)
         {
           const double     c    = values[number][p];
           PresentCell<dim> cell = present_cell(p);
           const Uptake uptake = field.uptake(cell, t, c, most > 0. ? most : 1.);
-          equation.cells[p].rate = uptake.slope;
-          equation.cells[p].load =
-            productions[p] - uptake.used + uptake.slope * (c - known[p]);
+          equation.cells[p].rate = uptake.slope + inverse_dt;
+          equation.cells[p].load = productions[p] - uptake.used +
+                                   uptake.slope * c + inverse_dt * before[p];
         }
     });
-    mark_lumped(equation, dt);
+    find_steepness(equation);
+    mark_lumped(equation);
   }
 
 
@@ -191,6 +194,7 @@ namespace Morula
             diffusion.empty() ? *field.uniform_diffusion() : diffusion[k];
           FieldAtSurface<dim> here{Tensor<1, dim>(),
                                    area.norm() * field.transfer(X, t1),
+                                   0.,
                                    field.value(X, t1),
                                    area.norm() * field.flux(X, t1)};
           if (field.is_fixed(X))
@@ -198,7 +202,8 @@ namespace Morula
               // doc/theory.md (11.3). Off the tissue the flux would be
               // extrapolated.
               here.flux   = attached[k] * D * area;
-              here.weight = area.norm() * penalty * D / space.box().spacing();
+              here.weight = 0.;
+              here.fixed  = area.norm() * D;
             }
           equation.surface.push_back(here);
         }
@@ -214,7 +219,7 @@ namespace Morula
     for (const FieldAtCell &cell : equation.cells)
       sink += cell.volume * cell.rate;
     for (const FieldAtSurface<dim> &point : equation.surface)
-      sink += point.weight;
+      sink += point.weight + point.fixed;
     if (!(Utilities::MPI::sum(sink, tissue.communicator()) > 0.))
       throw InputError(
         "Fields/" + field.name() + "/Consumption",
@@ -228,20 +233,37 @@ namespace Morula
 
   template <int dim>
   typename FieldSolver<dim>::Vector
-  FieldSolver<dim>::projection(const std::vector<double> &cell_values)
+  FieldSolver<dim>::projection()
   {
     // The same mass as in the equation, so that constants stay constants.
-    std::vector<FieldAtCell>         cells   = equation.cells;
+    const std::vector<FieldAtCell>   cells   = equation.cells;
     std::vector<FieldAtSurface<dim>> surface = std::move(equation.surface);
     equation.surface.clear();
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      equation.cells[p] = {cells[p].volume, 0., 1., cell_values[p]};
+    for (FieldAtCell &cell : equation.cells)
+      cell.diffusion = 0.;
+    linear              = nullptr; // another matrix
     const Vector zero   = assembly.unknowns().zero();
     const Vector result = solve_equation(zero, zero, tolerance_of_steady);
-    linear              = nullptr; // another matrix
-    equation.cells      = std::move(cells);
+    linear              = nullptr;
+    equation.cells      = cells;
     equation.surface    = std::move(surface);
     return result;
+  }
+
+
+  template <int dim>
+  void
+  FieldSolver<dim>::set_known(std::vector<double> &known, Vector &known_field)
+  {
+    known_field    = projection();
+    const double h = space.box().spacing();
+    at_cells(known_field, [&](const unsigned int p, const double smooth) {
+      FieldAtCell &cell = equation.cells[p];
+      const double kept =
+        cell.rate / (cell.rate + levelling * cell.diffusion / (h * h));
+      known[p] = smooth + kept * (cell.load / cell.rate - smooth);
+      cell.load -= cell.rate * known[p];
+    });
   }
 
 
@@ -281,56 +303,53 @@ namespace Morula
                           const double       t,
                           const double       t1)
   {
-    const unsigned int  n_cells = tissue.cells().size();
-    std::vector<double> now(n_cells);
-    for (unsigned int p = 0; p < n_cells; ++p)
+    std::vector<double> now(tissue.cells().size());
+    for (unsigned int p = 0; p < now.size(); ++p)
       now[p] = value(number, p);
-    // Of a steady field all is sought, of others what is added.
-    const std::vector<double> known =
-      t1 > t ? now : std::vector<double>(n_cells, 0.);
     values[number] = std::move(now);
     evaluate_surface(field, t, t1);
-
     FieldSolution<dim> result;
     result.number     = number;
-    const double step = iterate(field, t, t1 - t, known, result);
+    const double step = iterate(field, t, t1 - t, result);
     // Where the first values were far off, so was what they had lumped.
     if (!(t1 > t) && field.is_nonlinear() && result.converged && step > far_off)
-      iterate(field, t, t1 - t, known, result);
+      iterate(field, t, t1 - t, result);
     return result;
   }
 
 
   template <int dim>
   double
-  FieldSolver<dim>::iterate(const Field<dim>          &field,
-                            const double               t,
-                            const double               dt,
-                            const std::vector<double> &known,
-                            FieldSolution<dim>        &result)
+  FieldSolver<dim>::iterate(const Field<dim>   &field,
+                            const double        t,
+                            const double        dt,
+                            FieldSolution<dim> &result)
   {
-    const bool           steady = !(dt > 0.);
-    std::vector<double> &now    = values[result.number];
-    linear                      = nullptr;
-    equation.lumped.assign(space.grid_cells().size(), false);
+    const bool                steady    = !(dt > 0.);
+    const bool                nonlinear = field.is_nonlinear();
+    std::vector<double>      &now       = values[result.number];
+    const std::vector<double> before    = now;
+    // Of a steady field all is sought.
+    std::vector<double> known(now.size(), 0.);
     Vector known_field = assembly.unknowns().zero(), sought = known_field;
     double first_step = 0.;
+    linear            = nullptr;
     result.converged  = false;
+    // Only an uptake that saturates makes a field end.
+    equation.lumped.assign(steady && nonlinear ? space.grid_cells().size() : 0,
+                           false);
     for (unsigned int i = 0; i < most_iterations && !result.converged; ++i)
       {
         if (i == 0 || field.has_nonlinear_source())
           begin_cells(field, t);
-        evaluate_cells(field, result.number, t, dt, known);
+        evaluate_cells(field, result.number, t, dt, before);
         if (i == 0 && steady)
           check_sink(field);
-        if (i == 0 && !steady)
-          known_field = projection(known);
         if (!steady)
-          for (FieldAtCell &cell : equation.cells)
-            cell.rate += 1. / dt;
+          set_known(known, known_field);
         if (!steady)
           sought = solve_equation(known_field, sought, tolerance_of_amounts);
-        else if (!field.is_nonlinear())
+        else if (!nonlinear)
           sought = solve_equation(known_field, sought, tolerance_of_steady);
         else
           sought = solve_equation(known_field,
@@ -338,15 +357,14 @@ namespace Morula
                                   tolerance_of_iterations,
                                   reduction_of_iterations);
         ++result.iterations;
-        take(sought, known, result);
+        take(sought, known, !steady || !nonlinear, result);
         result.change = relative_change(now, result.values);
         if (i == 0)
           first_step = result.change;
         if (result.change > matrices_differ)
           linear = nullptr;
-        now = result.values;
-        result.converged =
-          !field.is_nonlinear() || result.change <= small_change;
+        now              = result.values;
+        result.converged = !nonlinear || result.change <= small_change;
       }
     if (reader.columns.gradients[result.number].exists())
       {
@@ -373,28 +391,42 @@ namespace Morula
 
 
   template <int dim>
+  template <typename Action>
   void
-  FieldSolver<dim>::take(const Vector              &sought,
-                         const std::vector<double> &known,
-                         FieldSolution<dim>        &result) const
+  FieldSolver<dim>::at_cells(const Vector &field, const Action &action) const
   {
-    const SplineField<dim, 1> added(space, sought, tissue.communicator());
-    result.values.resize(known.size());
-    std::uint64_t clipped = 0;
-    const auto   &places  = equation.cell_places;
+    const SplineField<dim, 1> splines(space, field, tissue.communicator());
+    const auto               &places = equation.cell_places;
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
         if (!places.any(c))
           continue;
-        const auto here = added.on_grid_cell(c);
+        const auto here = splines.on_grid_cell(c);
         for (unsigned int p = places.offsets[c]; p < places.offsets[c + 1]; ++p)
-          {
-            const double value = known[p] + value_at(here, places.xi[p]);
-            clipped += value < 0.;
-            result.values[p] = std::max(0., value);
-          }
+          action(p, value_at(here, places.xi[p]));
       }
-    result.clipped = Utilities::MPI::sum(clipped, tissue.communicator());
+  }
+
+
+  template <int dim>
+  void
+  FieldSolver<dim>::take(const Vector              &sought,
+                         const std::vector<double> &known,
+                         const bool                 balanced,
+                         FieldSolution<dim>        &result) const
+  {
+    std::vector<double> weights(known.size(), 0.);
+    result.values.resize(known.size());
+    at_cells(sought, [&](const unsigned int p, const double added) {
+      result.values[p] = known[p] + added;
+      if (balanced)
+        weights[p] = equation.cells[p].volume * equation.cells[p].rate;
+    });
+    result.clipped = keep_positive(result.values,
+                                   weights,
+                                   equation.cell_places,
+                                   space,
+                                   tissue.communicator());
   }
 
 

@@ -35,12 +35,25 @@ namespace
         if (p > 2)
           continue;
         equation.surface_places.xi.push_back(xi);
-        equation.surface.push_back({flux, 7. + p, 2., 3. - p});
+        equation.surface.push_back({flux, 7. + p, 90. * p, 2., 3. - p});
       }
     equation.cell_places.offsets    = {0, 5};
     equation.surface_places.offsets = {0, 3};
-    equation.lumped                 = {false};
+    equation.steepness              = {0.3};
     return equation;
+  }
+
+  /** Of its cells, weighted by volume, µm²/day. */
+  double
+  mean_diffusion()
+  {
+    double volume = 0., sum = 0.;
+    for (unsigned int p = 0; p < 5; ++p)
+      {
+        volume += 10. + p;
+        sum += (10. + p) * 300. * (1. + p);
+      }
+    return sum / volume;
   }
 
   template <int dim>
@@ -120,10 +133,8 @@ namespace
     FieldEquation<dim>     equation   = some_equation<dim>(0.7);
     const auto             consistent = matrix(equation);
     const auto             without    = matrix(some_equation<dim>(0.));
-    mark_lumped(equation, 0.);
-    EXPECT_FALSE(equation.lumped[0]); // 0.7 (20 um)^2 < D
-    equation.lumped[0] = true;
-    const auto lumped  = matrix(equation);
+    equation.lumped                   = {true};
+    const auto lumped                 = matrix(equation);
     for (unsigned int a = 0; a < n; ++a)
       {
         double sum = 0.;
@@ -155,6 +166,40 @@ TEST(FieldEquation, TakesWhatTheKnownFieldGives)
 }
 
 
+// Of a point with a D = 100 um^3/day, in units of that: 20/h = 1 per um, and
+// what falls off within 1/k um. Rows add up to the penalty, as the sum of all
+// splines is 1.
+TEST(FieldEquation, HoldsMoreFirmlyWhatFallsOffWithinAGridCell)
+{
+  const auto penalty = [](const std::vector<double> &steepness) {
+    FieldEquation<3> equation = some_equation<3>(0.);
+    equation.surface          = {{{}, 0., 100., 1., 0.}};
+    equation.surface_places.xi.resize(1);
+    equation.surface_places.offsets = {0, 1};
+    equation.steepness              = steepness;
+    double sum                      = 0.;
+    for (const double entry : matrix(equation))
+      sum += entry;
+    return sum;
+  };
+  EXPECT_NEAR(penalty({}), 100., 1e-9);
+  EXPECT_NEAR(penalty({0.}), 100., 1e-9);
+  EXPECT_NEAR(penalty({0.75}), 125., 1e-9);
+}
+
+
+TEST(FieldEquation, KnowsWithinWhatAFixedValueFallsOff)
+{
+  FieldEquation<2> equation = some_equation<2>(3.8);
+  find_steepness(equation);
+  EXPECT_NEAR(equation.steepness[0], std::sqrt(3.8 / mean_diffusion()), 1e-12);
+  for (FieldAtCell &cell : equation.cells)
+    cell.diffusion = 0.;
+  find_steepness(equation);
+  EXPECT_EQ(equation.steepness[0], 0.);
+}
+
+
 TEST(FieldEquation, LumpsWithTheSameSums)
 {
   check_lumping<2>();
@@ -162,16 +207,19 @@ TEST(FieldEquation, LumpsWithTheSameSums)
 }
 
 
-TEST(FieldEquation, MarksWhereTheFieldIsNotResolved)
+TEST(FieldEquation, MarksWhereTheFieldEnds)
 {
-  const auto marked = [](const double rate, const double dt) {
+  const auto marked = [](const double rate, const bool fixed) {
     FieldEquation<2> equation = some_equation<2>(rate);
-    mark_lumped(equation, dt);
+    for (FieldAtSurface<2> &point : equation.surface)
+      point.fixed = fixed ? 1. : 0.;
+    equation.lumped = {false};
+    find_steepness(equation);
+    mark_lumped(equation);
     return bool(equation.lumped[0]);
   };
-  // The mean of D is 950 um^2/day, h = 20 um.
-  EXPECT_FALSE(marked(14.2, 0.));
-  EXPECT_TRUE(marked(14.3, 0.));
-  EXPECT_FALSE(marked(0., 0.072));
-  EXPECT_TRUE(marked(0., 0.069));
+  const double limit = 6. * mean_diffusion() / (20. * 20.);
+  EXPECT_FALSE(marked(0.99 * limit, false));
+  EXPECT_TRUE(marked(1.01 * limit, false));
+  EXPECT_FALSE(marked(1.01 * limit, true));
 }

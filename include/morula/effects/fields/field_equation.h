@@ -33,8 +33,10 @@ namespace Morula
   {
     /** a D n, where the field has a value there; else zero. */
     Tensor<1, dim> flux;
-    /** a times the penalty or the transfer coefficient, µm^dim/day. */
+    /** a times the transfer coefficient, µm^dim/day. */
     double weight;
+    /** a D, where the field has a value there; else 0. */
+    double fixed;
     /** The field that is prescribed or outside. */
     double value;
     /** a times the flux that is prescribed, in the field's unit times
@@ -70,6 +72,12 @@ namespace Morula
     std::vector<bool> lumped;
 
   private:
+    /** The penalty of a fixed value in a grid cell or the transfer,
+     * doc/theory.md (11.3). */
+    double
+    weight(const unsigned int         grid_cell,
+           const FieldAtSurface<dim> &point) const;
+
     /** What the cells of a grid cell add. */
     void
     add_cells_matrix(const unsigned int grid_cell, Local &local) const;
@@ -79,12 +87,17 @@ namespace Morula
                    Local             &local) const;
   };
 
-  /** Marks the grid cells in which (k + 1/dt) h² > 6 D, with the means of their
-   *  cells; leaves marks that are there. Before rates have 1/dt.
-   *  @param dt 0 for a steady field, day */
+  /** Marks the grid cells in which k h² > 6 D, with the means of their cells,
+   * but those in which the field has a fixed value; leaves marks that are
+   * there. */
   template <int dim>
   void
-  mark_lumped(FieldEquation<dim> &equation, const double dt);
+  mark_lumped(FieldEquation<dim> &equation);
+
+  /** Finds the steepness of each grid cell from the means of its cells. */
+  template <int dim>
+  void
+  find_steepness(FieldEquation<dim> &equation);
 } // namespace Morula
 
 #endif

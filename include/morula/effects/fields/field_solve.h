@@ -94,13 +94,14 @@ namespace Morula
     void
     begin_cells(const Field<dim> &field, const double t);
 
-    /** Linearises at the values of now. @throws InputError */
+    /** Linearises at the values of now; load is all that comes. @throws
+     *  InputError */
     void
     evaluate_cells(const Field<dim>          &field,
                    const unsigned int         number,
                    const double               t,
                    const double               dt,
-                   const std::vector<double> &known);
+                   const std::vector<double> &before);
 
     void
     evaluate_surface(const Field<dim> &field, const double t, const double t1);
@@ -109,9 +110,20 @@ namespace Morula
     void
     check_sink(const Field<dim> &field) const;
 
-    /** The L² projection of cells' values. */
+    /** The spline nearest to what cells would come to by themselves, in the
+     *  metric of the equation: its projection. */
     Vector
-    projection(const std::vector<double> &values);
+    projection();
+
+    /**
+     * What cells keep of what they would come to by themselves:
+     * doc/theory.md (11.7), (11.8). Loads become those of what is
+     * sought.
+     * @param known      what is not sought of the values
+     * @param known_field what is not sought of the splines
+     */
+    void
+    set_known(std::vector<double> &known, Vector &known_field);
 
     /**
      * @param start where conjugate gradients begin
@@ -131,21 +143,29 @@ namespace Morula
      * @return the first change, as relative_change()
      */
     double
-    iterate(const Field<dim>          &field,
-            const double               t,
-            const double               dt,
-            const std::vector<double> &known,
-            FieldSolution<dim>        &result);
+    iterate(const Field<dim>   &field,
+            const double        t,
+            const double        dt,
+            FieldSolution<dim> &result);
 
     /** The largest change, relative to the largest value after it. */
     double
     relative_change(const std::vector<double> &before,
                     const std::vector<double> &after) const;
 
-    /** Values at the cells from what was found. */
+    /** Calls action(p, value) for each cell: with its number and the value of a
+     *  field of splines at its place. */
+    template <typename Action>
+    void
+    at_cells(const Vector &field, const Action &action) const;
+
+    /** Values at the cells from what was found.
+     *  @param balanced whether what cells use up stays where values are set to
+     *  zero */
     void
     take(const Vector              &sought,
          const std::vector<double> &known,
+         const bool                 balanced,
          FieldSolution<dim>        &result) const;
 
     /** Gradients at the cells. */

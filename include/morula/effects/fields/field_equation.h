@@ -67,8 +67,11 @@ namespace Morula
     /** In the order of the places. */
     std::vector<FieldAtCell>         cells;
     std::vector<FieldAtSurface<dim>> surface;
-    /** By grid cell: whether N_a N_b is lumped, since the field varies within
-     *  less than a grid cell. */
+    /** By grid cell: 1/sqrt(D/k), the inverse of the length over which a fixed
+     *  value falls off, per µm; empty if that is many grid cells everywhere. */
+    std::vector<double> steepness;
+    /** By grid cell: whether N_a N_b is lumped, since the field ends there;
+     *  empty: nowhere. */
     std::vector<bool> lumped;
 
   private:

@@ -123,7 +123,8 @@ namespace
     TrilinosWrappers::SparsityPattern pattern(own, MPI_COMM_WORLD);
     const auto                        each = [&](const auto &action) {
       for (unsigned int r = begin; r < end; ++r)
-        for (unsigned int c = r < 2 ? 0 : r - 2; c < n_places && c <= r + 2; ++c)
+        for (unsigned int c = r < 2 ? 0 : r - 2; c < n_places && c <= r + 2;
+             ++c)
           for (unsigned int i = 0; i < n_components; ++i)
             for (unsigned int j = 0; j < n_components; ++j)
               action(r * n_components + i, c * n_components + j);
@@ -182,8 +183,7 @@ TEST(HaloProduct, OfBlocks)
           K.vmult(expected, x);
           EXPECT_LE(difference(y, expected), 1e-15);
         }
-      EXPECT_TRUE(
-        BlockProduct(K.trilinos_matrix(), n_components).exists());
+      EXPECT_TRUE(BlockProduct(K.trilinos_matrix(), n_components).exists());
     }
   // Blocks of another size are none.
   const Equilibrium::Matrix K = blocks_on_a_line(2);

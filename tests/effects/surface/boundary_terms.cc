@@ -143,8 +143,13 @@ namespace
     std::unique_ptr<Term<dim>>
     nitsche(const TissueMaterial &material, const double t) const
     {
-      return nitsche_term(
-        conditions, material, tissue, *space, growth.of_step(tissue, 0., t), t);
+      return nitsche_term(conditions,
+                          material,
+                          tissue,
+                          *space,
+                          growth.of_step(tissue, 0., t),
+                          t,
+                          "automatic");
     }
   };
 

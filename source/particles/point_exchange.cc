@@ -88,6 +88,25 @@ namespace Morula
            Utilities::MPI::some_to_some(comm, rows_to))
         append_points(rows, points);
     }
+
+    /** Points that a rank sends in one go at most. All points, as at the start
+     *  of a run, would be there four times: as they are, as messages to be
+     * sent, as received ones, and as what becomes of these. */
+    constexpr std::size_t points_at_once = 1 << 17;
+
+    /** How many points all ranks have for this one. Collective. */
+    std::size_t
+    n_points_for_this_rank(const std::vector<unsigned int> &owners,
+                           const MPI_Comm                   comm)
+    {
+      std::map<unsigned int, std::size_t> counts;
+      for (const unsigned int owner : owners)
+        ++counts[owner];
+      std::size_t sum = 0;
+      for (const auto &[sender, n] : Utilities::MPI::some_to_some(comm, counts))
+        sum += n;
+      return sum;
+    }
   } // namespace
 
   template <int dim>
@@ -142,19 +161,31 @@ namespace Morula
   {
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return points;
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(grid.communicator());
-    PointList<dim>                              mine(points.n_numbers);
-    std::vector<double>                         stay;
-    std::map<unsigned int, std::vector<double>> rows_to;
-    for (std::size_t i = 0; i < points.size(); ++i)
+    const MPI_Comm            comm = grid.communicator();
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+    std::vector<unsigned int> owners;
+    owners.reserve(points.size());
+    for (const Point<dim> &x : points.positions)
+      owners.push_back(grid.owner(grid.box().locate(x)));
+
+    PointList<dim>    mine(points.n_numbers);
+    const std::size_t n_rounds =
+      Utilities::MPI::max((points.size() + points_at_once - 1) / points_at_once,
+                          comm);
+    if (n_rounds > 1)
+      mine.reserve(n_points_for_this_rank(owners, comm));
+    for (std::size_t round = 0; round < n_rounds; ++round)
       {
-        const unsigned int owner =
-          grid.owner(grid.box().locate(points.positions[i]));
-        append_row(points, i, owner == rank ? stay : rows_to[owner]);
+        std::map<unsigned int, std::vector<double>> rows_to;
+        const std::size_t begin = round * points_at_once;
+        const std::size_t end = std::min(begin + points_at_once, points.size());
+        for (std::size_t i = begin; i < end; ++i)
+          if (owners[i] == rank)
+            mine.add(points.ids[i], points.positions[i], points.row(i));
+          else
+            append_row(points, i, rows_to[owners[i]]);
+        exchange(rows_to, comm, mine);
       }
-    append_points(stay, mine);
-    exchange(rows_to, grid.communicator(), mine);
     return mine;
   }
 

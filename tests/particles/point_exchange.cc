@@ -18,17 +18,21 @@ namespace
   void
   check_owners()
   {
-    const auto          all = random_points<dim>(1000, 230., 3, 1);
-    BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
-    enclose(grid, all);
-    expect_same_points(send_to_owners(dealt(all), grid), owned(all, grid));
+    // The larger number is more than a rank sends at once.
+    for (const unsigned int n : {1000, 300000})
+      {
+        const auto          all = random_points<dim>(n, 230., 3, 1);
+        BackgroundGrid<dim> grid(GridParameters(), MPI_COMM_WORLD);
+        enclose(grid, all);
+        expect_same_points(send_to_owners(dealt(all), grid), owned(all, grid));
 
-    // No rank has any; one rank has all.
-    EXPECT_EQ(send_to_owners(PointList<dim>(3), grid).size(), 0u);
-    const auto one = selected(all, [](const std::size_t) {
-      return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    });
-    expect_same_points(send_to_owners(one, grid), owned(all, grid));
+        // No rank has any; one rank has all.
+        EXPECT_EQ(send_to_owners(PointList<dim>(3), grid).size(), 0u);
+        const auto one = selected(all, [](const std::size_t) {
+          return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+        });
+        expect_same_points(send_to_owners(one, grid), owned(all, grid));
+      }
   }
 
   /** Distance of a point from a grid cell; 0 inside. */

@@ -4,14 +4,14 @@
 """Scenes of prm/showcase at a small size: the spheroid beside Greenspan's equations,
 on a coarser lattice and for some days in which all three zones are there; one under
 pressure beside what J_e alone says; the growth plate beside its fields alone; the
-organoid against itself."""
+organoid against itself; openings after a cut, and their signs."""
 import unittest.mock
 
 import numpy
 from morula.run import Run
 from program import TESTS, ProgramTest, main, overrides
 from scipy.linalg import solve_banded
-from upkeep.showcase import organoid, plate, pressure
+from upkeep.showcase import cut, organoid, plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii
 from upkeep.showcase.spheroids import (LINES, SCENE, all_series,
                                        radii_of_run)
@@ -164,6 +164,23 @@ class Showcase(ProgramTest):
         self.assertGreater(changes[0], 2)
         self.assertGreater(changes[1], 1.2)
         self.assertLess(changes[1], 0.7 * changes[0])
+
+    def test_cut(self):
+        """A coarse one. An elastic rim that has grown closes the cut, a core that
+        has grown opens it; what has relaxed does neither."""
+        found = {}
+        for case in cut.all_cases():
+            output = self.work / case.name.replace(", ", "-").replace(" ", "-")
+            self.execute(cut.SCENE, *overrides(
+                {**dict(case.overrides()), "Tissue/Cell spacing": "11",
+                 "Time/End time": "1.2", "Output/Formats": "csv"}),
+                output=output)
+            found[case.growth, case.relaxation > 0] = cut.opening(
+                Run(output))[0]
+        print("openings, um:", found)
+        self.assertLess(found["rim", False], -15)
+        self.assertGreater(found["core", False], 15)
+        self.assertLess(abs(found["rim", True]), 2)
 
 
 if __name__ == "__main__":

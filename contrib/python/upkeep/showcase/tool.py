@@ -24,7 +24,7 @@ from morula.scene import Scene
 
 from tests.common.tables import aligned, markdown, renew
 
-from . import figure, organoid, plate, pressure
+from . import cut, figure, organoid, plate, pressure
 from .spheroids import ROOT, SCENE, all_series, fit, radii_of_run
 
 HEADER = ["series", "from the data, µm", "Greenspan's from the data, µm",
@@ -72,7 +72,8 @@ SUBJECTS = (
     Subject("growth-plate", plate.SCENE, plate.all_cases, plate.HEADER,
             plate.row, plate.draw),
     Subject("organoid", organoid.SCENE, organoid.all_cases, organoid.HEADER,
-            organoid.row, organoid.draw))
+            organoid.row, organoid.draw),
+    Subject("cut", cut.SCENE, cut.all_cases, cut.HEADER, cut.row, cut.draw))
 
 
 def wanted(names):

@@ -11,9 +11,8 @@
 
 namespace Morula
 {
-  HaloProduct::HaloProduct(const Matrix &K, const unsigned int n_components)
+  HaloProduct::HaloProduct(const Matrix &K)
     : K(K)
-    , blocks(K.trilinos_matrix(), n_components)
     , columns(K.trilinos_matrix().ColMap())
     , n_own(K.locally_owned_range_indices().n_elements())
   {
@@ -56,27 +55,18 @@ namespace Morula
   void
   HaloProduct::vmult(Vector &y, const Vector &x) const
   {
-    double *const result = y.trilinos_vector()[0];
     if (!halo)
       {
-        // One rank's columns are its rows.
-        if (blocks.exists())
-          blocks.vmult(result, x.begin());
-        else
-          K.vmult(y, x);
+        K.vmult(y, x);
         return;
       }
     std::copy_n(x.begin(), n_own, gathered.begin());
     halo->fetch(gathered.data(), gathered.data() + n_own);
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k] = gathered[sources[k]];
-    if (blocks.exists())
-      {
-        blocks.vmult(result, values.data());
-        return;
-      }
 
     const Epetra_CrsMatrix &epetra = K.trilinos_matrix();
+    double *const           result = y.trilinos_vector()[0];
     for (std::size_t row = 0; row < n_own; ++row)
       {
         int     length;

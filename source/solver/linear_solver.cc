@@ -91,7 +91,7 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "linear solver");
     if (!is_direct && !(product && product->is_of(K)))
-      product.emplace(K, problem.n_components);
+      product.emplace(K);
     try
       {
         if (is_direct)

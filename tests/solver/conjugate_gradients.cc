@@ -106,41 +106,6 @@ namespace
     d -= b;
     return d.linfty_norm() / b.linfty_norm();
   }
-
-  /** A matrix of full blocks, each coupled to those that are at most two
-   *  places away, 12 places over all ranks. */
-  Equilibrium::Matrix
-  blocks_on_a_line(const unsigned int n_components)
-  {
-    constexpr unsigned int n_places = 12;
-    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    const unsigned int begin = n_places * rank / n_ranks,
-                       end   = n_places * (rank + 1) / n_ranks;
-    IndexSet own(n_places * n_components);
-    own.add_range(begin * n_components, end * n_components);
-    TrilinosWrappers::SparsityPattern pattern(own, MPI_COMM_WORLD);
-    const auto                        each = [&](const auto &action) {
-      for (unsigned int r = begin; r < end; ++r)
-        for (unsigned int c = r < 2 ? 0 : r - 2; c < n_places && c <= r + 2;
-             ++c)
-          for (unsigned int i = 0; i < n_components; ++i)
-            for (unsigned int j = 0; j < n_components; ++j)
-              action(r * n_components + i, c * n_components + j);
-    };
-    each([&](const unsigned int row, const unsigned int column) {
-      pattern.add(row, column);
-    });
-    pattern.compress();
-    Equilibrium::Matrix K;
-    K.reinit(pattern);
-    each([&](const unsigned int row, const unsigned int column) {
-      K.set(row, column, std::cos(1. + 7. * row + column));
-    });
-    K.compress(VectorOperation::insert);
-    return K;
-  }
 } // namespace
 
 
@@ -161,34 +126,6 @@ TEST(HaloProduct, IsTheMatrixs)
       EXPECT_LE(difference(y, expected), 1e-15);
       x = y;
     }
-}
-
-
-/** Of a matrix of blocks, whose entries change after the product was made. */
-TEST(HaloProduct, OfBlocks)
-{
-  for (const unsigned int n_components : {2u, 3u})
-    {
-      Equilibrium::Matrix K = blocks_on_a_line(n_components);
-      const HaloProduct   product(K, n_components);
-      for (const double factor : {1., -2.5})
-        {
-          K *= factor;
-          Vector x(K.locally_owned_domain_indices(), MPI_COMM_WORLD);
-          for (const auto i : x.locally_owned_elements())
-            x(i) = std::sin(1. + i);
-          x.compress(VectorOperation::insert);
-          Vector y(x), expected(x);
-          product.vmult(y, x);
-          K.vmult(expected, x);
-          EXPECT_LE(difference(y, expected), 1e-15);
-        }
-      EXPECT_TRUE(BlockProduct(K.trilinos_matrix(), n_components).exists());
-    }
-  // Blocks of another size are none.
-  const Equilibrium::Matrix K = blocks_on_a_line(2);
-  EXPECT_FALSE(BlockProduct(K.trilinos_matrix(), 3).exists());
-  EXPECT_FALSE(BlockProduct(K.trilinos_matrix(), 1).exists());
 }
 
 

@@ -5,7 +5,6 @@
 #define morula_solver_halo_product_h
 
 #include <morula/mechanics/equilibrium.h>
-#include <morula/solver/block_product.h>
 #include <morula/solver/halo.h>
 
 #include <Epetra_BlockMap.h>
@@ -16,8 +15,8 @@
 namespace Morula
 {
   /**
-   * Products with a distributed matrix by messages between neighbours alone,
-   * see Halo, and by blocks where it has some, see BlockProduct.
+   * Products with a distributed matrix by messages between neighbours alone:
+   * see Halo. On one rank they are the matrix's own.
    */
   class HaloProduct
   {
@@ -25,9 +24,8 @@ namespace Morula
     using Vector = Equilibrium::Vector;
     using Matrix = Equilibrium::Matrix;
 
-    /** Collective. @param K kept as a reference; its entries may change
-     *  @param n_components of the field, whose blocks it has */
-    explicit HaloProduct(const Matrix &K, const unsigned int n_components = 1);
+    /** Collective. @param K kept as a reference; its entries may change */
+    explicit HaloProduct(const Matrix &K);
 
     const Matrix &
     matrix() const;
@@ -42,7 +40,6 @@ namespace Morula
 
   private:
     const Matrix       &K;
-    BlockProduct        blocks;
     Epetra_BlockMap     columns;
     std::optional<Halo> halo; // not on one rank
     std::size_t         n_own;

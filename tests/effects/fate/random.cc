@@ -162,6 +162,13 @@ TEST(Random, RelativesAreIndependent)
       axis.push_back(Random::direction<3>(seed, key)[2]);
     }
 
+  // A lineage key may be as small a number as a founder's id: the founder's key
+  // is not what such a cell draws its wait from.
+  for (const std::uint64_t id : {0, 1, 7})
+    EXPECT_NE(wait(id),
+              -std::log(std::ldexp((Random::founder_key(seed, id) >> 11) + 1.,
+                                   -53)));
+
   // A correlation of independent samples has variance 1/n.
   const double tolerance = 4. / std::sqrt(n_samples);
   for (const auto &other : {first, second, next_founder, other_seed, axis})

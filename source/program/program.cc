@@ -16,6 +16,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -43,6 +44,22 @@ namespace Morula
       mallopt(M_MMAP_MAX, 1 << 16);
       mallopt(M_MMAP_THRESHOLD, 1 << 25);
 #endif
+    }
+
+    /**
+     * Prefers ROMIO to Open MPI's own way to files. That one gives each open
+     * file a semaphore of the whole machine, named by the file's name without
+     * its directory. A run that is killed as it opens its snapshot leaves the
+     * semaphore locked, and all later runs on that machine would wait for it
+     * for ever. Other MPIs do not know these variables, and the user's own go
+     * first.
+     */
+    void
+    prefer_romio()
+    {
+      for (const char *variable : {"OMPI_MCA_io_romio321_priority",
+                                   "OMPI_MCA_io_romio341_priority"})
+        setenv(variable, "100", 0);
     }
 
     bool
@@ -160,6 +177,7 @@ namespace Morula
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
     map_large_arrays();
+    prefer_romio();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
     char                            *name[]    = {argv[0], nullptr};

@@ -194,6 +194,26 @@ class Killed(ProgramTest):
                 self.assert_same_run(whole, output)
         self.assertGreaterEqual(hit, 3)
 
+    def test_that_leave_a_semaphore_locked(self):
+        """Open MPI's own way to files has a semaphore of the machine for every
+        file name, and a killed run can leave it locked: whoever waits for it
+        waits for ever."""
+        libc = ctypes.CDLL(None, use_errno=True)
+        libc.sem_open.restype = ctypes.c_void_p
+        name = b"/OMPIO_snapshot.h5.tmp"
+        libc.sem_unlink(name)
+        self.assertTrue(libc.sem_open(name, os.O_CREAT, 0o600, 0))
+        try:
+            own = {key: value for key, value in os.environ.items()
+                   if "romio" not in key}
+            words = self.command(SCENE, "-s", "Time/End time=0.25", "-s",
+                                 f"Output directory={self.work / 'output'}")
+            subprocess.run(words, env=own, check=True, timeout=PATIENCE,
+                           stdout=subprocess.DEVNULL)
+        finally:
+            libc.sem_unlink(name)
+        self.assertTrue((self.work / "output/snapshot.h5").is_file())
+
     def test_on_another_number_of_ranks(self):
         """Killed on one, resumed on two."""
         tight = overrides({"Solver/Newton tolerance": "1e-10"})

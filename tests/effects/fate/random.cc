@@ -166,8 +166,8 @@ TEST(Random, RelativesAreIndependent)
   // is not what such a cell draws its wait from.
   for (const std::uint64_t id : {0, 1, 7})
     EXPECT_NE(wait(id),
-              -std::log(std::ldexp((Random::founder_key(seed, id) >> 11) + 1.,
-                                   -53)));
+              -std::log(
+                std::ldexp((Random::founder_key(seed, id) >> 11) + 1., -53)));
 
   // A correlation of independent samples has variance 1/n.
   const double tolerance = 4. / std::sqrt(n_samples);

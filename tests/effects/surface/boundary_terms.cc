@@ -143,13 +143,9 @@ namespace
     std::unique_ptr<Term<dim>>
     nitsche(const TissueMaterial &material, const double t) const
     {
-      return nitsche_term(conditions,
-                          material,
-                          tissue,
-                          *space,
-                          growth.of_step(tissue, 0., t),
-                          t,
-                          "automatic");
+      const GrowthOfStep<dim> grown = growth.of_step(tissue, 0., t);
+      return nitsche_term(
+        conditions, material, tissue, *space, grown, t, "automatic");
     }
   };
 

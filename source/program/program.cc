@@ -57,8 +57,8 @@ namespace Morula
     void
     prefer_romio()
     {
-      for (const char *variable : {"OMPI_MCA_io_romio321_priority",
-                                   "OMPI_MCA_io_romio341_priority"})
+      for (const char *variable :
+           {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
         setenv(variable, "100", 0);
     }
 

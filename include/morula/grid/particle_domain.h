@@ -240,7 +240,8 @@ namespace Morula
     }
 
     /** Whether ParticleDomain::length() is at most @p length, µm. False may
-     *  also be said of a cell that is a little shorter. */
+     *  also be said of a cell that is a little shorter, or whose domain has
+     *  shortened edges. */
     bool
     is_within_length(const double length) const
     {

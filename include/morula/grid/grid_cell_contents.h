@@ -64,18 +64,21 @@ namespace Morula
       return volumes[number];
     }
 
+    /** Number of quadrature points in the grid cell. */
     unsigned int
     n_quadrature_points(const unsigned int number) const
     {
       return counts[number][quadrature];
     }
 
+    /** Number of particles in the grid cell. */
     unsigned int
     n_particles(const unsigned int number) const
     {
       return counts[number][particle];
     }
 
+    /** Number of boundary points in the grid cell. */
     unsigned int
     n_boundary_points(const unsigned int number) const
     {

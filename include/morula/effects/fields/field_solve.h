@@ -138,8 +138,8 @@ namespace Morula
 
     /**
      * Iterates from the values of now, with no grid cell lumped at first.
-     * @param dt    0 for the steady state, day
-     * @param known the known part of the values
+     * @param dt     0 for the steady state, day
+     * @param result has the known part of the values
      * @return the first change, as relative_change()
      */
     double

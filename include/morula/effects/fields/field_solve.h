@@ -139,7 +139,7 @@ namespace Morula
     /**
      * Iterates from the values of now, with no grid cell lumped at first.
      * @param dt     0 for the steady state, day
-     * @param result has the known part of the values
+     * @param result takes the values, and how they were found
      * @return the first change, as relative_change()
      */
     double

@@ -68,6 +68,8 @@ namespace Morula
       {
         const double norm      = solver.getSolutionGroup().getNormF();
         const int    iteration = solver.getNumIterations();
+        has_risen              = has_risen || norm > last_norm;
+        last_norm              = norm;
         status                 = NOX::StatusTest::Failed;
         if (norm <= bounds.rounding ||
             (norm <= bounds.residual &&
@@ -106,18 +108,21 @@ namespace Morula
 
     private:
       /** The last change of the solution times the ratio by which the residual
-       *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). Infinite
-       *  where the iteration has changed nothing. */
-      static double
-      left_over(const NOX::Solver::Generic &solver)
+       *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). Once the
+       *  residual has grown in an iteration, it says nothing of the motion that
+       *  is left: then the change itself. Infinite where the iteration has
+       *  changed nothing. */
+      double
+      left_over(const NOX::Solver::Generic &solver) const
       {
         const auto &now    = solver.getSolutionGroup();
         const auto &before = solver.getPreviousSolutionGroup();
         const auto  change = now.getX().clone();
         change->update(-1., before.getX(), 1.);
         const double size = change->norm(NOX::Abstract::Vector::MaxNorm);
-        return size > 0. ? size * now.getNormF() / before.getNormF() :
-                           std::numeric_limits<double>::infinity();
+        if (!(size > 0.))
+          return std::numeric_limits<double>::infinity();
+        return has_risen ? size : size * now.getNormF() / before.getNormF();
       }
 
       /** Of the bound of displacements. An iteration with a tangent of its own
@@ -126,6 +131,8 @@ namespace Morula
 
       const Bounds    bounds;
       const Tangents &tangents;
+      double          last_norm = std::numeric_limits<double>::infinity();
+      bool            has_risen = false; // the residual, in any iteration
       std::string     reason = "no part of Newton's step has a lower energy";
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
     };

@@ -126,7 +126,10 @@ namespace Morula
       }
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
-    matrix.reinit(Epetra_CrsMatrix(Copy, graph(unknowns, others)), false);
+    // Only the graph is taken: no need for a matrix with values of its own.
+    Epetra_CrsMatrix without_values(View, graph(unknowns, others));
+    without_values.FillComplete();
+    matrix.reinit(without_values, false);
   }
 
   template <int dim, int n_components>

@@ -8,6 +8,7 @@
 #include <morula/program/command_line.h>
 #include <morula/program/explain.h>
 #include <morula/program/failure.h>
+#include <morula/program/large_arrays.h>
 #include <morula/program/program.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
@@ -21,31 +22,10 @@
 #include <new>
 #include <sstream>
 
-#ifdef __GLIBC__
-#  include <malloc.h>
-#endif
-
 namespace Morula
 {
   namespace
   {
-    /**
-     * Gives arrays of 32 MB and more a memory mapping of their own, which
-     * returns to the system when they are freed. That is glibc's default, but
-     * SuperLU_DIST, which Trilinos may link, switches it off for the whole
-     * process when it is loaded. The holes that such arrays then leave in the
-     * heap cost 0.6 GB for a million cells (doc/performance.md, Numbers of
-     * cells).
-     */
-    void
-    map_large_arrays()
-    {
-#ifdef __GLIBC__
-      mallopt(M_MMAP_MAX, 1 << 16);
-      mallopt(M_MMAP_THRESHOLD, 1 << 25);
-#endif
-    }
-
     /**
      * Prefers ROMIO to Open MPI's own way to files. That one gives each open
      * file a semaphore of the whole machine, named by the file's name without
@@ -60,6 +40,27 @@ namespace Morula
       for (const char *variable :
            {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
         setenv(variable, "100", 0);
+    }
+
+    /**
+     * Starts a single rank of Open MPI without mpiexec as it is: by default MPI
+     * starts a daemon for it, which only new processes would need, and makes
+     * directories for messages. That takes a third of the program's start
+     * (doc/performance.md, The start of the program). Nothing is set where
+     * a launcher, which these variables tell, has started the program.
+     */
+    void
+    start_single_rank_alone()
+    {
+      for (const char *variable : {"OMPI_COMM_WORLD_SIZE",
+                                   "PMIX_RANK",
+                                   "PMI_RANK",
+                                   "PMI_FD",
+                                   "SLURM_PROCID"})
+        if (std::getenv(variable) != nullptr)
+          return;
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     }
 
     bool
@@ -178,6 +179,7 @@ namespace Morula
   {
     map_large_arrays();
     prefer_romio();
+    start_single_rank_alone();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
     char                            *name[]    = {argv[0], nullptr};

@@ -59,12 +59,6 @@ main()
         {
           if (chdir(words[0].c_str()) != 0)
             _exit(127);
-          // MPI needs no daemon for one rank, if its files have a place of
-          // their own: beside those of the output.
-          setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
-          setenv("OMPI_MCA_orte_tmpdir_base",
-                 words[1].substr(0, words[1].rfind('/')).c_str(),
-                 1);
           redirect("/dev/null", O_RDONLY, STDIN_FILENO);
           redirect(words[1], O_WRONLY | O_CREAT | O_APPEND, STDOUT_FILENO);
           redirect(words[2], O_WRONLY | O_CREAT | O_APPEND, STDERR_FILENO);

@@ -133,7 +133,7 @@ namespace Morula
       const Tangents &tangents;
       double          last_norm = std::numeric_limits<double>::infinity();
       bool            has_risen = false; // the residual, in any iteration
-      std::string     reason = "no part of Newton's step has a lower energy";
+      std::string     reason    = "no part of Newton's step has a lower energy";
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
     };
 

@@ -15,7 +15,8 @@ using namespace Morula;
 
 namespace
 {
-  /** The kernel's flags for the memory at an address; empty if it tells none. */
+  /** The kernel's flags for the memory at an address; empty if it tells none.
+   */
   std::string
   flags_at(const void *address)
   {

@@ -23,9 +23,9 @@ namespace Morula
 
   /**
    * Asks for large pages, of 2 MB, for all that lie wholly in an array: some
-   * systems give them only to those who ask. The matrix and the columns of cells
-   * are made anew in each step, and small pages are much of what that costs
-   * (doc/performance.md, Large pages). Does nothing where there are none.
+   * systems give them only to those who ask. The matrix and the columns of
+   * cells are made anew in each step, and small pages are much of what that
+   * costs (doc/performance.md, Large pages). Does nothing where there are none.
    * @param size in bytes
    */
   void

@@ -9,6 +9,7 @@
 #include <morula/program/explain.h>
 #include <morula/program/failure.h>
 #include <morula/program/large_arrays.h>
+#include <morula/program/open_mpi.h>
 #include <morula/program/program.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
@@ -26,43 +27,6 @@ namespace Morula
 {
   namespace
   {
-    /**
-     * Prefers ROMIO to Open MPI's own way to files. That one gives each open
-     * file a semaphore of the whole machine, named by the file's name without
-     * its directory. A run that is killed as it opens its snapshot leaves the
-     * semaphore locked, and all later runs on that machine would wait for it
-     * for ever. Other MPIs do not know these variables, and the user's own go
-     * first.
-     */
-    void
-    prefer_romio()
-    {
-      for (const char *variable :
-           {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
-        setenv(variable, "100", 0);
-    }
-
-    /**
-     * Starts a single rank of Open MPI without mpiexec as it is: by default MPI
-     * starts a daemon for it, which only new processes would need, and makes
-     * directories for messages. That takes a third of the program's start
-     * (doc/performance.md, The start of the program). Nothing is set where
-     * a launcher, which these variables tell, has started the program.
-     */
-    void
-    start_single_rank_alone()
-    {
-      for (const char *variable : {"OMPI_COMM_WORLD_SIZE",
-                                   "PMIX_RANK",
-                                   "PMI_RANK",
-                                   "PMI_FD",
-                                   "SLURM_PROCID"})
-        if (std::getenv(variable) != nullptr)
-          return;
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-      setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    }
-
     bool
     is_first_rank()
     {
@@ -178,8 +142,7 @@ namespace Morula
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
     map_large_arrays();
-    prefer_romio();
-    start_single_rank_alone();
+    set_up_open_mpi();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
     char                            *name[]    = {argv[0], nullptr};

@@ -12,6 +12,7 @@ LATENCY = 2e-6       # s, of a message
 BANDWIDTH = 1e10     # bytes a second and rank
 MESSAGES = 1         # reductions of a CG iteration
 OVERLAP = 3          # splines for each one along a block's rim at the surface
+RINGS = 12           # of grid cells around a rank's own (grid/grid_window)
 
 
 def counts(runner, proliferating, sphere):
@@ -77,9 +78,10 @@ class Model:
         messages = iterations * (
             MESSAGES * LATENCY * math.log2(max(ranks, 1))
             + (6 * edge**2 * 3 * 8 / BANDWIDTH if ranks > 1 else 0))
+        # What a rank's window holds: its splines, and those of the rings.
+        window = min(3 * (edge + 2 * RINGS)**3, self.rows * cells)
         return (self.per_cell * cells / ranks, self.per_row * rows * block * more,
-                # Every rank numbers all splines.
-                self.grid_per_row * self.rows * cells, messages)
+                self.grid_per_row * window, messages)
 
 
 def model(runner, proliferating, sphere, penalty):

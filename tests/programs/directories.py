@@ -235,6 +235,19 @@ class Directories(ProgramTest):
         self.assertIn("leave one of the two out", result.stderr)
         self.assertFalse(self.output.exists())
 
+    def test_temporary_files(self):
+        """Two runs at once without mpiexec leave nothing behind: MPI starts no
+        daemon for them, which would make directories."""
+        temporary = self.work / "tmp"
+        temporary.mkdir()
+        runs = [subprocess.Popen(
+            self.command(SCENE, "-s", f"Output directory={self.work / name}",
+                         *SHORT),
+            env={**os.environ, "TMPDIR": str(temporary)},
+            stdout=subprocess.DEVNULL) for name in ("one", "other")]
+        self.assertEqual([run.wait(PATIENCE) for run in runs], [0, 0])
+        self.assertEqual(list(temporary.iterdir()), [])
+
 
 if __name__ == "__main__":
     main()

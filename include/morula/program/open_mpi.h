@@ -17,7 +17,7 @@ namespace Morula
    * ever.
    *
    * A single rank that no launcher has started gets no daemon, which only new
-   * processes would need, and no directories for messages. That is a quarter of
+   * processes would need, and no directories for messages. That is a fifth of
    * the time to start (doc/performance.md, The start of the program).
    */
   void

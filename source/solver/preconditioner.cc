@@ -18,17 +18,20 @@ namespace Morula
      * Incomplete factorisations in the order in which they are tried. Fewer
      * blocks make them faster; the raised diagonal keeps them positive, and
      * usable for the later tangents of the step (doc/performance.md, The linear
-     * solver). Free bodies do without the last one: it excites motions that
-     * hardly anything resists, such as the twist of a row of cells, by a
-     * thousand times what Jacobi does.
+     * solver). The first one is for a single component: coefficients of
+     * splines that are far from each other hardly matter there. Free bodies do
+     * without the last one: it excites motions that hardly anything resists,
+     * such as the twist of a row of cells, by a thousand times what Jacobi
+     * does.
      */
     struct Attempt
     {
       double fill, relative_diagonal;
     };
     constexpr Attempt attempts[] = {
-      {1.25, 1.02}, {1.5, 1.02}, {2., 1.02}, {2., 1.1}, {2., 1.5}};
-    constexpr std::size_t n_of_free_bodies  = 4;
+      {0.5, 1.02}, {1.25, 1.02}, {1.5, 1.02}, {2., 1.02}, {2., 1.1}, {2., 1.5}};
+    constexpr std::size_t first_of_vectors  = 1;
+    constexpr std::size_t n_of_free_bodies  = 5;
     constexpr double      absolute_diagonal = 2e-5; // of a typical entry
 
     /** Makes @p result (K + Kᵀ)/2. */
@@ -46,6 +49,7 @@ namespace Morula
 
   Preconditioner::Preconditioner(const LinearProblem &problem)
     : problem(problem)
+    , n_tried(problem.n_components > 1 ? first_of_vectors : 0)
   {}
 
   const OverlappingCholesky *

@@ -390,6 +390,25 @@ TEST(FieldsOfARun, UptakeInLessThanAGridCell)
 }
 
 
+// As much as is made, c^2 = 4, is used up everywhere. Iterations begin at 1.
+TEST(FieldsOfARun, UptakeByTheSquareOfTheField)
+{
+  std::vector<std::string> settings = dividing_disc;
+  settings.insert(settings.end(),
+                  {"Fields/signal/Time=steady",
+                   "Fields/signal/Initial=1",
+                   "Fields/signal/Production=4",
+                   "Fields/signal/Consumption=signal"});
+  run<2>(settings,
+         [&](const Cells<2> &,
+             const std::vector<double> &values,
+             const StatisticsRow &) {
+           for (const double value : values)
+             EXPECT_NEAR(value, 2., 1e-9);
+         });
+}
+
+
 // What cells use up, make and have differs from one to the next, and nothing
 // moves: each has the value of implicit Euler steps of its own.
 TEST(FieldsOfARun, WithoutDiffusionEachCellIsByItself)

@@ -77,6 +77,13 @@ namespace Morula
     const Matrix &
     matrix(const Vector &u, Local &local, const Add &add);
 
+    /** What the last call of matrix() has made. */
+    const Matrix &
+    last_matrix() const
+    {
+      return matrix_;
+    }
+
   private:
     /** Adds the forces of grid cell @p c, or their magnitudes, to the sums over
      *  grid cells. */

@@ -40,7 +40,7 @@ namespace Morula
     const LinearProblem                 &problem;
     Matrix                               symmetric_part; // of an unsymmetric K
     std::unique_ptr<OverlappingCholesky> factorisation_;
-    std::size_t                          n_tried = 0;
+    std::size_t                          n_tried; // or left out
   };
 
   /** |diag K|, in the layout of @p like. */

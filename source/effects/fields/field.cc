@@ -131,22 +131,30 @@ namespace Morula
 
 
   template <int dim>
+  double
+  Field<dim>::used(PresentCell<dim> &cell, const double t, const double c) const
+  {
+    cell.set_field(number, c);
+    return cell.value(consumption, t) * c;
+  }
+
+
+  template <int dim>
   Uptake
   Field<dim>::uptake(PresentCell<dim> &cell,
                      const double      t,
                      const double      c,
                      const double      scale) const
   {
-    cell.set_field(number, c);
-    const double k = cell.value(consumption, t);
     if (!consumption.uses(field_variable(number)))
-      return {k * c, k};
+      {
+        const double k = cell.value(consumption, t);
+        return {k * c, k};
+      }
     const double more =
       c + std::max(difference * c, smallest_difference * scale);
-    cell.set_field(number, more);
-    const double k_more = cell.value(consumption, t);
-    cell.set_field(number, c);
-    return {k * c, std::max(0., (k_more * more - k * c) / (more - c))};
+    const double used_more = used(cell, t, more), used_now = used(cell, t, c);
+    return {used_now, std::max(0., (used_more - used_now) / (more - c))};
   }
 
 

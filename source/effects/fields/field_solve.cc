@@ -32,6 +32,11 @@ namespace Morula
     constexpr double tolerance_of_iterations = 1e-12,
                      reduction_of_iterations = 1e-4;
 
+    /** Slopes and the matrix are kept while each change is so much smaller than
+     *  the one before; they themselves then leave more than conjugate gradients
+     *  need to reduce. */
+    constexpr double fast = 0.2, reduction_of_kept = 1e-2;
+
     /** After a change of the field that is so large the next matrix gets a
      *  preconditioner of its own. */
     constexpr double matrices_differ = 0.01;
@@ -122,11 +127,11 @@ namespace Morula
 
   template <int dim>
   void
-  FieldSolver<dim>::evaluate_cells(const Field<dim>          &field,
-                                   const unsigned int         number,
-                                   const double               t,
-                                   const double               dt,
-                                   const std::vector<double> &before)
+  FieldSolver<dim>::linearise_cells(const Field<dim>          &field,
+                                    const unsigned int         number,
+                                    const double               t,
+                                    const double               dt,
+                                    const std::vector<double> &before)
   {
     const double most =
       Utilities::MPI::max(largest(values[number]), tissue.communicator());
@@ -144,6 +149,24 @@ namespace Morula
     });
     find_steepness(equation);
     mark_lumped(equation);
+  }
+
+
+  template <int dim>
+  void
+  FieldSolver<dim>::renew_loads(const Field<dim>  &field,
+                                const unsigned int number,
+                                const double       t)
+  {
+    everywhere(tissue.communicator(), [&]() {
+      for (unsigned int p = 0; p < equation.cells.size(); ++p)
+        {
+          const double     c     = values[number][p];
+          PresentCell<dim> cell  = present_cell(p);
+          equation.cells[p].load = productions[p] - field.used(cell, t, c) +
+                                   equation.cells[p].rate * c;
+        }
+    });
   }
 
 
@@ -272,11 +295,13 @@ namespace Morula
   FieldSolver<dim>::solve_equation(const Vector &known,
                                    const Vector &start,
                                    const double  tolerance,
-                                   const double  reduction)
+                                   const double  reduction,
+                                   const bool    same_matrix)
   {
     using Local = LocalEquations<dim, 1>;
     Local        matrix(Local::tangent), load(Local::energy_and_residual);
-    const auto  &A = assembly.matrix(known, matrix, equation);
+    const auto  &A = same_matrix ? assembly.last_matrix() :
+                                   assembly.matrix(known, matrix, equation);
     const Vector b =
       assembly.unknowns().sum(assembly.residual(known, load, equation));
     if (!linear)
@@ -333,6 +358,7 @@ namespace Morula
     std::vector<double> known(now.size(), 0.);
     Vector known_field = assembly.unknowns().zero(), sought = known_field;
     double first_step = 0.;
+    bool   kept       = false; // slopes and matrix of the iteration before
     linear            = nullptr;
     result.converged  = false;
     // Only an uptake that saturates makes a field end.
@@ -342,7 +368,10 @@ namespace Morula
       {
         if (i == 0 || field.has_nonlinear_source())
           begin_cells(field, t);
-        evaluate_cells(field, result.number, t, dt, before);
+        if (kept)
+          renew_loads(field, result.number, t);
+        else
+          linearise_cells(field, result.number, t, dt, before);
         if (i == 0 && steady)
           check_sink(field);
         if (!steady)
@@ -352,16 +381,21 @@ namespace Morula
         else if (!nonlinear)
           sought = solve_equation(known_field, sought, tolerance_of_steady);
         else
-          sought = solve_equation(known_field,
-                                  sought,
-                                  tolerance_of_iterations,
-                                  reduction_of_iterations);
+          sought =
+            solve_equation(known_field,
+                           sought,
+                           tolerance_of_iterations,
+                           kept ? reduction_of_kept : reduction_of_iterations,
+                           kept);
         ++result.iterations;
         take(sought, known, !steady || !nonlinear, result);
-        result.change = relative_change(now, result.values);
+        const double last_change = result.change;
+        result.change            = relative_change(now, result.values);
         if (i == 0)
           first_step = result.change;
-        if (result.change > matrices_differ)
+        kept = steady && !field.has_nonlinear_source() && i > 0 &&
+               result.change <= fast * last_change;
+        if (!kept && result.change > matrices_differ)
           linear = nullptr;
         now              = result.values;
         result.converged = !nonlinear || result.change <= small_change;

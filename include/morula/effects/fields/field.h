@@ -82,8 +82,13 @@ namespace Morula
     double
     production(const PresentCell<dim> &cell, const double t) const;
 
+    /** What a cell uses up at the value @p c, k c, in the field's unit per day.
+     *  @param cell has the value afterwards. @throws InputError */
+    double
+    used(PresentCell<dim> &cell, const double t, const double c) const;
+
     /**
-     * What a cell uses up at the value @p c: doc/theory.md (11.4).
+     * What a cell uses up at the value @p c, linearised: doc/theory.md (11.4).
      * @param cell has the value, and others in between
      * @param scale of the field's values
      * @throws InputError

@@ -97,11 +97,18 @@ namespace Morula
     /** Linearises at the values of now; load is all that comes. @throws
      *  InputError */
     void
-    evaluate_cells(const Field<dim>          &field,
-                   const unsigned int         number,
-                   const double               t,
-                   const double               dt,
-                   const std::vector<double> &before);
+    linearise_cells(const Field<dim>          &field,
+                    const unsigned int         number,
+                    const double               t,
+                    const double               dt,
+                    const std::vector<double> &before);
+
+    /** The load of a steady field at the values of now, with the slopes of the
+     *  last linearise_cells(). @throws InputError */
+    void
+    renew_loads(const Field<dim>  &field,
+                const unsigned int number,
+                const double       t);
 
     void
     evaluate_surface(const Field<dim> &field, const double t, const double t1);
@@ -129,12 +136,14 @@ namespace Morula
      * @param start where conjugate gradients begin
      * @param tolerance of the residual, relative to the right-hand side
      * @param reduction of the residual that is enough, too
+     * @param same_matrix whether only loads differ from the last equation's
      */
     Vector
     solve_equation(const Vector &known,
                    const Vector &start,
                    const double  tolerance,
-                   const double  reduction = 0.);
+                   const double  reduction   = 0.,
+                   const bool    same_matrix = false);
 
     /**
      * Iterates from the values of now, with no grid cell lumped at first.

@@ -17,8 +17,9 @@ namespace Morula
    * ever.
    *
    * A single rank that no launcher has started gets no daemon, which only new
-   * processes would need, and no directories for messages. That is a fifth of
-   * the time to start (doc/performance.md, The start of the program).
+   * processes would need, no directories for messages, and no search for
+   * networks. That is half of the time to start (doc/performance.md, The start
+   * of the program).
    */
   void
   set_up_open_mpi();

@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Doxygen's filter of Markdown pages: prints a page as Doxygen 1.9 reads it.
+"""Markdown pages as Doxygen 1.9 reads them.
 
 The pages are written as GitHub shows them. Doxygen knows neither $...$ nor
 ```math, and neither GitHub's names of headings nor equal file names in two
@@ -9,7 +8,6 @@ folders; links to files that are no pages would lead nowhere.
 """
 import os
 import re
-import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -155,20 +153,15 @@ class Page:
             "\n".join(out), flags=re.M | re.S)
 
 
+OTHER_PAGES = ("README.md", "CONTRIBUTING.md", "tests/README.md")
+
+
 def is_page(path):
     """Whether Doxygen makes a page of this file: those of doc/Doxyfile."""
     return (ROOT / path).is_file() and (
-        path.startswith("doc/") or
-        path in ("README.md", "CONTRIBUTING.md", "tests/README.md"))
+        path.startswith("doc/") or path in OTHER_PAGES)
 
 
-def main():
-    path = Path(sys.argv[1]).resolve()
-    output = os.environ.get("MORULA_MANUAL", ROOT / "build/doc")
-    page = Page(path.relative_to(ROOT).as_posix(), output)
-    sys.stdout.reconfigure(encoding="utf-8")
-    print(page.converted(path.read_text(encoding="utf-8")))
-
-
-if __name__ == "__main__":
-    main()
+def pages():
+    """The files of all pages."""
+    return [*ROOT.glob("doc/**/*.md"), *(ROOT / name for name in OTHER_PAGES)]

@@ -10,20 +10,35 @@ import tempfile
 from pathlib import Path
 
 from upkeep.manual.coverage import undocumented
-from upkeep.manual.markdown import PICTURES, ROOT
+from upkeep.manual.header import comments_linked
+from upkeep.manual.markdown import PICTURES, ROOT, Page, pages
 
 MATHJAX = Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax
 
 
 def settings(folder):
     """Doxygen's settings for HTML (and XML, to look into) below a folder."""
-    lines = ["@INCLUDE = doc/Doxyfile", f'OUTPUT_DIRECTORY = "{folder}"',
+    lines = [f'@INCLUDE = "{ROOT}/doc/Doxyfile"', f'OUTPUT_DIRECTORY = "{folder}"',
              f'WARN_LOGFILE = "{folder / "warnings.txt"}"',
              "GENERATE_XML = YES", "XML_OUTPUT = xml",
              "XML_PROGRAMLISTING = NO"]
     if MATHJAX.is_dir():
         lines.append("MATHJAX_RELPATH = mathjax")
     return "\n".join(lines) + "\n"
+
+
+def convert(sources, output):
+    """Writes what Doxygen reads below a folder, at the paths it has below the
+    root. Filters of Doxygen's own would be a process a file."""
+    for path in [*pages(), *ROOT.glob("include/**/*.h")]:
+        name = path.relative_to(ROOT).as_posix()
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".h":
+            text = comments_linked(text)
+        else:
+            text = Page(name, output).converted(text)
+        (sources / name).parent.mkdir(parents=True, exist_ok=True)
+        (sources / name).write_text(text, encoding="utf-8")
 
 
 def make(output):
@@ -33,10 +48,12 @@ def make(output):
     aside = Path(tempfile.mkdtemp(prefix=f".{output.name}-",
                                   dir=output.parent))
     try:
-        result = subprocess.run(
-            ["doxygen", "-"], input=settings(aside), text=True, cwd=ROOT,
-            env={**os.environ, "MORULA_MANUAL": str(output), "LC_ALL": "C.UTF-8"},
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        with tempfile.TemporaryDirectory() as sources:
+            convert(Path(sources), output)
+            result = subprocess.run(
+                ["doxygen", "-"], input=settings(aside), text=True, cwd=sources,
+                env={**os.environ, "LC_ALL": "C.UTF-8"},
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         log = aside / "warnings.txt"
         complaints = log.read_text().splitlines() if log.exists() else []
         if result.returncode and not complaints:

@@ -270,12 +270,12 @@ namespace Morula
   }
 
   template <int dim>
-  GrowthOfStep<dim>
+  DevelopmentOfStep<dim>
   CellDevelopment<dim>::of_step(const Tissue<dim> &tissue,
                                 const double       t0,
                                 const double       t1) const
   {
-    GrowthOfStep<dim> result;
+    DevelopmentOfStep<dim> result;
     result.present = grows();
     if (!present())
       return result;
@@ -323,10 +323,10 @@ namespace Morula
 
   template <int dim>
   void
-  CellDevelopment<dim>::commit(Tissue<dim>             &tissue,
-                               const GrowthOfStep<dim> &of_step,
-                               const double             t0,
-                               const double             t1) const
+  CellDevelopment<dim>::commit(Tissue<dim>                  &tissue,
+                               const DevelopmentOfStep<dim> &of_step,
+                               const double                  t0,
+                               const double                  t1) const
   {
     if (!present())
       return;

@@ -135,7 +135,7 @@ namespace Morula
       return false;
     if (effects.death->is_dead(before.cell()))
       return true;
-    if (!effects.death->strikes(before, t0))
+    if (!effects.death->condition_holds(before, t0))
       return false;
     const CycleState<dim> state =
       die(before,

@@ -365,7 +365,7 @@ namespace Morula
 
   template <int dim>
   void
-  MomentumBalance<dim>::go_on()
+  MomentumBalance<dim>::use_growth_at_end()
   {
     goes_on = true;
   }

@@ -78,9 +78,9 @@ namespace Morula
 
   template <int dim>
   void
-  even_out_fill(Tissue<dim>          &tissue,
-                const Occupancy<dim> &occupancy,
-                const double          part)
+  relax_volumes_to_space(Tissue<dim>          &tissue,
+                         const Occupancy<dim> &occupancy,
+                         const double          part)
   {
     const GridBox<dim> &box = occupancy.window().whole();
     const auto          fills =
@@ -100,7 +100,7 @@ namespace Morula
   }
 
   template void
-  even_out_fill(Tissue<2> &, const Occupancy<2> &, const double);
+  relax_volumes_to_space(Tissue<2> &, const Occupancy<2> &, const double);
   template void
-  even_out_fill(Tissue<3> &, const Occupancy<3> &, const double);
+  relax_volumes_to_space(Tissue<3> &, const Occupancy<3> &, const double);
 } // namespace Morula

@@ -51,7 +51,7 @@ namespace Morula
     PointList<dim>
     points_in(const std::vector<unsigned int> &grid_cells,
               const PointStore<dim>           &points,
-              const WantedNumbers             &wanted)
+              const NearestQuery              &wanted)
     {
       PointList<dim>      list(wanted.n);
       std::vector<double> numbers;
@@ -80,7 +80,7 @@ namespace Morula
     PointList<dim>
     candidates(const std::vector<Point<dim>> &queries,
                const PointStore<dim>         &points,
-               const WantedNumbers           &wanted,
+               const NearestQuery            &wanted,
                const BackgroundGrid<dim>     &grid,
                const int                      radius)
     {
@@ -154,7 +154,7 @@ namespace Morula
   std::vector<double>
   nearest_numbers(const std::vector<Point<dim>> &queries,
                   const PointStore<dim>         &points,
-                  const WantedNumbers           &wanted,
+                  const NearestQuery            &wanted,
                   const BackgroundGrid<dim>     &grid)
   {
     const GridBox<dim> &box     = grid.box();
@@ -187,11 +187,11 @@ namespace Morula
   template std::vector<double>
   nearest_numbers(const std::vector<Point<2>> &,
                   const PointStore<2> &,
-                  const WantedNumbers &,
+                  const NearestQuery &,
                   const BackgroundGrid<2> &);
   template std::vector<double>
   nearest_numbers(const std::vector<Point<3>> &,
                   const PointStore<3> &,
-                  const WantedNumbers &,
+                  const NearestQuery &,
                   const BackgroundGrid<3> &);
 } // namespace Morula

@@ -81,7 +81,7 @@ namespace Morula
   std::vector<double>
   elastic_volumes(const Tissue<dim>            &tissue,
                   const SplineSpace<dim>       &space,
-                  const GrowthOfStep<dim>      &growth,
+                  const DevelopmentOfStep<dim> &growth,
                   const TissueMaterial         &material,
                   const std::string            &kernel,
                   const DisplacementField<dim> &displacement)
@@ -112,7 +112,7 @@ namespace Morula
   template std::vector<double> elastic_volumes( \
     const Tissue<dim> &,                        \
     const SplineSpace<dim> &,                   \
-    const GrowthOfStep<dim> &,                  \
+    const DevelopmentOfStep<dim> &,             \
     const TissueMaterial &,                     \
     const std::string &,                        \
     const DisplacementField<dim> &);

@@ -78,9 +78,10 @@ namespace Morula
   {
     if (renews())
       {
-        even_out_fill(tissue,
-                      space.occupancy(),
-                      std::min(1., dt / model.scene.tissue.renew_surface));
+        relax_volumes_to_space(tissue,
+                               space.occupancy(),
+                               std::min(1.,
+                                        dt / model.scene.tissue.renew_surface));
         renew_if_due(tissue, former, t, dt);
       }
     try

@@ -106,7 +106,7 @@ namespace Morula
         // more: doc/theory.md (4.8j).
         content.pressure_at_target = pressure;
         content.target             = wanted - (after - V);
-        balance.go_on();
+        balance.use_growth_at_end();
       }
     std::ostringstream text;
     text << "the lumen does not get its volume: it still differs by " << error

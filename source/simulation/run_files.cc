@@ -243,14 +243,14 @@ namespace Morula
   void
   RunFiles<dim>::step(StatisticsRow                 &row,
                       const std::vector<Birth<dim>> &births,
-                      const std::vector<CellEvent>  &befallen)
+                      const std::vector<CellEvent>  &events)
   {
     row.wall_seconds = wall_seconds();
     tables.at("statistics").append(statistics_row(row));
     tables.at("lineage").append_parts(
       lineage_rows(births, !contents.type_names.empty(), comm));
     if (contents.any())
-      tables.at("events").append_parts(event_rows(befallen, contents, comm));
+      tables.at("events").append_parts(event_rows(events, contents, comm));
     progress->step({row.step,
                     row.time,
                     row.dt,

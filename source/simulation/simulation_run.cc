@@ -243,7 +243,7 @@ namespace Morula
 
   template <int dim>
   double
-  Simulation<dim>::way_of_held_points() const
+  Simulation<dim>::largest_held_displacement() const
   {
     double largest = 0.;
     everywhere(comm, [&]() {
@@ -271,7 +271,7 @@ namespace Morula
     if (model.boundary_conditions.has_dirichlet())
       text << ", or with another Boundary conditions/Nitsche penalty";
     text << '.';
-    if (const double way = way_of_held_points();
+    if (const double way = largest_held_displacement();
         way > 0.5 * model.scene.grid.spacing)
       text << " Even in so short a step held points move by " << way
            << " um: let Boundary conditions/Displacement rise from 0 with t.";

@@ -37,10 +37,10 @@ namespace Morula
     /** λ and μ of cell number @p i in the order of Tissue::cells(). */
     template <int dim>
     Lame
-    lame_of(const Tissue<dim>       &tissue,
-            const unsigned int       i,
-            const GrowthOfStep<dim> &growth,
-            const TissueMaterial    &material)
+    lame_of(const Tissue<dim>            &tissue,
+            const unsigned int            i,
+            const DevelopmentOfStep<dim> &growth,
+            const TissueMaterial         &material)
     {
       return growth.lame.empty() ?
                material.lame_at(tissue.cells()[i].founder_position()) :
@@ -50,10 +50,10 @@ namespace Morula
     /** Its data but for those. */
     template <int dim>
     PointData<dim>
-    data_of(const Tissue<dim>       &tissue,
-            const unsigned int       i,
-            const GrowthOfStep<dim> &growth,
-            const TissueMaterial    &material)
+    data_of(const Tissue<dim>            &tissue,
+            const unsigned int            i,
+            const DevelopmentOfStep<dim> &growth,
+            const TissueMaterial         &material)
     {
       const auto     cell = tissue.cells()[i];
       PointData<dim> data{};
@@ -99,10 +99,10 @@ namespace Morula
      *  or with points that several grid cells share. */
     template <int dim>
     MaterialPoints<dim>
-    subdivided_points(const Tissue<dim>       &tissue,
-                      const SplineSpace<dim>  &space,
-                      const GrowthOfStep<dim> &growth,
-                      const TissueMaterial    &material)
+    subdivided_points(const Tissue<dim>            &tissue,
+                      const SplineSpace<dim>       &space,
+                      const DevelopmentOfStep<dim> &growth,
+                      const TissueMaterial         &material)
     {
       const GridBox<dim> &box = space.box();
       PointList<dim>      list(Flat<Message<dim>>::n);
@@ -183,10 +183,10 @@ namespace Morula
 
   template <int dim>
   MaterialPoints<dim>
-  material_points(const Tissue<dim>       &tissue,
-                  const SplineSpace<dim>  &space,
-                  const GrowthOfStep<dim> &growth,
-                  const TissueMaterial    &material)
+  material_points(const Tissue<dim>            &tissue,
+                  const SplineSpace<dim>       &space,
+                  const DevelopmentOfStep<dim> &growth,
+                  const TissueMaterial         &material)
   {
     if (Utilities::MPI::logical_or(space.occupancy().subdivides(),
                                    tissue.communicator()))
@@ -208,12 +208,12 @@ namespace Morula
     return points;
   }
 
-#define INSTANTIATE(dim)                                                  \
-  template MaterialPoints<dim> material_points(const Tissue<dim> &,       \
-                                               const SplineSpace<dim> &,  \
-                                               const GrowthOfStep<dim> &, \
-                                               const TissueMaterial &);   \
-  template GroupedPoints<dim>  cell_positions(const Tissue<dim> &,        \
+#define INSTANTIATE(dim)                                                       \
+  template MaterialPoints<dim> material_points(const Tissue<dim> &,            \
+                                               const SplineSpace<dim> &,       \
+                                               const DevelopmentOfStep<dim> &, \
+                                               const TissueMaterial &);        \
+  template GroupedPoints<dim>  cell_positions(const Tissue<dim> &,             \
                                               const SplineSpace<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

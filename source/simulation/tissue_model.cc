@@ -59,9 +59,9 @@ namespace Morula
 
   template <int dim>
   double
-  TissueModel<dim>::typical_stiffness(const Tissue<dim>       &tissue,
-                                      const GrowthOfStep<dim> &growth,
-                                      const MPI_Comm           comm) const
+  TissueModel<dim>::typical_stiffness(const Tissue<dim>            &tissue,
+                                      const DevelopmentOfStep<dim> &growth,
+                                      const MPI_Comm                comm) const
   {
     double largest = 0.;
     if (material.depends_on_state())

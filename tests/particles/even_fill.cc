@@ -68,7 +68,7 @@ namespace
       occupancy_of<dim>(cells, fill * std::pow(h / n, dim));
     Tissue<dim> tissue(GridParameters(), CellColumns<dim>(), MPI_COMM_SELF);
     tissue.place(cells, PointList<dim>(BoundaryColumns<dim>().n_numbers()));
-    even_out_fill(tissue, occupancy, part);
+    relax_volumes_to_space(tissue, occupancy, part);
 
     unsigned int n_inside = 0;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
@@ -106,7 +106,7 @@ TEST(EvenFill, SparseTissueIsLeftAlone)
   const auto occupancy     = occupancy_of<2>(cells, fill * std::pow(h / n, 2));
   Tissue<2>  tissue(GridParameters(), CellColumns<2>(), MPI_COMM_SELF);
   tissue.place(cells, PointList<2>(BoundaryColumns<2>().n_numbers()));
-  even_out_fill(tissue, occupancy, 1.);
+  relax_volumes_to_space(tissue, occupancy, 1.);
   for (unsigned int p = 0; p < tissue.cells().size(); ++p)
     EXPECT_EQ(tissue.cell(p).F(), unit_tensor<2>());
 }

@@ -32,10 +32,10 @@ namespace
   /** Growth that differs from cell to cell: every third one is about to
    *  vanish. */
   template <int dim>
-  GrowthOfStep<dim>
+  DevelopmentOfStep<dim>
   uneven_growth(const Tissue<dim> &tissue)
   {
-    GrowthOfStep<dim> growth;
+    DevelopmentOfStep<dim> growth;
     growth.present = true;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
@@ -101,7 +101,7 @@ namespace
 
     Tissue<dim>                           tissue;
     TissueMaterial                        material;
-    GrowthOfStep<dim>                     growth;
+    DevelopmentOfStep<dim>                growth;
     std::optional<SplineSpace<dim>>       space;
     std::optional<DisplacementField<dim>> field;
     std::vector<double>                   ratios;

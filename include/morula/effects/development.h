@@ -25,7 +25,7 @@ namespace Morula
   /** The growth and the events of all cells of a rank in one step, in the order
    *  of Tissue::cells(). */
   template <int dim>
-  struct GrowthOfStep
+  struct DevelopmentOfStep
   {
     bool                        present = false; // else nothing grows
     std::vector<Tensor<2, dim>> previous;        // F_g at t
@@ -159,16 +159,16 @@ namespace Morula
                const GivenState            &given = {}) const;
 
     /** The development of the cells in (t0, t1]. @throws InputError */
-    GrowthOfStep<dim>
+    DevelopmentOfStep<dim>
     of_step(const Tissue<dim> &tissue, const double t0, const double t1) const;
 
     /** Sets all columns but F to their values at the end of the step. F must
      *  still be that at @p t0. */
     void
-    commit(Tissue<dim>             &tissue,
-           const GrowthOfStep<dim> &of_step,
-           const double             t0,
-           const double             t1) const;
+    commit(Tissue<dim>                  &tissue,
+           const DevelopmentOfStep<dim> &of_step,
+           const double                  t0,
+           const double                  t1) const;
 
     /**
      * The law's part of det F_g at @p end (day) of a founder that grows free of

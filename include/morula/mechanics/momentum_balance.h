@@ -93,7 +93,7 @@ namespace Morula
     /** From now on all tangents are taken at the growth at t + dt: the step has
      *  been solved once, with another content of the enclosure. */
     void
-    go_on();
+    use_growth_at_end();
 
     /**
      * What a linear solver should know of the tangents. Collective.

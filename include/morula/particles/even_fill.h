@@ -20,9 +20,9 @@ namespace Morula
    */
   template <int dim>
   void
-  even_out_fill(Tissue<dim>          &tissue,
-                const Occupancy<dim> &occupancy,
-                const double          part);
+  relax_volumes_to_space(Tissue<dim>          &tissue,
+                         const Occupancy<dim> &occupancy,
+                         const double          part);
 } // namespace Morula
 
 #endif

@@ -22,7 +22,7 @@ namespace Morula
 
   /** The numbers that a query asks of a point, which is given by its position p
    *  in the canonical order: append(p, list) adds @p n numbers to the list. */
-  struct WantedNumbers
+  struct NearestQuery
   {
     unsigned int                                             n;
     std::function<void(unsigned int, std::vector<double> &)> append;
@@ -38,7 +38,7 @@ namespace Morula
   std::vector<double>
   nearest_numbers(const std::vector<Point<dim>> &queries,
                   const PointStore<dim>         &points,
-                  const WantedNumbers           &wanted,
+                  const NearestQuery            &wanted,
                   const BackgroundGrid<dim>     &grid);
 
   /** The same for the values value(p) of a type that is Flat. */

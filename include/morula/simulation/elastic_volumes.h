@@ -30,7 +30,7 @@ namespace Morula
   std::vector<double>
   elastic_volumes(const Tissue<dim>            &tissue,
                   const SplineSpace<dim>       &space,
-                  const GrowthOfStep<dim>      &growth,
+                  const DevelopmentOfStep<dim> &growth,
                   const TissueMaterial         &material,
                   const std::string            &kernel,
                   const DisplacementField<dim> &displacement);

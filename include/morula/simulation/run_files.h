@@ -52,7 +52,7 @@ namespace Morula
     void
     step(StatisticsRow                 &row,
          const std::vector<Birth<dim>> &births,
-         const std::vector<CellEvent>  &befallen);
+         const std::vector<CellEvent>  &events);
 
     /** Writes a message to the terminal and into log.txt. */
     void

@@ -6,7 +6,7 @@
 
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/following_surface.h>
-#include <morula/simulation/piece_news.h>
+#include <morula/simulation/piece_warnings.h>
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/run_state.h>
 #include <morula/simulation/step_equilibrium.h>
@@ -132,7 +132,7 @@ namespace Morula
     /** The longest way that the present attempt asks of a held point, µm.
      *  Collective. */
     double
-    way_of_held_points() const;
+    largest_held_displacement() const;
     [[noreturn]] void
     give_up(const std::string &reason);
     [[noreturn]] void
@@ -149,14 +149,14 @@ namespace Morula
     double      typical_stiffness = 0.; // kPa
 
     // Of the present step.
-    GrowthOfStep<dim>                growth_of_step;
+    DevelopmentOfStep<dim>           growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
 
-    PieceNews<dim>        pieces;
+    PieceWarnings<dim>    pieces;
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started

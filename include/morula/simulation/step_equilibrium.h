@@ -29,9 +29,9 @@ namespace Morula
     /** One attempt at a step. */
     struct Attempt
     {
-      double                   t, t_next; // day
-      const GrowthOfStep<dim> &growth;
-      double                   typical_stiffness; // kPa
+      double                        t, t_next; // day
+      const DevelopmentOfStep<dim> &growth;
+      double                        typical_stiffness; // kPa
       /** Before the step; nothing without a lumen. */
       std::optional<LumenMemory> lumen;
     };

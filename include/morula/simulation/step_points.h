@@ -18,10 +18,10 @@ namespace Morula
    */
   template <int dim>
   MaterialPoints<dim>
-  material_points(const Tissue<dim>       &tissue,
-                  const SplineSpace<dim>  &space,
-                  const GrowthOfStep<dim> &growth,
-                  const TissueMaterial    &material);
+  material_points(const Tissue<dim>            &tissue,
+                  const SplineSpace<dim>       &space,
+                  const DevelopmentOfStep<dim> &growth,
+                  const TissueMaterial         &material);
 
   /** The positions of the cells by active grid cell, in the order of
    *  Tissue::cells(). */

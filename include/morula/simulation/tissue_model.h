@@ -47,9 +47,9 @@ namespace Morula
      *  @param growth of the step, used if moduli depend on the state of cells
      */
     double
-    typical_stiffness(const Tissue<dim>       &tissue,
-                      const GrowthOfStep<dim> &growth,
-                      const MPI_Comm           comm) const;
+    typical_stiffness(const Tissue<dim>            &tissue,
+                      const DevelopmentOfStep<dim> &growth,
+                      const MPI_Comm                comm) const;
 
   private:
     TissueModel(const Scene &scene, SceneEffects<dim> &&effects);

@@ -81,7 +81,8 @@ namespace Morula
 
   template <int dim>
   bool
-  Death<dim>::strikes(const PresentCell<dim> &cell, const double t) const
+  Death<dim>::condition_holds(const PresentCell<dim> &cell,
+                              const double            t) const
   {
     return has_condition && cell.value(when, t) > 0.;
   }
@@ -170,8 +171,8 @@ namespace Morula
 
   template <int dim>
   bool
-  Death<dim>::is_gone(const CellView<dim, const double> &cell,
-                      const double                       t) const
+  Death<dim>::is_due_for_removal(const CellView<dim, const double> &cell,
+                                 const double                       t) const
   {
     return removal_time(cell) <= t + slack;
   }

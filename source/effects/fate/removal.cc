@@ -95,7 +95,7 @@ namespace Morula
     std::vector<unsigned int> gone;
     std::vector<CellEvent>    events;
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (development.death()->is_gone(cells[p], t))
+      if (development.death()->is_due_for_removal(cells[p], t))
         {
           const unsigned int type =
             PresentCell<dim>(cells[p], cells.id(p), cells.position(p), reader)

@@ -54,7 +54,7 @@ namespace Morula
     std::vector<CellState<dim>>
     nearest_states(const std::vector<Point<dim>> &queries,
                    const Tissue<dim>             &tissue,
-                   const GrowthOfStep<dim>       &growth)
+                   const DevelopmentOfStep<dim>  &growth)
     {
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
       return nearest_values(
@@ -109,7 +109,7 @@ namespace Morula
                const TissueMaterial          &material,
                const Tissue<dim>             &tissue,
                const SplineSpace<dim>        &space,
-               const GrowthOfStep<dim>       &growth,
+               const DevelopmentOfStep<dim>  &growth,
                const double                   t,
                const std::string             &kernel)
   {
@@ -325,7 +325,7 @@ namespace Morula
     const TissueMaterial &,                                                      \
     const Tissue<dim> &,                                                         \
     const SplineSpace<dim> &,                                                    \
-    const GrowthOfStep<dim> &,                                                   \
+    const DevelopmentOfStep<dim> &,                                              \
     const double,                                                                \
     const std::string &);                                                        \
   template LoadedPoints<dim>            loaded_points(const Tissue<dim> &,       \

@@ -53,7 +53,7 @@ namespace Morula
     }
 
     /** Takes it from @p t0 to @p t1, day. */
-    GrowthOfStep<2>
+    DevelopmentOfStep<2>
     live(const double t0, const double t1)
     {
       auto of_step = development.of_step(tissue, t0, t1);

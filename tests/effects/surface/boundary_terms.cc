@@ -143,7 +143,7 @@ namespace
     std::unique_ptr<Term<dim>>
     nitsche(const TissueMaterial &material, const double t) const
     {
-      const GrowthOfStep<dim> grown = growth.of_step(tissue, 0., t);
+      const DevelopmentOfStep<dim> grown = growth.of_step(tissue, 0., t);
       return nitsche_term(
         conditions, material, tissue, *space, grown, t, "automatic");
     }

@@ -66,7 +66,7 @@ namespace Morula
     /** Whether the condition kills a living cell, at time @p t (day).
      *  @throws InputError */
     bool
-    strikes(const PresentCell<dim> &cell, const double t) const;
+    condition_holds(const PresentCell<dim> &cell, const double t) const;
 
     /**
      * The chance of death in (t0, t1]; none without a rate.
@@ -114,7 +114,8 @@ namespace Morula
 
     /** Whether it is removed at @p t (day) at the latest. */
     bool
-    is_gone(const CellView<dim, const double> &cell, const double t) const;
+    is_due_for_removal(const CellView<dim, const double> &cell,
+                       const double                       t) const;
 
     void
     check_cell(const PresentCell<dim> &founder,

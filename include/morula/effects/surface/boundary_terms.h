@@ -31,7 +31,7 @@ namespace Morula
                const TissueMaterial          &material,
                const Tissue<dim>             &tissue,
                const SplineSpace<dim>        &space,
-               const GrowthOfStep<dim>       &growth,
+               const DevelopmentOfStep<dim>  &growth,
                const double                   t,
                const std::string             &kernel);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_piece_news_h
-#define morula_simulation_piece_news_h
+#ifndef morula_simulation_piece_warnings_h
+#define morula_simulation_piece_warnings_h
 
 #include <morula/grid/piece_watch.h>
 #include <morula/simulation/announce.h>
@@ -12,11 +12,11 @@ namespace Morula
   /** Tells the user once when pieces of the tissue join, and once when it
    *  parts. */
   template <int dim>
-  class PieceNews
+  class PieceWarnings
   {
   public:
     /** @param counts whether to count pieces; only death can part the tissue */
-    PieceNews(const bool counts, const Announce &announce);
+    PieceWarnings(const bool counts, const Announce &announce);
 
     /** Looks at the splines of a step that begins at @p t (day). */
     void

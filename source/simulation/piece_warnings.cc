@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/simulation/piece_news.h>
+#include <morula/simulation/piece_warnings.h>
 
 #include <optional>
 #include <sstream>
@@ -9,7 +9,7 @@
 namespace Morula
 {
   template <int dim>
-  PieceNews<dim>::PieceNews(const bool counts, const Announce &announce)
+  PieceWarnings<dim>::PieceWarnings(const bool counts, const Announce &announce)
     : counts(counts)
     , announce(announce)
   {}
@@ -17,9 +17,9 @@ namespace Morula
 
   template <int dim>
   void
-  PieceNews<dim>::look(const SplineSpace<dim>    &space,
-                       const BackgroundGrid<dim> &grid,
-                       const double               t)
+  PieceWarnings<dim>::look(const SplineSpace<dim>    &space,
+                           const BackgroundGrid<dim> &grid,
+                           const double               t)
   {
     // It is told of once, and not looked for any more.
     const auto place = has_joined ? std::nullopt : watch.joined(space, grid);
@@ -43,9 +43,9 @@ namespace Morula
 
   template <int dim>
   void
-  PieceNews<dim>::count(const SplineSpace<dim> &space,
-                        const MPI_Comm          comm,
-                        const double            t)
+  PieceWarnings<dim>::count(const SplineSpace<dim> &space,
+                            const MPI_Comm          comm,
+                            const double            t)
   {
     if (!counts)
       return;
@@ -66,12 +66,12 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  PieceNews<dim>::n_pieces() const
+  PieceWarnings<dim>::n_pieces() const
   {
     return n_pieces_;
   }
 
 
-  template class PieceNews<2>;
-  template class PieceNews<3>;
+  template class PieceWarnings<2>;
+  template class PieceWarnings<3>;
 } // namespace Morula

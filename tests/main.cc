@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/program/open_mpi.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
@@ -38,6 +40,7 @@ main(int argc, char **argv)
 {
   // This takes its options out of argv: PETSc would complain of them.
   testing::InitGoogleTest(&argc, argv);
+  Morula::set_up_open_mpi();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   const unsigned int n_ranks =

@@ -27,15 +27,9 @@ namespace Morula
     constexpr double       small_change    = 1e-6;
     constexpr unsigned int most_iterations = 25;
 
-    /** Where a solution serves the next iteration: as little is left as that
-     *  will leave. The last one is far more exact. */
-    constexpr double tolerance_of_iterations = 1e-12,
-                     reduction_of_iterations = 1e-4;
-
     /** Slopes and the matrix are kept while each change is so much smaller than
-     *  the one before; they themselves then leave more than conjugate gradients
-     *  need to reduce. */
-    constexpr double fast = 0.2, reduction_of_kept = 1e-2;
+     *  the one before. */
+    constexpr double fast = 0.2;
 
     /** After a change of the field that is so large the next matrix gets a
      *  preconditioner of its own. */
@@ -45,9 +39,15 @@ namespace Morula
      *  solution. */
     constexpr double far_off = 0.1;
 
-    /** Of the residual of the linear equations. Amounts are kept as well as
-     *  this says. */
-    constexpr double tolerance_of_steady = 1e-10, tolerance_of_amounts = 1e-13;
+    /** Where a solution serves the next iteration: as little is left as that
+     *  will leave, which is more with slopes that are kept. The last one is far
+     *  more exact. */
+    constexpr LinearAccuracy accuracy_of_iterations{1e-12, 1e-4},
+      accuracy_of_kept{1e-12, 1e-2};
+
+    /** Amounts are kept as well as this says. */
+    constexpr LinearAccuracy accuracy_of_steady{1e-10, 0.},
+      accuracy_of_amounts{1e-13, 0.};
 
     double
     largest(const std::vector<double> &values)
@@ -266,7 +266,7 @@ namespace Morula
       cell.diffusion = 0.;
     linear              = nullptr; // another matrix
     const Vector zero   = assembly.unknowns().zero();
-    const Vector result = solve_equation(zero, zero, tolerance_of_steady);
+    const Vector result = solve_equation(zero, zero, accuracy_of_steady);
     linear              = nullptr;
     equation.cells      = cells;
     equation.surface    = std::move(surface);
@@ -292,11 +292,10 @@ namespace Morula
 
   template <int dim>
   typename FieldSolver<dim>::Vector
-  FieldSolver<dim>::solve_equation(const Vector &known,
-                                   const Vector &start,
-                                   const double  tolerance,
-                                   const double  reduction,
-                                   const bool    same_matrix)
+  FieldSolver<dim>::solve_equation(const Vector         &known,
+                                   const Vector         &start,
+                                   const LinearAccuracy &accuracy,
+                                   const bool            same_matrix)
   {
     using Local = LocalEquations<dim, 1>;
     Local        matrix(Local::tangent), load(Local::energy_and_residual);
@@ -310,12 +309,12 @@ namespace Morula
         linear                = make_solver(problem);
       }
     Vector       x     = start, missing(b), change(b);
-    const double small = tolerance * b.l2_norm();
+    const double small = accuracy.tolerance * b.l2_norm();
     A.residual(missing, x, b);
     const double size = missing.l2_norm();
     if (!(size > small))
       return x;
-    linear(A, change, missing, std::max(small / size, reduction));
+    linear(A, change, missing, std::max(small / size, accuracy.reduction));
     x += change;
     return x;
   }
@@ -376,17 +375,11 @@ namespace Morula
           check_sink(field);
         if (!steady)
           set_known(known, known_field);
-        if (!steady)
-          sought = solve_equation(known_field, sought, tolerance_of_amounts);
-        else if (!nonlinear)
-          sought = solve_equation(known_field, sought, tolerance_of_steady);
-        else
-          sought =
-            solve_equation(known_field,
-                           sought,
-                           tolerance_of_iterations,
-                           kept ? reduction_of_kept : reduction_of_iterations,
-                           kept);
+        const LinearAccuracy &accuracy = !steady    ? accuracy_of_amounts :
+                                         !nonlinear ? accuracy_of_steady :
+                                         kept       ? accuracy_of_kept :
+                                                      accuracy_of_iterations;
+        sought = solve_equation(known_field, sought, accuracy, kept);
         ++result.iterations;
         take(sought, known, !steady || !nonlinear, result);
         const double last_change = result.change;

@@ -25,6 +25,15 @@ namespace Morula
   /** Makes a solver for the matrices of a problem, which outlives it. */
   using MakeLinearSolver = std::function<SolveLinear(const LinearProblem &)>;
 
+  /** When a solution of linear equations is good enough. */
+  struct LinearAccuracy
+  {
+    /** The residual, relative to the right-hand side. */
+    double tolerance;
+    /** Or relative to what it was at the start. */
+    double reduction;
+  };
+
   /** What was found for one field at the cells of this rank, in their order. */
   template <int dim>
   struct FieldSolution
@@ -134,16 +143,13 @@ namespace Morula
 
     /**
      * @param start where conjugate gradients begin
-     * @param tolerance of the residual, relative to the right-hand side
-     * @param reduction of the residual that is enough, too
      * @param same_matrix whether only loads differ from the last equation's
      */
     Vector
-    solve_equation(const Vector &known,
-                   const Vector &start,
-                   const double  tolerance,
-                   const double  reduction   = 0.,
-                   const bool    same_matrix = false);
+    solve_equation(const Vector         &known,
+                   const Vector         &start,
+                   const LinearAccuracy &accuracy,
+                   const bool            same_matrix = false);
 
     /**
      * Iterates from the values of now, with no grid cell lumped at first.

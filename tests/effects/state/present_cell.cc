@@ -116,6 +116,28 @@ TEST(PresentCell, KnowsItsVariables)
 }
 
 
+/** In plane strain the stress across the plane counts, too:
+ *  J_e σ = λ ln J_e I + μ (b_e - I), here with b_e = diag(1.44, 1, 1). */
+TEST(PresentCell, PressureInThePlaneCountsTheStressAcrossIt)
+{
+  StateColumns<2>  state;
+  CellColumns<2>   columns;
+  const Expression pressure = state.use(key("pressure"));
+  columns.need_growth();
+  state.declare(columns);
+  std::vector<double>       row = columns.founder(Point<2>(1., 2.), 50.);
+  const CellView<2, double> cell(make_array_view(row), columns);
+  cell.set(columns.deformation, Tensor<2, 2>({{1.2, 0.}, {0., 1.}}));
+  const TissueMaterial material{MaterialParameters()};
+  const CellReader<2>  reader{state, material, nullptr, nullptr, 7, 0.};
+  const PresentCell<2> present(cell, 5, Point<2>(), reader);
+  const Lame           moduli = lame(1., 0.4);
+  EXPECT_NEAR(present.value(pressure, 0.),
+              -(moduli.lambda * std::log(1.2) + moduli.mu * 0.44 / 3.) / 1.2,
+              1e-14);
+}
+
+
 TEST(PresentCell, KnowsWhatItWouldFeelIfItHadGrown)
 {
   SomeCell            cell;

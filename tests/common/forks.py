@@ -16,13 +16,21 @@ from morula.execute import call as start
 from tests.common import forked_tools
 
 
+# Symbols are found once, before the forks, and Open MPI opens only what a rank
+# alone needs: a fork takes 0.10 s with them and 0.13 s without.
+ALONE = {"LD_BIND_NOW": "1", "HWLOC_COMPONENTS": "-pci", "OMPI_MCA_btl": "self",
+         "OMPI_MCA_coll": "basic,self,libnbc", "OMPI_MCA_osc": "rdma",
+         "OMPI_MCA_shmem": "mmap", "OMPI_MCA_state": "novm,app",
+         "OMPI_MCA_errmgr": "default_app", "OMPI_MCA_reachable": "weighted"}
+
+
 class Forks:
     """A process of build/tests/forks, which forks for every run."""
 
     def __init__(self, executable):
         self.process = subprocess.Popen(
             [executable], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-            env=environment())
+            env={**environment(), **ALONE})
         atexit.register(self.end)
 
     def end(self):

@@ -30,7 +30,7 @@ def call(tool, words, *, cwd=None, timeout=None, runs=None):
     """Runs a tool to its end in a fork, and returns what execute.call returns.
 
     `runs` runs the program to its end; it gets what the tool asks of
-    execute.call without any option, such as the program's keys."""
+    execute.call."""
     importlib.import_module(TOOLS[tool])
     with tempfile.TemporaryDirectory() as scratch:
         out, err = (Path(scratch) / name for name in ("out", "err"))
@@ -78,13 +78,13 @@ def _become(tool, words, cwd, files, runs):
 
 
 def _let(runs, processes):
-    """Lets `runs` do what processes.call() is asked for without options."""
+    """Lets `runs` do what processes.call() is asked for of the program."""
     start, one_at_a_time = processes.call, threading.Lock()
 
     def call_or_start(self, words, **options):
-        if options or Path(words[0]).name != "morula":
+        if Path(words[0]).name != "morula":
             return start(self, words, **options)
         with one_at_a_time:
-            return runs(words)
+            return runs(words, **options)
 
     processes.call = call_or_start

@@ -4,6 +4,7 @@
 #include <morula/program/program.h>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -49,7 +50,7 @@ namespace
  * destructors of the libraries, a third of what is left. A run is asked for by
  * its directory, the files for standard output and standard error, and the
  * words of the command line; printed are its process id at once, and at its end
- * the exit code, or minus the number of the signal.
+ * the exit code, or minus the number of the signal, and its peak memory in kB.
  */
 int
 main()
@@ -75,9 +76,10 @@ main()
           _exit(code); // not through the destructors of all libraries
         }
       std::cout << child << std::endl;
-      int status = 0;
-      waitpid(child, &status, 0);
+      int    status = 0;
+      rusage usage{};
+      wait4(child, &status, 0, &usage);
       std::cout << (WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status))
-                << std::endl;
+                << ' ' << usage.ru_maxrss << std::endl;
     }
 }

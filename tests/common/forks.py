@@ -3,10 +3,12 @@
 """Runs of the program on one rank that cost a fork instead of a start."""
 import atexit
 import functools
+import json
 import os
 import subprocess
 import tempfile
 import threading
+import time
 from pathlib import Path
 from signal import SIGKILL
 
@@ -23,6 +25,8 @@ ALONE = {"LD_BIND_NOW": "1", "HWLOC_COMPONENTS": "-pci", "OMPI_MCA_btl": "self",
          "OMPI_MCA_shmem": "mmap", "OMPI_MCA_state": "novm,app",
          "OMPI_MCA_errmgr": "default_app", "OMPI_MCA_reachable": "weighted"}
 
+QUESTIONS = ("--parameters", "--version")
+
 
 class Forks:
     """A process of build/tests/forks, which forks for every run."""
@@ -37,9 +41,12 @@ class Forks:
         self.process.stdin.close()
         self.process.wait()
 
-    def call(self, words, cwd, timeout):
+    def call(self, words, cwd, timeout, stdout=None, stderr=None, cost=None):
         with tempfile.TemporaryDirectory() as scratch:
-            out, err = (Path(scratch) / name for name in ("out", "err"))
+            out, err = stdout or f"{scratch}/out", stderr or f"{scratch}/err"
+            for file in filter(None, (out, err, cost)):
+                Path(file).unlink(missing_ok=True)
+            begin = time.monotonic()
             request = [cwd or os.getcwd(), out, err, *words]
             self.process.stdin.write(b"".join(
                 os.fsencode(str(word)) + b"\0"
@@ -49,13 +56,17 @@ class Forks:
             timer = threading.Timer(timeout or 0, os.kill, (child, SIGKILL))
             if timeout:
                 timer.start()
-            code = int(self.process.stdout.readline())
+            code, peak = map(int, self.process.stdout.readline().split())
             timer.cancel()
             if timeout and code == -SIGKILL:
                 raise subprocess.TimeoutExpired(words, timeout)
-            return Ended(code, *(file.read_text(encoding="utf-8",
-                                                errors="replace")
-                                 for file in (out, err)))
+            if cost:
+                Path(cost).write_text(json.dumps(
+                    {"exit": code, "peak_bytes": 1024 * peak,
+                     "process_seconds": time.monotonic() - begin}))
+            return Ended(code, *("" if kept else Path(file).read_text(
+                encoding="utf-8", errors="replace")
+                for file, kept in ((out, stdout), (err, stderr))))
 
 
 @functools.lru_cache(maxsize=None)
@@ -71,19 +82,31 @@ def forks_of(morula):
     return Forks(forks)
 
 
-def call(words, *, cwd=None, timeout=None):
+def call(words, *, cwd=None, timeout=None, pass_fds=(), **files):
     """morula.execute.call; the program itself, on one rank, is a fork, and so is
-    a tool of contrib/, with what it asks of the program."""
+    a tool of contrib/, with what it asks of the program. `files` are stdout,
+    stderr and cost. A fork gets no file descriptors."""
     words = [str(word) for word in words]
     forks, tool = None, forked_tools.tool_of(words[0])
     if tool:
         if "--morula" in words[:-1]:
             # Before the tool forks, which cannot end it.
-            forks_of(os.path.abspath(words[words.index("--morula") + 1]))
+            morula = os.path.abspath(words[words.index("--morula") + 1])
+            if forks_of(morula):
+                for question in QUESTIONS:
+                    said(morula, question)
         return forked_tools.call(tool, words[1:], cwd=cwd, timeout=timeout,
                                  runs=call)
     if os.path.basename(words[0]) == "morula":
         forks = forks_of(os.path.abspath(words[0]))
-    if forks:
-        return forks.call(words, cwd, timeout)
-    return start(words, cwd=cwd, timeout=timeout)
+    if not forks or subprocess.STDOUT in files.values():
+        return start(words, cwd=cwd, timeout=timeout, pass_fds=pass_fds, **files)
+    if len(words) == 2 and words[1] in QUESTIONS and not files:
+        return said(os.path.abspath(words[0]), words[1])
+    return forks.call(words, cwd, timeout, **files)
+
+
+@functools.lru_cache(maxsize=None)
+def said(morula, question):
+    """What the program says of itself, which is always the same."""
+    return forks_of(morula).call([morula, question], None, None)

@@ -4,16 +4,8 @@
 """What contrib/accuracy refuses: exit code 1, one message that says what was
 given and what is allowed, and nothing written.
 """
-import contextlib
-import functools
-import io
-from unittest import mock
-
 from accuracy import DISC, AccuracyTest
-from morula.accuracy import tool
 from program import main
-
-from tests.common import forks
 
 SPACING = ["--vary", "Grid/Spacing=80,40"]
 MEASURE = ["--measure", "xmax,total_volume"]
@@ -164,40 +156,13 @@ BAD_REFERENCES = {
 }
 
 
-@functools.lru_cache(maxsize=None)
-def told(*words):
-    """What the program says of itself is the same for every refusal."""
-    return forks.call(words)
-
-
-def call(words):
-    words = tuple(map(str, words))
-    if words[1:] in (("--parameters",), ("--version",)):
-        return told(*words)
-    return forks.call(words)
-
-
 class Refusals(AccuracyTest):
-    def setUp(self):
-        super().setUp()
-        calls = mock.patch("morula.execute.call", call)
-        calls.start()
-        self.addCleanup(calls.stop)
-
     def assert_refused(self, scene, arguments, texts):
-        """Called within this process, which saves most of the time."""
-        words = [scene, "--output", self.work / "found", *arguments]
-        if "--morula" not in arguments:
-            words += ["--morula", self.options.morula]
-        said, printed = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stderr(said), \
-                contextlib.redirect_stdout(printed):
-            code = tool.main(list(map(str, words)))
-        self.assertEqual(code, 1)
-        self.assertTrue(said.getvalue().startswith("accuracy: "))
-        self.assertEqual(printed.getvalue(), "")
+        result = self.accuracy(scene, *arguments, code=1)
+        self.assertTrue(result.stderr.startswith("accuracy: "))
+        self.assertEqual(result.stdout, "")
         for text in texts:
-            self.assertIn(text, said.getvalue())
+            self.assertIn(text, result.stderr)
         self.assertFalse((self.work / "found").exists(),
                          "something was written")
 

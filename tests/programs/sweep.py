@@ -6,7 +6,6 @@ that fail, runs that are interrupted, and what it refuses.
 """
 import contextlib
 import csv
-import io
 import math
 import os
 import shutil
@@ -18,7 +17,6 @@ from pathlib import Path
 
 from accuracy import DISC
 from morula.execute import cores
-from morula.sweep import tool
 from morula.sweep.ensemble import summary
 from PIL import Image
 from program import ProgramTest, main, overrides, read_csv
@@ -262,14 +260,10 @@ end
                                             code=1).stderr)
 
     def assert_refused(self, scene, arguments, texts):
-        """Called within this process, which saves most of the time."""
-        said, printed = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stderr(said), \
-                contextlib.redirect_stdout(printed):
-            code = tool.main(self.words(scene, *arguments)[1:])
-        self.assertEqual((code, printed.getvalue()), (1, ""))
+        result = self.sweep(scene, *arguments, code=1)
+        self.assertEqual(result.stdout, "")
         for text in ("sweep: ", *texts):
-            self.assertIn(text, said.getvalue())
+            self.assertIn(text, result.stderr)
 
     def tearDown(self):
         shutil.rmtree(self.work / "found", ignore_errors=True)

@@ -104,7 +104,7 @@ namespace
 } // namespace
 
 
-TEST(SplineSpace, IsTheSameForAnyNumberOfRanks)
+TEST(SplinesOnRanks, IsTheSameForAnyNumberOfRanks)
 {
   MORULA_BOTH_DIMENSIONS(check_ranks)
 }

@@ -10,6 +10,7 @@ import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
+from matplotlib.ticker import ScalarFormatter  # noqa: E402
 
 from . import markup  # noqa: E402
 from .growth_fit import fit_growth  # noqa: E402
@@ -27,6 +28,15 @@ RC = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
       "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6,
       "axes.formatter.use_mathtext": True, "axes.axisbelow": True,
       "axes.formatter.limits": (-3, 5), "legend.fontsize": 9}
+
+
+class TickLabels(ScalarFormatter):
+    """Plain text: formulas of all labels take half of a report's time. Only the
+    common power of ten is one."""
+
+    def __call__(self, x, pos=None):
+        return (super().__call__(x, pos).removeprefix(r"$\mathdefault{")
+                .removesuffix("}$"))
 
 
 @dataclass(frozen=True)
@@ -150,6 +160,8 @@ def draw(rows, curve, fit):
             axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)
                                                     == 1 else 2],
                       label="exponential fit", linewidth=2.2, linestyle="--")
+        axes.xaxis.set_major_formatter(TickLabels())
+        axes.yaxis.set_major_formatter(TickLabels())
         if curve.log and (rows[next(iter(curve.columns))] > 0).any():
             axes.set_yscale("log")
         if curve.zero:

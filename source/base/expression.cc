@@ -142,7 +142,7 @@ namespace Morula
           const std::string problem =
             components[c].empty() ?
               "there is nothing. Write 0 where nothing acts." :
-              ExpressionSyntax::misunderstanding(components[c]);
+              ExpressionSyntax::misreading(components[c]);
           if (!problem.empty())
             throw InputError(key,
                              text,

@@ -163,7 +163,7 @@ namespace Morula::ExpressionSyntax
 
 
   std::string
-  misunderstanding(const std::string &component)
+  misreading(const std::string &component)
   {
     if (const auto i = find_outer_comma(component); i != std::string::npos)
       return at(i) + "a comma outside parentheses. Write decimals with a "

@@ -78,7 +78,7 @@ namespace Morula
 
 
   const std::map<std::string, std::string> &
-  AnyKey::texts_with_methods() const
+  AnyKey::texts_by_method() const
   {
     return with_method;
   }

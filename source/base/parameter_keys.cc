@@ -227,7 +227,7 @@ namespace Morula
           out << indent() << "# " << line << '\n';
         for (const std::string &former : key->former_paths())
           out << indent() << "# Formerly: " << former << '\n';
-        for (const auto &[method, value] : key->texts_with_methods())
+        for (const auto &[method, value] : key->texts_by_method())
           out << indent() << "# With Method = " << method << ": " << value
               << '\n';
         out << indent() << "set " << name << " = " << key->default_text()

@@ -245,7 +245,7 @@ namespace Morula
     const bool dead = is_dead_at(t0, before, after, events);
     if (!dead)
       {
-        const CycleState<dim> next = live(before, after, t0, t1, events);
+        const CycleState<dim> next = advance(before, after, t0, t1, events);
         if (effects.cycle)
           set_clock(after, next);
       }

@@ -24,9 +24,10 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
-  CellDevelopment<dim>::behind_law(const CellView<dim, const double> &cell,
-                                   const CycleState<dim>             &clock,
-                                   const double                       t) const
+  CellDevelopment<dim>::growth_behind_law(
+    const CellView<dim, const double> &cell,
+    const CycleState<dim>             &clock,
+    const double                       t) const
   {
     if (effects.cycle)
       return effects.cycle->growth(clock, cell.founder_position(), t);
@@ -45,7 +46,7 @@ namespace Morula
     if (effects.law_growth.exists())
       at_t0 = view.get(effects.law_growth);
     else if (effects.cycle)
-      at_t0 = view.growth() * invert(behind_law(view, clock(view), t0));
+      at_t0 = view.growth() * invert(growth_behind_law(view, clock(view), t0));
     else if (effects.relaxed.exists())
       at_t0 = view.growth() * invert(view.get(effects.relaxed));
     else
@@ -90,8 +91,8 @@ namespace Morula
         if (effects.law_growth.exists())
           after.set(effects.law_growth, of_law);
         const Tensor<2, dim> F_g =
-          of_law *
-          behind_law(cell, effects.cycle ? clock(cell) : CycleState<dim>(), t1);
+          of_law * growth_behind_law(
+                     cell, effects.cycle ? clock(cell) : CycleState<dim>(), t1);
         after.set(columns_.growth, F_g);
         after.set(columns_.deformation, F_g);
         row   = next;
@@ -107,7 +108,7 @@ namespace Morula
                                const double            t0,
                                const double            t1) const
   {
-    const Tensor<2, dim> behind = behind_law(cell.cell(), next, t1);
+    const Tensor<2, dim> behind = growth_behind_law(cell.cell(), next, t1);
     return effects.law ? law_growth(growing(cell, t0), t0, t1) * behind :
                          behind;
   }
@@ -120,7 +121,7 @@ namespace Morula
                                       const double                 t0,
                                       const double                 t1) const
   {
-    Tensor<2, dim> F_g = behind_law(before.cell(), next, t1);
+    Tensor<2, dim> F_g = growth_behind_law(before.cell(), next, t1);
     if (effects.law)
       {
         const GrowingCell<dim> growing = this->growing(before, t0);

@@ -53,11 +53,11 @@ namespace Morula
 
   template <int dim>
   CycleState<dim>
-  CellDevelopment<dim>::live(const PresentCell<dim>      &before,
-                             const CellView<dim, double> &after,
-                             const double                 t0,
-                             const double                 t1,
-                             std::vector<CellEvent>      &events) const
+  CellDevelopment<dim>::advance(const PresentCell<dim>      &before,
+                                const CellView<dim, double> &after,
+                                const double                 t0,
+                                const double                 t1,
+                                std::vector<CellEvent>      &events) const
   {
     const bool      has_clock = effects.cycle.has_value();
     CycleState<dim> state     = has_clock ? clock(after) : CycleState<dim>();
@@ -79,7 +79,7 @@ namespace Morula
         if (has_clock)
           state = next_clock(cell, state, t, event.time);
         if (event.dies)
-          return die(cell, after, state, event.time, DeathCause::rate, events);
+          return kill(cell, after, state, event.time, DeathCause::rate, events);
         if (has_clock)
           set_clock(after, state);
         events.push_back({event.time,
@@ -100,12 +100,12 @@ namespace Morula
 
   template <int dim>
   CycleState<dim>
-  CellDevelopment<dim>::die(const PresentCell<dim>      &cell,
-                            const CellView<dim, double> &after,
-                            CycleState<dim>              state,
-                            const double                 time,
-                            const DeathCause             cause,
-                            std::vector<CellEvent>      &events) const
+  CellDevelopment<dim>::kill(const PresentCell<dim>      &cell,
+                             const CellView<dim, double> &after,
+                             CycleState<dim>              state,
+                             const double                 time,
+                             const DeathCause             cause,
+                             std::vector<CellEvent>      &events) const
   {
     effects.death->kill(cell, after, time);
     events.push_back({time,
@@ -138,12 +138,12 @@ namespace Morula
     if (!effects.death->condition_holds(before, t0))
       return false;
     const CycleState<dim> state =
-      die(before,
-          after,
-          effects.cycle ? clock(after) : CycleState<dim>(),
-          t0,
-          DeathCause::when,
-          events);
+      kill(before,
+           after,
+           effects.cycle ? clock(after) : CycleState<dim>(),
+           t0,
+           DeathCause::when,
+           events);
     if (effects.cycle)
       set_clock(after, state);
     return true;
@@ -151,13 +151,13 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  CellDevelopment<dim>::bear(const CellView<dim, double> &daughter,
-                             const types::particle_index  id,
-                             const Point<dim>            &position,
-                             const unsigned int           which,
-                             const double                 birth,
-                             const double                 t1,
-                             std::vector<CellEvent>      &events) const
+  CellDevelopment<dim>::make_daughter(const CellView<dim, double> &daughter,
+                                      const types::particle_index  id,
+                                      const Point<dim>            &position,
+                                      const unsigned int           which,
+                                      const double                 birth,
+                                      const double                 t1,
+                                      std::vector<CellEvent>      &events) const
   {
     if (state_.birth_time.exists())
       daughter.set(state_.birth_time, birth);
@@ -178,7 +178,7 @@ namespace Morula
       return own;
     const CellReader<dim>  reader = this->reader(t1);
     const PresentCell<dim> cell(daughter, id, position, reader);
-    const CycleState<dim>  state = live(cell, daughter, birth, t1, events);
+    const CycleState<dim>  state = advance(cell, daughter, birth, t1, events);
     set_clock(daughter, state);
     return own;
   }

@@ -70,7 +70,7 @@ namespace Morula
     {
       out << "Method\n  " << scene.method << ", which stands for\n";
       for (const AnyKey *key : scene.list())
-        if (!key->texts_with_methods().empty())
+        if (!key->texts_by_method().empty())
           out << "    " << key->path() << " = " << key->shown()
               << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
     }

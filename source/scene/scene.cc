@@ -290,7 +290,7 @@ namespace Morula
           }
       }
     for (AnyKey *key : scene.list())
-      for (const auto &[method, text] : key->texts_with_methods())
+      for (const auto &[method, text] : key->texts_by_method())
         if (scene.method == method && !scene.has_set(*key))
           key->assign(text);
     scene.apply_types();

@@ -23,8 +23,8 @@ namespace Morula
       std::string       paths;
       for (const AnyKey *key : scene.list())
         {
-          const auto text = key->texts_with_methods().find(method);
-          if (text == key->texts_with_methods().end())
+          const auto text = key->texts_by_method().find(method);
+          if (text == key->texts_by_method().end())
             continue;
           if (!review.has_set(*key) ||
               same_value(scene.as_written.at(key->path()), text->second))

@@ -180,26 +180,26 @@ namespace Morula
                      [&](const unsigned int i,
                          const auto        &field,
                          const auto &s) { displacements[i] = field.value(s); });
-      std::vector<typename Nitsche<dim>::Condition> conditions;
+      std::vector<typename Nitsche<dim>::HeldPoint> held_points;
       for (const unsigned int i : groups.points)
         {
-          typename Nitsche<dim>::Condition condition;
-          condition.projection =
+          typename Nitsche<dim>::HeldPoint held;
+          held.projection =
             i % 2 == 0 ? unit_tensor<dim>() : outer_product(N[i], N[i]);
-          condition.gap            = -(condition.projection * displacements[i]);
-          condition.position_scale = 100.;
-          condition.normal         = N[i];
-          condition.area           = 80.;
-          condition.penalty        = 2.;
-          condition.lame           = lame(1., 0.4);
-          conditions.push_back(condition);
+          held.gap            = -(held.projection * displacements[i]);
+          held.position_scale = 100.;
+          held.normal         = N[i];
+          held.area           = 80.;
+          held.penalty        = 2.;
+          held.lame           = lame(1., 0.4);
+          held_points.push_back(held);
         }
       terms.push_back(std::make_unique<Nitsche<dim>>(
         NitscheForm::symmetric,
         neo_hookean(),
         PartOfLaw::all,
         body.grouped(body.boundary, groups),
-        std::move(conditions),
+        std::move(held_points),
         states_at(body.boundary, groups, 0.3, 1.),
         states_at(body.boundary, groups, 0.9, 1.)));
     }

@@ -42,7 +42,7 @@ namespace Morula::ExpressionSyntax
    * none.
    */
   std::string
-  misunderstanding(const std::string &component);
+  misreading(const std::string &component);
 } // namespace Morula::ExpressionSyntax
 
 #endif

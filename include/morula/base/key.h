@@ -54,7 +54,7 @@ namespace Morula
 
     /** The texts that the key gets from values of `Method`, by these values. */
     const std::map<std::string, std::string> &
-    texts_with_methods() const;
+    texts_by_method() const;
 
     /** Adds a sentence about what a program adds to the key. */
     void

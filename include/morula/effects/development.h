@@ -196,13 +196,13 @@ namespace Morula
      * @return the number of the type that she is born with
      */
     unsigned int
-    bear(const CellView<dim, double> &daughter,
-         const types::particle_index  id,
-         const Point<dim>            &position,
-         const unsigned int           which,
-         const double                 birth,
-         const double                 t1,
-         std::vector<CellEvent>      &changes) const;
+    make_daughter(const CellView<dim, double> &daughter,
+                  const types::particle_index  id,
+                  const Point<dim>            &position,
+                  const unsigned int           which,
+                  const double                 birth,
+                  const double                 t1,
+                  std::vector<CellEvent>      &changes) const;
 
     /** Unit direction along which the daughters of a cell are placed. */
     Tensor<1, dim>
@@ -247,21 +247,21 @@ namespace Morula
      * @param after  a copy of its row
      */
     CycleState<dim>
-    live(const PresentCell<dim>      &before,
-         const CellView<dim, double> &after,
-         const double                 t0,
-         const double                 t1,
-         std::vector<CellEvent>      &changes) const;
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1,
+            std::vector<CellEvent>      &changes) const;
 
     /** Lets the cell in @p after die at @p time (day), and returns the clock of
      *  the dead. @param state its clock at this time */
     CycleState<dim>
-    die(const PresentCell<dim>      &cell,
-        const CellView<dim, double> &after,
-        CycleState<dim>              state,
-        const double                 time,
-        const DeathCause             cause,
-        std::vector<CellEvent>      &events) const;
+    kill(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &after,
+         CycleState<dim>              state,
+         const double                 time,
+         const DeathCause             cause,
+         std::vector<CellEvent>      &events) const;
 
     /** Whether the cell is dead at the beginning of a step, or dies then. */
     bool
@@ -280,9 +280,9 @@ namespace Morula
     /** The factors of F_g to the right of the law's part, at the time @p t of
      *  the clock: the cycle's part and what has relaxed. */
     Tensor<2, dim>
-    behind_law(const CellView<dim, const double> &cell,
-               const CycleState<dim>             &clock,
-               const double                       t) const;
+    growth_behind_law(const CellView<dim, const double> &cell,
+                      const CycleState<dim>             &clock,
+                      const double                       t) const;
 
     /** The law's part at t1 of a cell in its state at t0. Only with a law. */
     Tensor<2, dim>

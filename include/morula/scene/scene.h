@@ -38,7 +38,7 @@ namespace Morula
 
     /**
      * One word that sets several keys: it changes their defaults
-     * (AnyKey::texts_with_methods()). A key that the scene sets itself keeps
+     * (AnyKey::texts_by_method()). A key that the scene sets itself keeps
      * the scene's value. doc/accuracy-and-cost.md says why it is these keys.
      */
     Key<std::string>  method;

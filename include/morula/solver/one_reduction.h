@@ -90,10 +90,10 @@ namespace Morula
     /** What lies outside the matrix: unsupported motions N, which are taken out
      *  of each vector, and the part of rank one. Without them there is nothing
      *  to add up. */
-    class Outside
+    class OutsideMatrix
     {
     public:
-      Outside(const ShiftedSystem &system, const MPI_Comm comm)
+      OutsideMatrix(const ShiftedSystem &system, const MPI_Comm comm)
         : system(system)
         , comm(comm)
         , N(system.null_space)
@@ -173,9 +173,9 @@ namespace Morula
                              double                    &needed)
   {
     using namespace OneReduction;
-    const MPI_Comm comm = b.get_mpi_communicator();
-    const Outside  outside(system, comm);
-    Vector         r(b), z(b), w(b), p(b), s(b), diagonal;
+    const MPI_Comm      comm = b.get_mpi_communicator();
+    const OutsideMatrix outside(system, comm);
+    Vector              r(b), z(b), w(b), p(b), s(b), diagonal;
     if (system.shift > 0.)
       diagonal = diagonal_magnitude(system.K.matrix(), b);
     p = 0.;

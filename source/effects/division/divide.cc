@@ -152,7 +152,7 @@ namespace Morula
               dividing[k].position +
               (which == 0 ? -1. : 1.) * distances[k][which] * dividing[k].axis;
             const auto         id   = first_ids[k] + which;
-            const unsigned int type = development.bear(
+            const unsigned int type = development.make_daughter(
               daughter, id, position, which, events[k].time, t1, result.events);
             daughters.add(id, position, make_array_view(row));
             result.births.push_back({id,

@@ -202,7 +202,8 @@ namespace Morula
 
   template <int dim>
   FirstStep
-  RateGrowth<dim>::seen(const GrowingCell<dim> &cell, const double t0) const
+  RateGrowth<dim>::seen_at_first_step(const GrowingCell<dim> &cell,
+                                      const double            t0) const
   {
     const double dt = t0 - cell.cell->get(memory->time);
     if (dt <= slack) // the first step: as if held
@@ -230,7 +231,7 @@ namespace Morula
     double               k = now.of_rate.rate, h = now.of_homeostasis.rate;
     if (memory)
       {
-        const FirstStep past = seen(cell, t0);
+        const FirstStep past = seen_at_first_step(cell, t0);
         // Made good by each part as it contributes.
         const double sum  = std::abs(k) + std::abs(h);
         const double of_k = sum > 0. ? std::abs(k) / sum : 0.;

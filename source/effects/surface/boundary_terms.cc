@@ -93,13 +93,11 @@ namespace Morula
     template <int dim>
     double
     stiffness(const ElasticState<dim>                &state,
-              const typename Nitsche<dim>::Condition &condition,
+              const typename Nitsche<dim>::HeldPoint &held,
               const TissueMaterial                   &material)
     {
-      const ElasticPoint<dim> point(state.A,
-                                    condition.lame,
-                                    material.material());
-      return state.W * point.stiffness(condition.normal);
+      const ElasticPoint<dim> point(state.A, held.lame, material.material());
+      return state.W * point.stiffness(held.normal);
     }
   } // namespace
 
@@ -126,7 +124,7 @@ namespace Morula
     if (growth.present || !growth.lame.empty())
       nearest = nearest_states(queries, tissue, growth);
 
-    std::vector<typename Nitsche<dim>::Condition> list;
+    std::vector<typename Nitsche<dim>::HeldPoint> list;
     std::vector<ElasticState<dim>>                current, previous;
     for (std::size_t k = 0; k < groups.points.size(); ++k)
       {
@@ -136,17 +134,17 @@ namespace Morula
         if (point.condition() == SurfaceCondition::fixed)
           target += displacement(conditions, point, t);
         const Tensor<1, dim>             area = point.area_vector();
-        typename Nitsche<dim>::Condition condition;
-        condition.projection     = projection(point);
-        condition.gap            = condition.projection * (x - target);
-        condition.position_scale = std::max(x.norm(), target.norm());
-        condition.area           = area.norm();
-        condition.normal         = area / area.norm();
-        condition.trust          = attached[k];
-        condition.lame =
+        typename Nitsche<dim>::HeldPoint held;
+        held.projection        = projection(point);
+        held.gap               = held.projection * (x - target);
+        held.position_scale    = std::max(x.norm(), target.norm());
+        held.area              = area.norm();
+        held.normal            = area / area.norm();
+        held.traction_fraction = attached[k];
+        held.lame =
           growth.lame.empty() ? material.lame_at(X) : lame_of(nearest[k]);
         const double E = growth.lame.empty() ? material.youngs_modulus(X) :
-                                               youngs_modulus(condition.lame);
+                                               youngs_modulus(held.lame);
 
         const Tensor<2, dim> F = point.F();
         if (!growth.present)
@@ -160,16 +158,16 @@ namespace Morula
             current.push_back(
               state(F, std::get<1>(nearest[k]), material.per_grown_volume()));
           }
-        // Without trust there is no traction that the penalty must hold down.
-        condition.penalty = conditions.nitsche().penalty(
+        // A traction that does not count need not be held down by the penalty.
+        held.penalty = conditions.nitsche().penalty(
           E,
-          condition.lame,
-          condition.trust > 0. ?
-            stiffness(current.back(), condition, material) :
+          held.lame,
+          held.traction_fraction > 0. ?
+            stiffness(current.back(), held, material) :
             0.,
           material.volumetric_form(),
           space.box().spacing());
-        list.push_back(condition);
+        list.push_back(held);
       }
     // Where the pressure is the grid cell's, ln J_e of the point itself says
     // nothing about it.

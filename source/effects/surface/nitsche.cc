@@ -47,15 +47,15 @@ namespace Morula
                       const PartOfLaw                         part,
                       const bool                              coupled,
                       const double                            weight,
-                      const typename Nitsche<dim>::Condition &condition)
-        : m(condition.normal * f_inverse)
+                      const typename Nitsche<dim>::HeldPoint &held)
+        : m(held.normal * f_inverse)
         , bm(state.b() * m)
         , weight(weight)
         , of(state.response(), part)
         , coupled(coupled)
       {
         const auto tau_m = of.alpha * (bm - m) + of.gamma * m;
-        value            = weight * (condition.projection * tau_m);
+        value            = weight * (held.projection * tau_m);
         for (unsigned int j = 0; j < dim; ++j)
           for (unsigned int a = 0; a < n; ++a)
             {
@@ -250,16 +250,16 @@ namespace Morula
     add_forces(const SplineValues<dim>                &splines,
                const NominalTraction<dim>             &T,
                const Tensor<1, dim>                   &gap,
-               const typename Nitsche<dim>::Condition &condition,
+               const typename Nitsche<dim>::HeldPoint &held,
                const double                            sign,
                LocalSystem<dim>                       &system)
     {
-      const double a_t = condition.area, beta = condition.penalty;
+      const double a_t = held.area, beta = held.penalty;
       system.add_energy(0.5 * a_t * beta * (gap * gap));
       system.add_energy(-a_t * (T.value * gap));
       for (unsigned int i = 0; i < dim; ++i)
         {
-          const auto consistency = T.change(gap * condition.projection, i);
+          const auto consistency = T.change(gap * held.projection, i);
           for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
             {
               const double N = splines.value[a];
@@ -269,7 +269,7 @@ namespace Morula
                                -a_t * (T.value[i] * N + sign * consistency[a]));
               if (system.wanted == LocalSystem<dim>::rounding)
                 system.magnitude[i * BSpline<dim>::n + a] +=
-                  a_t * beta * condition.position_scale * N;
+                  a_t * beta * held.position_scale * N;
             }
         }
     }
@@ -283,16 +283,16 @@ namespace Morula
                      const NominalTraction<dim>             &T,
                      const Tensor<1, dim>                   &gap,
                      const ThirdDerivatives                 &third,
-                     const typename Nitsche<dim>::Condition &condition,
+                     const typename Nitsche<dim>::HeldPoint &held,
                      const double                            sign)
         : second(T, gap, third)
-        , condition(condition)
+        , held(held)
         , sign(sign)
       {
         std::copy_n(splines.value, N.size(), N.begin());
         for (unsigned int k = 0; k < dim; ++k)
           for (unsigned int j = 0; j < dim; ++j)
-            derivative[k][j] = T.change(condition.projection[k], j);
+            derivative[k][j] = T.change(held.projection[k], j);
       }
 
       /** Adds the products of the block (i, j). */
@@ -301,8 +301,8 @@ namespace Morula
           const unsigned int j,
           Products<dim>     &products) const
       {
-        const double a_t     = condition.area;
-        const double penalty = condition.penalty * condition.projection[i][j];
+        const double a_t     = held.area;
+        const double penalty = held.penalty * held.projection[i][j];
         products.add(
           [&](const unsigned int a) {
             return a_t * (penalty * N[a] - sign * derivative[j][i][a]);
@@ -317,7 +317,7 @@ namespace Morula
       using Row = typename NominalTraction<dim>::Row;
 
       const SecondDerivative<dim>             second;
-      const typename Nitsche<dim>::Condition &condition;
+      const typename Nitsche<dim>::HeldPoint &held;
       const double                            sign;
       Row                                     N;
       Row derivative[dim][dim]; // component k of M DT for component j
@@ -329,7 +329,7 @@ namespace Morula
                         const Material                &material,
                         const PartOfLaw                part,
                         GroupedPoints<dim>             points,
-                        std::vector<Condition>         conditions,
+                        std::vector<HeldPoint>         held_points,
                         std::vector<ElasticState<dim>> current,
                         std::vector<ElasticState<dim>> previous,
                         const AddProducts<dim>         add_products)
@@ -337,7 +337,7 @@ namespace Morula
     , material(material)
     , part(part)
     , points(std::move(points))
-    , conditions(std::move(conditions))
+    , held_points(std::move(held_points))
     , current(std::move(current))
     , previous(std::move(previous))
     , add_products(add_products)
@@ -357,25 +357,26 @@ namespace Morula
          ++p)
       {
         const SplineValues<dim> splines(points.xi[p], points.h);
-        const Condition        &condition = conditions[p];
+        const HeldPoint        &held = held_points[p];
         // An extrapolated deformation may be anything, also inverted.
-        const bool           trusted = condition.trust > 0.;
-        const Tensor<2, dim> I       = unit_symmetric_tensor<dim>();
-        const Tensor<2, dim> f = trusted ? field.step_deformation(splines) : I;
-        const Tensor<2, dim> F_e = trusted ? f * states[p].A : I;
-        if (trusted &&
+        const bool           has_traction = held.traction_fraction > 0.;
+        const Tensor<2, dim> I            = unit_symmetric_tensor<dim>();
+        const Tensor<2, dim> f =
+          has_traction ? field.step_deformation(splines) : I;
+        const Tensor<2, dim> F_e = has_traction ? f * states[p].A : I;
+        if (has_traction &&
             !system.admits(determinant(f), determinant(F_e), points.xi[p]))
           return;
-        const ElasticPoint<dim>    state(F_e, condition.lame, material);
+        const ElasticPoint<dim>    state(F_e, held.lame, material);
         const NominalTraction<dim> T(splines,
                                      invert(f),
                                      state,
                                      part,
                                      material.coupled(),
-                                     condition.trust * states[p].W,
-                                     condition);
+                                     held.traction_fraction * states[p].W,
+                                     held);
         const Tensor<1, dim>       gap =
-          condition.gap + condition.projection * field.value(splines);
+          held.gap + held.projection * field.value(splines);
         system.note_gap(gap.norm(), points.xi[p]);
         if (system.wanted == LocalSystem<dim>::tangent)
           tangents.emplace_back(splines,
@@ -383,10 +384,10 @@ namespace Morula
                                 gap,
                                 material.third_derivatives(state.strain(),
                                                            part),
-                                condition,
+                                held,
                                 sign_of(form));
         else
-          add_forces(splines, T, gap, condition, sign_of(form), system);
+          add_forces(splines, T, gap, held, sign_of(form), system);
       }
     if (tangents.empty())
       return;

@@ -21,7 +21,7 @@ namespace
   struct Problem
   {
     GroupedPoints<dim>                            points;
-    std::vector<typename Nitsche<dim>::Condition> conditions;
+    std::vector<typename Nitsche<dim>::HeldPoint> held_points;
     std::vector<ElasticState<dim>>                current, previous;
 
     explicit Problem(std::mt19937 &generator)
@@ -34,18 +34,18 @@ namespace
           // W / V_t is about 1.
           current[p].W /= 1000.;
           previous[p].W /= 1000.;
-          typename Nitsche<dim>::Condition condition;
-          condition.normal = random_tensor<1, dim>(generator);
-          condition.normal /= condition.normal.norm();
+          typename Nitsche<dim>::HeldPoint held;
+          held.normal = random_tensor<1, dim>(generator);
+          held.normal /= held.normal.norm();
           Tensor<1, dim> N = random_tensor<1, dim>(generator);
           N /= N.norm();
-          condition.projection =
+          held.projection =
             p % 2 == 0 ? unit_tensor<dim>() : outer_product(N, N);
-          condition.position_scale = 100.;
-          condition.area           = 30. + p;
-          condition.penalty        = 2. + p;
-          condition.lame           = lame(1., 0.3);
-          conditions.push_back(condition);
+          held.position_scale = 100.;
+          held.area           = 30. + p;
+          held.penalty        = 2. + p;
+          held.lame           = lame(1., 0.3);
+          held_points.push_back(held);
         }
     }
 
@@ -61,12 +61,12 @@ namespace
       for (unsigned int p = 0; p < 4; ++p)
         {
           const Tensor<1, dim> d = random_tensor<1, dim>(generator);
-          conditions[p].gap =
-            conditions[p].projection *
+          held_points[p].gap =
+            held_points[p].projection *
             (scale * d -
              field.value(SplineValues<dim>(points.xi[p], points.h)));
         }
-      return {form, material, part, points, conditions, current, previous};
+      return {form, material, part, points, held_points, current, previous};
     }
   };
 
@@ -106,8 +106,8 @@ namespace
     Problem<dim>           problem(generator);
     const auto             field = random_field<dim>(generator, 0.1);
     const auto             sum_with_transposed = [&](const double stiffness) {
-      for (auto &condition : problem.conditions)
-        condition.lame = lame(stiffness, 0.3);
+      for (auto &held : problem.held_points)
+        held.lame = lame(stiffness, 0.3);
       const auto term = problem.term(field, 0., NitscheForm::unsymmetric);
       const auto tangent =
         TermOnOneCell<dim>(term, GrowthAt::current).tangent(field);
@@ -131,8 +131,8 @@ namespace
     const auto   field = affine_field(Tensor<1, dim>(),
                                     0.1 * random_tensor<2, dim>(generator),
                                     problem.points.h);
-    for (auto &condition : problem.conditions)
-      condition.projection = unit_tensor<dim>();
+    for (auto &held : problem.held_points)
+      held.projection = unit_tensor<dim>();
     const auto term = problem.term(field, 0.);
     const auto residual =
       TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
@@ -141,12 +141,12 @@ namespace
     Tensor<1, dim> expected, total;
     for (unsigned int p = 0; p < 4; ++p)
       {
-        const auto &condition = problem.conditions[p];
+        const auto &held = problem.held_points[p];
         const auto  state =
-          neo_hookean_point(f * problem.current[p].A, condition.lame);
-        expected -= condition.area * problem.current[p].W *
+          neo_hookean_point(f * problem.current[p].A, held.lame);
+        expected -= held.area * problem.current[p].W *
                     (Tensor<2, dim>(state.kirchhoff_stress()) *
-                     (condition.normal * invert(f)));
+                     (held.normal * invert(f)));
       }
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
@@ -165,9 +165,8 @@ namespace
     const auto   system = TermOnOneCell<dim>(term, GrowthAt::current)
                           .added(field, LocalSystem<dim>::rounding);
     double least = 0., sum = 0.;
-    for (const auto &condition : problem.conditions)
-      least +=
-        dim * condition.area * condition.penalty * condition.position_scale;
+    for (const auto &held : problem.held_points)
+      least += dim * held.area * held.penalty * held.position_scale;
     for (const double magnitude : system.magnitude)
       sum += magnitude;
     EXPECT_GE(sum, least);

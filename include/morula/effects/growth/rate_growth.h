@@ -108,7 +108,7 @@ namespace Morula
     /** The growth that the first step leaves to make up for, and the rate at
      *  which the cell's place widens. */
     FirstStep
-    seen(const GrowingCell<dim> &cell, const double t0) const;
+    seen_at_first_step(const GrowingCell<dim> &cell, const double t0) const;
 
     /** L of doc/theory.md (10.1). */
     SymmetricTensor<2, dim>

@@ -30,7 +30,7 @@ namespace Morula
    *
    *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
    *
-   * with T multiplied by the point's trust; M = I at fixed points and N⊗N at
+   * with T multiplied by the point's fraction; M = I at fixed points and N⊗N at
    * slip points, and the nominal traction of the step's configuration T =
    * (W/V_t) τ f⁻ᵀ n_t. The upper sign is that of the symmetric form, which has
    * the energy Π = Σ a_t (β/2 g·g - T·g).
@@ -40,7 +40,7 @@ namespace Morula
   {
   public:
     /** How a boundary point is held. */
-    struct Condition
+    struct HeldPoint
     {
       /** M. */
       Tensor<2, dim> projection;
@@ -57,7 +57,7 @@ namespace Morula
       double penalty;
       /** Fraction of the traction that counts, 0 to 1. It is less than 1 if no
        *  cell is near the point, since its traction is extrapolated then. */
-      double trust = 1.;
+      double traction_fraction = 1.;
       Lame   lame;
     };
 
@@ -72,7 +72,7 @@ namespace Morula
             const Material                &material,
             const PartOfLaw                part,
             GroupedPoints<dim>             points,
-            std::vector<Condition>         conditions,
+            std::vector<HeldPoint>         held_points,
             std::vector<ElasticState<dim>> current,
             std::vector<ElasticState<dim>> previous,
             const AddProducts<dim> add_products = &add_products_plainly<dim>);
@@ -91,7 +91,7 @@ namespace Morula
     const Material                      &material;
     const PartOfLaw                      part;
     const GroupedPoints<dim>             points;
-    const std::vector<Condition>         conditions;
+    const std::vector<HeldPoint>         held_points;
     const std::vector<ElasticState<dim>> current;
     const std::vector<ElasticState<dim>> previous;
     const AddProducts<dim>               add_products;

@@ -20,7 +20,7 @@ def counts(runner, proliferating, sphere):
     rows = [("ranks", "linear iterations", "of one rank's", "Newton iterations",
              "cells at the end")]
     first = None
-    for n in (1, 2, 4, 8):
+    for n in (1, 2, 4, 8, 16):
         run = runner.run(f"counts-{n}", proliferating,
                          sphere(200000, **{"Time/Step": 0.1,
                                            "Time/End time": 0.3}), n)

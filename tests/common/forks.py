@@ -17,7 +17,6 @@ from morula.execute import call as start
 
 from tests.common import forked_tools
 
-
 # Symbols are found once, before the forks, and Open MPI opens only what a rank
 # alone needs: a fork takes 0.10 s with them and 0.13 s without.
 ALONE = {"LD_BIND_NOW": "1", "HWLOC_COMPONENTS": "-pci", "OMPI_MCA_btl": "self",
@@ -87,7 +86,7 @@ def call(words, *, cwd=None, timeout=None, pass_fds=(), **files):
     a tool of contrib/, with what it asks of the program. `files` are stdout,
     stderr and cost. A fork gets no file descriptors."""
     words = [str(word) for word in words]
-    forks, tool = None, forked_tools.tool_of(words[0])
+    tool = forked_tools.tool_of(words[0])
     if tool:
         if "--morula" in words[:-1]:
             # Before the tool forks, which cannot end it.
@@ -96,14 +95,19 @@ def call(words, *, cwd=None, timeout=None, pass_fds=(), **files):
                 for question in QUESTIONS:
                     said(morula, question)
         return forked_tools.call(tool, words[1:], cwd=cwd, timeout=timeout,
-                                 runs=call)
-    if os.path.basename(words[0]) == "morula":
-        forks = forks_of(os.path.abspath(words[0]))
-    if not forks or subprocess.STDOUT in files.values():
+                                 runs=call, forkable=forkable)
+    if not forkable(words, **files):
         return start(words, cwd=cwd, timeout=timeout, pass_fds=pass_fds, **files)
     if len(words) == 2 and words[1] in QUESTIONS and not files:
         return said(os.path.abspath(words[0]), words[1])
-    return forks.call(words, cwd, timeout, **files)
+    return forks_of(os.path.abspath(words[0])).call(words, cwd, timeout, **files)
+
+
+def forkable(words, stderr=None, **_):
+    """Whether a call is one of the program for which there are Forks."""
+    return (os.path.basename(words[0]) == "morula"
+            and stderr != subprocess.STDOUT
+            and forks_of(os.path.abspath(words[0])) is not None)
 
 
 @functools.lru_cache(maxsize=None)

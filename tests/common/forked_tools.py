@@ -26,11 +26,11 @@ def tool_of(program):
     return path.name if path.read_text().endswith(start) else None
 
 
-def call(tool, words, *, cwd=None, timeout=None, runs=None, forkable=None):
+def call(tool, words, *, cwd=None, timeout=None, runs=None):
     """Runs a tool to its end in a fork, and returns what execute.call returns.
 
-    `runs` does what the tool asks of execute.call, if forkable(words, **options)
-    says that it can without a start of its own."""
+    `runs` does what the tool asks of execute.call, or returns None if it
+    cannot."""
     importlib.import_module(TOOLS[tool])
     with tempfile.TemporaryDirectory() as scratch:
         out, err = (Path(scratch) / name for name in ("out", "err"))
@@ -38,7 +38,7 @@ def call(tool, words, *, cwd=None, timeout=None, runs=None, forkable=None):
         sys.stderr.flush()
         child = os.fork()
         if child == 0:
-            _become(tool, words, cwd, (out, err), runs, forkable)
+            _become(tool, words, cwd, (out, err), runs)
         timer = threading.Timer(timeout or 0, os.kill,
                                 (child, signal.SIGKILL))
         if timeout:
@@ -50,7 +50,7 @@ def call(tool, words, *, cwd=None, timeout=None, runs=None, forkable=None):
                                for file in (out, err)))
 
 
-def _become(tool, words, cwd, files, runs, forkable):
+def _become(tool, words, cwd, files, runs):
     """Is the tool from here on, and never returns."""
     code = 1
     try:
@@ -62,7 +62,7 @@ def _become(tool, words, cwd, files, runs, forkable):
         os.chdir(cwd or os.getcwd())
         os.environ.update(execute.ENVIRONMENT)
         if runs:
-            _let(runs, forkable, execute.Processes)
+            _let(runs, execute.Processes)
         sys.argv = ["morula", tool, *words]
         sys.exit(main())
     except SystemExit as end:
@@ -77,14 +77,13 @@ def _become(tool, words, cwd, files, runs, forkable):
         os._exit(code)
 
 
-def _let(runs, forkable, processes):
+def _let(runs, processes):
     """Lets `runs` do what it can of what processes.call() is asked for."""
     start, one_at_a_time = processes.call, threading.Lock()
 
     def call_or_start(self, words, **options):
-        if not forkable(words, **options):
-            return start(self, words, **options)
         with one_at_a_time:
-            return runs(words, **options)
+            ended = runs(words, **options)
+        return ended or start(self, words, **options)
 
     processes.call = call_or_start

@@ -81,10 +81,9 @@ def forks_of(morula):
     return Forks(forks)
 
 
-def call(words, *, cwd=None, timeout=None, pass_fds=(), **files):
+def call(words, *, cwd=None, timeout=None, **options):
     """morula.execute.call; the program itself, on one rank, is a fork, and so is
-    a tool of contrib/, with what it asks of the program. `files` are stdout,
-    stderr and cost. A fork gets no file descriptors."""
+    a tool of contrib/, with what it asks of the program."""
     words = [str(word) for word in words]
     tool = forked_tools.tool_of(words[0])
     if tool:
@@ -95,19 +94,21 @@ def call(words, *, cwd=None, timeout=None, pass_fds=(), **files):
                 for question in QUESTIONS:
                     said(morula, question)
         return forked_tools.call(tool, words[1:], cwd=cwd, timeout=timeout,
-                                 runs=call, forkable=forkable)
-    if not forkable(words, **files):
-        return start(words, cwd=cwd, timeout=timeout, pass_fds=pass_fds, **files)
+                                 runs=fork)
+    return (fork(words, cwd=cwd, timeout=timeout, **options)
+            or start(words, cwd=cwd, timeout=timeout, **options))
+
+
+def fork(words, *, cwd=None, timeout=None, pass_fds=(), **files):
+    """The same by a fork; None if there are none for this command. `files` are
+    stdout, stderr and cost; the file descriptors are not passed."""
+    morula = os.path.abspath(words[0])
+    if (os.path.basename(morula) != "morula" or not forks_of(morula)
+            or subprocess.STDOUT in files.values()):
+        return None
     if len(words) == 2 and words[1] in QUESTIONS and not files:
-        return said(os.path.abspath(words[0]), words[1])
-    return forks_of(os.path.abspath(words[0])).call(words, cwd, timeout, **files)
-
-
-def forkable(words, stderr=None, **_):
-    """Whether a call is one of the program for which there are Forks."""
-    return (os.path.basename(words[0]) == "morula"
-            and stderr != subprocess.STDOUT
-            and forks_of(os.path.abspath(words[0])) is not None)
+        return said(morula, words[1])
+    return forks_of(morula).call(words, cwd, timeout, **files)
 
 
 @functools.lru_cache(maxsize=None)

@@ -31,8 +31,8 @@ RC = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
 
 
 class TickLabels(ScalarFormatter):
-    """Plain text: formulas of all labels take half of a report's time. Only the
-    common power of ten is one."""
+    """Plain text, but for the common power of ten: a report takes 1.4 times as
+    long if all labels are formulas."""
 
     def __call__(self, x, pos=None):
         return (super().__call__(x, pos).removeprefix(r"$\mathdefault{")
@@ -160,8 +160,7 @@ def draw(rows, curve, fit):
             axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)
                                                     == 1 else 2],
                       label="exponential fit", linewidth=2.2, linestyle="--")
-        axes.xaxis.set_major_formatter(TickLabels())
-        axes.yaxis.set_major_formatter(TickLabels())
+        label_plainly(axes)
         if curve.log and (rows[next(iter(curve.columns))] > 0).any():
             axes.set_yscale("log")
         if curve.zero:
@@ -170,6 +169,12 @@ def draw(rows, curve, fit):
             axes.legend(ncols=2 if len(axes.lines) > 3 else 1)
         axes.set_xlabel("day")
         return svg(canvas, curve.title)
+
+
+def label_plainly(axes):
+    """The ticks of both axes, before one becomes logarithmic."""
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(TickLabels())
 
 
 def svg(canvas, title):

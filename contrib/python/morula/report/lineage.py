@@ -4,7 +4,7 @@
 import numpy as np
 from morula.refusal import Refused
 
-from .curves import RC, SERIES, plt, svg
+from .curves import RC, SERIES, label_plainly, plt, svg
 from .markup import definitions, figure, joined, number
 from .packing import block, packed
 
@@ -60,6 +60,7 @@ def bars(numbers, counts, title, across, up, first=0):
         canvas, axes = plt.subplots(figsize=(4.6, 2.7), layout="constrained")
         axes.bar(numbers[starts] + 0.5 * (width - 1), heights, 0.85 * width,
                  color=SERIES[0])
+        label_plainly(axes)
         if heights.max() > 100 * max(1, heights[heights > 0].min()):
             axes.set_yscale("log")
         axes.grid(False, axis="x")

@@ -367,7 +367,7 @@ namespace
    *  state is an extrapolation, and its traction counts in part or not. */
   template <int dim>
   void
-  check_trust()
+  check_traction_fraction()
   {
     Tensor<2, dim> F = unit_tensor<dim>();
     F[0][0]          = 1.1;
@@ -484,8 +484,8 @@ TEST(BoundaryTerms,
      GrowthNeedNotBeSymmetric){MORULA_BOTH_DIMENSIONS(check_sheared_growth)}
 
 
-TEST(BoundaryTerms,
-     ExtrapolatedTractionIsNotTrusted){MORULA_BOTH_DIMENSIONS(check_trust)}
+TEST(BoundaryTerms, ExtrapolatedTractionDoesNotCount){
+  MORULA_BOTH_DIMENSIONS(check_traction_fraction)}
 
 
 TEST(BoundaryTerms, DeadAndFollowingLoads){MORULA_BOTH_DIMENSIONS(check_loads)}

@@ -30,10 +30,10 @@ namespace Morula
    *
    *   R[δu] = Σ a_t ((β g - T)·δu ∓ g·DT[δu]), g = M (x_t + u - x̄),
    *
-   * with T multiplied by the point's fraction; M = I at fixed points and N⊗N at
-   * slip points, and the nominal traction of the step's configuration T =
-   * (W/V_t) τ f⁻ᵀ n_t. The upper sign is that of the symmetric form, which has
-   * the energy Π = Σ a_t (β/2 g·g - T·g).
+   * with T multiplied by the point's traction_fraction; M = I at fixed points
+   * and N⊗N at slip points, and the nominal traction of the step's
+   * configuration T = (W/V_t) τ f⁻ᵀ n_t. The upper sign is that of the
+   * symmetric form, which has the energy Π = Σ a_t (β/2 g·g - T·g).
    */
   template <int dim>
   class Nitsche : public Term<dim>

@@ -4,6 +4,7 @@
 #include <morula/effects/catalogue.h>
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/forces/body_force.h>
+#include <morula/effects/forces/friction.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/obstacles/obstacles.h>
@@ -43,6 +44,7 @@ namespace Morula
     add<SurfaceNormalAxis>(division_rules, "surface normal");
     add<TangentialAxis>(division_rules, "tangential");
     add<BodyForce>(forces, "body force");
+    add<Friction>(forces, "friction");
     add<Fixed>(boundary_conditions, "fixed");
     add<Slip>(boundary_conditions, "slip");
     add<Traction>(boundary_conditions, "traction");

@@ -8,12 +8,9 @@
 namespace Morula
 {
   template <int dim>
-  Drag<dim>::Drag(GroupedPoints<dim>  cells,
-                  std::vector<double> volumes,
-                  const double        eta)
+  Drag<dim>::Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses)
     : PointTerm<dim>(std::move(cells))
-    , volumes(std::move(volumes))
-    , eta(eta)
+    , stiffnesses(std::move(stiffnesses))
   {}
 
 
@@ -25,7 +22,7 @@ namespace Morula
                        LocalSystem<dim>        &system) const
   {
     const Tensor<1, dim> u = field.value(splines);
-    const double         k = eta * volumes[p];
+    const double         k = stiffnesses[p];
     add_force_at(splines,
                  0.5 * k * u.norm_square(),
                  k * u,

@@ -11,6 +11,7 @@
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/step_points.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace Morula
@@ -188,6 +189,7 @@ namespace Morula
         return named.force->term(tissue,
                                  model.development.reader(attempt.t),
                                  cell_positions(tissue, space),
+                                 attempt.t,
                                  t);
       });
     if (model.boundary_conditions.has_dirichlet())
@@ -228,23 +230,35 @@ namespace Morula
               list.push_back(std::move(term));
           });
         }
-    if (conditions.has_pushing())
-      list.push_back(drag(attempt.typical_stiffness));
+    if (conditions.has_pushing() && !is_resisted())
+      list.push_back(weak_drag(attempt.typical_stiffness));
+  }
+
+
+  template <int dim>
+  bool
+  StepEquilibrium<dim>::is_resisted() const
+  {
+    return std::any_of(model.forces.begin(),
+                       model.forces.end(),
+                       [](const auto &named) {
+                         return named.force->resists_motion();
+                       });
   }
 
 
   template <int dim>
   std::unique_ptr<Term<dim>>
-  StepEquilibrium<dim>::drag(const double typical_stiffness) const
+  StepEquilibrium<dim>::weak_drag(const double typical_stiffness) const
   {
-    std::vector<double> volumes;
+    constexpr double    relative = 1e-4; // η h²/E
+    const double        h        = space.box().spacing();
+    const double        eta      = relative * typical_stiffness / (h * h);
+    std::vector<double> stiffnesses;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      volumes.push_back(tissue.cells().initial_volume(p));
-    const double h = space.box().spacing();
+      stiffnesses.push_back(eta * tissue.cells().initial_volume(p));
     return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
-                                       std::move(volumes),
-                                       Drag<dim>::relative * typical_stiffness /
-                                         (h * h));
+                                       std::move(stiffnesses));
   }
 
 
@@ -267,7 +281,8 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {
-    if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
+    if (!rigid_modes.any() || is_resisted() ||
+        model.boundary_conditions.has_pushing())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return rigid_modes.inertia(masses());

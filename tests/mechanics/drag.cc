@@ -19,8 +19,7 @@ namespace
   {
     std::mt19937    generator(3);
     const Drag<dim> term(random_points_in_cell<dim>(generator, 3),
-                         {1., 2., 3.},
-                         0.1);
+                         {0.1, 0.2, 0.3});
     EXPECT_TRUE(term.is_conservative());
     expect_derivatives(term, random_field<dim>(generator, 0.2));
   }

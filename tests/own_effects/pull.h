@@ -50,14 +50,15 @@ namespace Own
     term(const Tissue<dim>        &tissue,
          const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
-         const double              t) const override
+         const double,
+         const double t1) const override
     {
       std::vector<Tensor<1, dim>> forces;
       for (unsigned int p = 0; p < tissue.cells().size(); ++p)
         {
           const auto cell = present_cell(tissue, p, reader);
           forces.push_back(cell.cell().initial_volume() *
-                           cell.vector(density, t));
+                           cell.vector(density, t1));
         }
       return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
     }

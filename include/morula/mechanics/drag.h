@@ -10,26 +10,14 @@
 
 namespace Morula
 {
-  /**
-   * A resistance to the displacement of cells in a step, with the energy
-   * Σ η V⁰ |u|²/2. It is too weak to matter, except that it decides where a
-   * piece of tissue goes that loads only push and nothing holds: doc/theory.md
-   * (4.8f).
-   */
+  /** A resistance to the displacement of cells in a step, with the energy
+   *  Σ k |u|²/2: friction, doc/theory.md (4.7a), or the weak drag (4.8f). */
   template <int dim>
   class Drag : public PointTerm<dim>
   {
   public:
-    /** η h²/E where E is that of the stiffest cell. */
-    static constexpr double relative = 1e-4;
-
-    /**
-     * @param volumes V⁰ of each cell, µm^dim
-     * @param eta     η, kPa/µm²
-     */
-    Drag(GroupedPoints<dim>  cells,
-         std::vector<double> volumes,
-         const double        eta);
+    /** @param stiffnesses k of each cell, kPa µm^(dim-2) */
+    Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses);
 
   private:
     void
@@ -38,8 +26,7 @@ namespace Morula
               const LocalField<dim>   &field,
               LocalSystem<dim>        &system) const override;
 
-    const std::vector<double> volumes;
-    const double              eta;
+    const std::vector<double> stiffnesses;
   };
 } // namespace Morula
 

@@ -91,9 +91,13 @@ namespace Morula
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
-    /** A weak drag, for pieces that are pushed by loads and held by nothing. */
+    /** Whether a force resists every motion of every cell. */
+    bool
+    is_resisted() const;
+    /** For pieces that are pushed by loads and held by nothing. It is too weak
+     *  to matter, but decides where they go: doc/theory.md (4.8f). */
     std::unique_ptr<Term<dim>>
-    drag(const double typical_stiffness) const;
+    weak_drag(const double typical_stiffness) const;
     MassList
     masses() const;
 

@@ -52,13 +52,14 @@ namespace Morula
   BodyForce<dim>::term(const Tissue<dim>        &tissue,
                        const CellReader<dim>    &reader,
                        const GroupedPoints<dim> &positions,
-                       const double              t) const
+                       const double,
+                       const double t1) const
   {
     const Cells<dim>           &cells = tissue.cells();
     std::vector<Tensor<1, dim>> forces;
     for (unsigned int p = 0; p < cells.size(); ++p)
       forces.push_back(cells.initial_volume(p) *
-                       present_cell(tissue, p, reader).vector(density, t));
+                       present_cell(tissue, p, reader).vector(density, t1));
     return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
   }
 

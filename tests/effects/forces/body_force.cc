@@ -26,6 +26,7 @@ namespace
       alone.tissue,
       alone.development.reader(0.),
       random_points_in_cell<2>(generator, positions.size()),
+      0.,
       t);
     // Splines sum up to 1, and the residual has the force with a minus.
     const auto residual = TermOnOneCell<2>(*term, GrowthAt::current)

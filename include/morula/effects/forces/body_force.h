@@ -40,7 +40,8 @@ namespace Morula
     term(const Tissue<dim>        &tissue,
          const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
-         const double              t) const override;
+         const double              t0,
+         const double              t1) const override;
 
     void
     check(const Preview<dim> &scene) const override;

@@ -20,7 +20,7 @@ namespace Morula
   {
   public:
     /**
-     * The term at the end @p t (day) of a step. Not collective.
+     * The term at the end @p t1 (day) of a step from @p t0. Not collective.
      * @param tissue    at the beginning of the step
      * @param reader    for its cells: present_cell(tissue, p, reader) is cell p
      *                  with its state, which evaluates expressions
@@ -32,7 +32,16 @@ namespace Morula
     term(const Tissue<dim>        &tissue,
          const CellReader<dim>    &reader,
          const GroupedPoints<dim> &positions,
-         const double              t) const = 0;
+         const double              t0,
+         const double              t1) const = 0;
+
+    /** Whether the term resists every motion of every cell in the step, so that
+     *  no rigid motion of a piece is free: doc/theory.md, section 4.4. */
+    virtual bool
+    resists_motion() const
+    {
+      return false;
+    }
   };
 } // namespace Morula
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_forces_friction_h
+#define morula_effects_forces_friction_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/forces/force.h>
+
+namespace Morula
+{
+  /** Section "Friction". */
+  struct FrictionParameters : public EffectKeys
+  {
+    FrictionParameters();
+
+    ExpressionKey coefficient; // kPa day/µm²
+
+    bool
+    is_on() const override;
+    std::string
+    details() const override;
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Friction of the cells with what surrounds them and stands still, a force
+   *  per initial volume against the velocity: doc/theory.md (4.7a). Its
+   *  coefficient may depend on the state of cells at the beginning of a step.
+   */
+  template <int dim>
+  class Friction : public Force<dim>
+  {
+  public:
+    using Parameters = FrictionParameters;
+
+    /** @throws InputError for an expression that cannot be parsed */
+    Friction(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    std::unique_ptr<Term<dim>>
+    term(const Tissue<dim>        &tissue,
+         const CellReader<dim>    &reader,
+         const GroupedPoints<dim> &positions,
+         const double              t0,
+         const double              t1) const override;
+
+    bool
+    resists_motion() const override;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+  private:
+    const Expression coefficient;
+  };
+} // namespace Morula
+
+#endif

@@ -103,7 +103,7 @@ namespace Morula
       }
     catch (const StepFailed &)
       {
-        if (!automatic)
+        if (!automatic || b.size() > problem.most_to_factorise)
           throw;
         solve_directly(K, x, b, iterations, rank_one);
       }

@@ -22,7 +22,8 @@ namespace Morula
     , linear_solver("Solver/Linear solver",
                     "automatic",
                     "Solver of Newton's linear systems. Automatic: iterative, "
-                    "direct where that fails.",
+                    "and direct where that fails, in 3-D up to 20,000 "
+                    "unknowns.",
                     {"automatic|iterative|direct"})
     , kernel("Solver/Kernel",
              "automatic",

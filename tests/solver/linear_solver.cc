@@ -230,6 +230,38 @@ TEST(LinearSolver, GoesDownhillOnNegativeCurvature)
 }
 
 
+// Curvatures of both signs, and no diagonal that could be raised: conjugate
+// gradients give up.
+TEST(LinearSolver, FactorisesNoMoreThanIsAllowed)
+{
+  ChainProblem problem(n);
+  problem.stiffness =
+    [](const unsigned int i, const unsigned int j, const auto &) {
+      return i != j && i / 2 == j / 2 ? 1. : 0.;
+    };
+  std::vector<double> values(n);
+  for (unsigned int i = 0; i < n; ++i)
+    values[i] = 1. + i % 2;
+  const auto          b       = problem.vector_of(values);
+  Equilibrium::Vector x       = problem.zero();
+  const auto         &K       = problem.tangent(x, GrowthAt::current);
+  unsigned int        ignored = 0;
+  QuietTimer          timer;
+  const auto          solve = [&](const std::string &solver) {
+    LinearSolver linear_solver(parameters(solver), problem.linear, timer);
+    linear_solver.solve(K, x, b, 1e-6, ignored);
+    return defect(K, x, b);
+  };
+  EXPECT_THROW(solve("iterative"), StepFailed);
+  EXPECT_LE(solve("automatic"), 1e-9);
+  problem.linear.most_to_factorise = n;
+  EXPECT_LE(solve("automatic"), 1e-9);
+  problem.linear.most_to_factorise = n - 1;
+  EXPECT_THROW(solve("automatic"), StepFailed);
+  EXPECT_LE(solve("direct"), 1e-9);
+}
+
+
 TEST(LinearSolver, LeavesTheNullSpaceAlone)
 {
   check_null_space("automatic");

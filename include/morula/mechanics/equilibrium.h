@@ -115,6 +115,9 @@ namespace Morula
     /** Whether making a matrix costs more than an iteration or two of Newton's
      *  method: then one serves several of them. */
     bool costly = true;
+    /** More unknowns than these take so long to factorise that a shorter step
+     *  is the better answer to a system that cannot be solved otherwise. */
+    types::global_dof_index most_to_factorise = numbers::invalid_dof_index;
   };
 
   /** The scales with which Newton's method compares. */

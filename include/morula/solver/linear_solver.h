@@ -25,7 +25,8 @@ namespace Morula
    * factorisation of their symmetric part. Along the problem's null space
    * nothing is solved for: there rounding could pass for negative curvature.
    * `automatic` does the same, and turns to the direct solver for a system that
-   * this cannot solve. `direct` uses MUMPS, or KLU where Trilinos lacks it.
+   * this cannot solve, if it is not too large for that. `direct` uses MUMPS, or
+   * KLU where Trilinos lacks it.
    */
   class LinearSolver
   {

@@ -157,7 +157,7 @@ namespace Morula
 
   template <int dim>
   PointList<dim>
-  send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid)
+  send_to_owners(PointList<dim> points, const BackgroundGrid<dim> &grid)
   {
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return points;
@@ -222,9 +222,9 @@ namespace Morula
   template PointList<3>
   of_all_ranks(const PointList<3> &, const MPI_Comm);
   template PointList<2>
-  send_to_owners(const PointList<2> &, const BackgroundGrid<2> &);
+  send_to_owners(PointList<2>, const BackgroundGrid<2> &);
   template PointList<3>
-  send_to_owners(const PointList<3> &, const BackgroundGrid<3> &);
+  send_to_owners(PointList<3>, const BackgroundGrid<3> &);
   template PointList<2>
   halo(const PointList<2> &, const BackgroundGrid<2> &, const double);
   template PointList<3>

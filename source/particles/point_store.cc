@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace Morula
 {
@@ -64,17 +65,14 @@ namespace Morula
 
   template <int dim>
   void
-  PointStore<dim>::insert(const PointList<dim>      &points,
+  PointStore<dim>::insert(PointList<dim>             points,
                           const BackgroundGrid<dim> &grid)
   {
-    if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      // Who gives none may not know how long the rows are.
-      insert_own(send_to_owners(points.size() > 0 ? points :
-                                                    PointList<dim>(n_numbers),
-                                grid),
-                 grid);
-    else
-      insert_own(points, grid); // no copy
+    // Who gives none may not know how long the rows are.
+    if (points.size() == 0)
+      points.n_numbers = n_numbers;
+    points = send_to_owners(std::move(points), grid);
+    insert_own(points, grid);
   }
 
   template <int dim>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace Morula
 {
@@ -93,8 +94,7 @@ namespace Morula
 
   template <int dim>
   void
-  Tissue<dim>::place(const PointList<dim> &cells,
-                     const PointList<dim> &boundary_points)
+  Tissue<dim>::place(PointList<dim> cells, PointList<dim> boundary_points)
   {
     cells_.clear();
     boundary_points_.clear();
@@ -115,8 +115,8 @@ namespace Morula
         cells_.attach(grid_);
         boundary_points_.attach(grid_);
       }
-    cells_.insert(cells, grid_);
-    boundary_points_.insert(boundary_points, grid_);
+    cells_.insert(std::move(cells), grid_);
+    boundary_points_.insert(std::move(boundary_points), grid_);
   }
 
   template <int dim>
@@ -134,7 +134,7 @@ namespace Morula
         PointList<dim> all = cells_.copy(), surface = boundary_points_.copy();
         all.positions     = cells;
         surface.positions = boundary_points;
-        place(all, surface);
+        place(std::move(all), std::move(surface));
         return;
       }
     cells_.move(cells, grid_);
@@ -157,8 +157,8 @@ namespace Morula
 
   template <int dim>
   void
-  Tissue<dim>::restore(const PointList<dim> &cells,
-                       const PointList<dim> &boundary_points,
+  Tissue<dim>::restore(PointList<dim>        cells,
+                       PointList<dim>        boundary_points,
                        const GridIndex<dim> &first,
                        const GridIndex<dim> &n,
                        const GridCellCounts &weights)
@@ -167,8 +167,8 @@ namespace Morula
     grid_.partition(weights);
     cells_.attach(grid_);
     boundary_points_.attach(grid_);
-    cells_.insert(cells, grid_);
-    boundary_points_.insert(boundary_points, grid_);
+    cells_.insert(std::move(cells), grid_);
+    boundary_points_.insert(std::move(boundary_points), grid_);
   }
 
   template <int dim>
@@ -185,7 +185,7 @@ namespace Morula
         cells_.replace(mothers, PointList<dim>(daughters.n_numbers), grid_);
         PointList<dim> all = daughters;
         all.append(cells_.take());
-        place(all, boundary_points_.copy());
+        place(std::move(all), boundary_points_.copy());
         return;
       }
     cells_.replace(mothers, daughters, grid_);

@@ -4,6 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/simulation/run_state.h>
 
+#include <utility>
+
 namespace Morula
 {
   template <int dim>
@@ -46,7 +48,7 @@ namespace Morula
 
   template <int dim>
   void
-  restore_tissue(const SnapshotData<dim> &data, Tissue<dim> &tissue)
+  restore_tissue(SnapshotData<dim> &data, Tissue<dim> &tissue)
   {
     const std::vector<int> &box_first = data.integer_table("box_first", dim);
     const std::vector<int> &box_n     = data.integer_table("box_n", dim);
@@ -66,8 +68,11 @@ namespace Morula
           refuse_snapshot(data.file,
                           "a snapshot with weights of its own grid cells");
     });
-    tissue.restore(
-      data.cells, data.boundary_points, first, n, data.grid_weights);
+    tissue.restore(std::move(data.cells),
+                   std::move(data.boundary_points),
+                   first,
+                   n,
+                   data.grid_weights);
   }
 
 
@@ -103,16 +108,16 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                  \
-  template SnapshotData<dim> snapshot_of(const Tissue<dim> &,             \
-                                         const TimeSteps::State &,        \
-                                         const RunState &,                \
-                                         const bool);                     \
-  template void restore_tissue(const SnapshotData<dim> &, Tissue<dim> &); \
-  template TimeSteps::State saved_time_steps(const SnapshotData<dim> &);  \
-  template RunState         saved_run_state(const SnapshotData<dim> &,    \
-                                            const bool,                   \
-                                            const bool);
+#define INSTANTIATE(dim)                                                         \
+  template SnapshotData<dim> snapshot_of(const Tissue<dim> &,                    \
+                                         const TimeSteps::State &,               \
+                                         const RunState &,                       \
+                                         const bool);                            \
+  template void              restore_tissue(SnapshotData<dim> &, Tissue<dim> &); \
+  template TimeSteps::State  saved_time_steps(const SnapshotData<dim> &);        \
+  template RunState          saved_run_state(const SnapshotData<dim> &,          \
+                                             const bool,                         \
+                                             const bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

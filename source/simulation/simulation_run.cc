@@ -13,6 +13,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <utility>
 
 // How a run begins, goes on and ends.
 
@@ -61,7 +62,7 @@ namespace Morula
   Simulation<dim>::seed(const SeededTissue<dim> &seeded)
   {
     FirstPoints<dim> points = found(model, seeded, comm);
-    tissue.place(points.cells, points.boundary_points);
+    tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births                     = std::move(points.births);
     warnings                   = seeded.warnings;
     run_state.next_id          = seeded.founders.n_global;

@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 namespace Morula
 {
@@ -128,7 +129,7 @@ namespace Morula
               });
           });
         }
-      list = send_to_owners(list, tissue.grid());
+      list = send_to_owners(std::move(list), tissue.grid());
 
       // By grid cell, then by id, then in the order in the domain, so that
       // sums do not depend on who sent what.

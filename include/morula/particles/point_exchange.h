@@ -13,12 +13,13 @@ namespace Morula
 {
   /**
    * Sends every point to the rank that owns its grid cell; returns this rank's.
+   * Give long lists away by std::move: their memory is free afterwards.
    * Unlike the ParticleHandler's own exchange this does not lose points that
    * cross more than one layer of grid cells in a step. Collective.
    */
   template <int dim>
   PointList<dim>
-  send_to_owners(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+  send_to_owners(PointList<dim> points, const BackgroundGrid<dim> &grid);
 
   /**
    * Sends points to ranks; returns those that other ranks send to this one, in

@@ -48,7 +48,7 @@ namespace Morula
      * its grid cell. Collective.
      */
     void
-    insert(const PointList<dim> &points, const BackgroundGrid<dim> &grid);
+    insert(PointList<dim> points, const BackgroundGrid<dim> &grid);
 
     /**
      * Moves the points of this rank to these positions (µm), in order; those

@@ -35,7 +35,7 @@ namespace Morula
      * padding and the ranks' loads stay balanced. Collective.
      */
     void
-    place(const PointList<dim> &cells, const PointList<dim> &boundary_points);
+    place(PointList<dim> cells, PointList<dim> boundary_points);
 
     /**
      * Moves this rank's cells and boundary points to these positions (µm), in
@@ -59,8 +59,8 @@ namespace Morula
      * rank gives any part of the weights. Collective.
      */
     void
-    restore(const PointList<dim> &cells,
-            const PointList<dim> &boundary_points,
+    restore(PointList<dim>        cells,
+            PointList<dim>        boundary_points,
             const GridIndex<dim> &first,
             const GridIndex<dim> &n,
             const GridCellCounts &weights);

@@ -35,11 +35,11 @@ namespace Morula
               const RunState         &state,
               const bool              has_boundary_ids);
 
-  /** Fills the tissue with that of a snapshot. Collective. @throws InputError
-   *  where the snapshot lacks anything */
+  /** Fills the tissue with the points of a snapshot, which are taken out of it.
+   *  Collective. @throws InputError where the snapshot lacks anything */
   template <int dim>
   void
-  restore_tissue(const SnapshotData<dim> &data, Tissue<dim> &tissue);
+  restore_tissue(SnapshotData<dim> &data, Tissue<dim> &tissue);
 
   /** The place in the sequence of steps. @throws InputError if it is missing */
   template <int dim>

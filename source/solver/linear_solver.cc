@@ -9,6 +9,7 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
+#include <string>
 
 namespace Morula
 {
@@ -101,10 +102,15 @@ namespace Morula
         else
           solve_unsymmetric(K, x, b, tolerance, iterations, rank_one);
       }
-    catch (const StepFailed &)
+    catch (const StepFailed &failure)
       {
-        if (!automatic || b.size() > problem.most_to_factorise)
+        if (!automatic)
           throw;
+        if (b.size() > problem.most_to_factorise)
+          throw StepFailed(failure.what() +
+                           ("; " + std::to_string(b.size()) +
+                            " unknowns are too many to factorise unless "
+                            "Solver/Linear solver = direct"));
         solve_directly(K, x, b, iterations, rank_one);
       }
   }

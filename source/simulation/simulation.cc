@@ -8,6 +8,7 @@
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/step_supports.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -71,7 +72,17 @@ namespace Morula
   typename StepEquilibrium<dim>::Solution
   Simulation<dim>::solve_step(const SplineSpace<dim> &space)
   {
-    const StepEquilibrium<dim> equilibrium(model, tissue, space, timer, comm);
+    typename StepEquilibrium<dim>::Supports supports;
+    everywhere(comm, [&]() {
+      supports = step_supports(model,
+                               tissue,
+                               space,
+                               time_steps.time(),
+                               time_steps.next(),
+                               typical_stiffness);
+    });
+    const StepEquilibrium<dim> equilibrium(
+      model, tissue, space, supports, timer, comm);
     while (true)
       try
         {

@@ -11,7 +11,6 @@
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/step_points.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace Morula
@@ -20,6 +19,7 @@ namespace Morula
   StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim> &model,
                                         const Tissue<dim>      &tissue,
                                         const SplineSpace<dim> &space,
+                                        const Supports         &supports,
                                         TimerOutput            &timer,
                                         const MPI_Comm          comm)
     : model(model)
@@ -27,10 +27,7 @@ namespace Morula
     , space(space)
     , timer(timer)
     , comm(comm)
-    , rigid_modes(space,
-                  masses(),
-                  supports(model.boundary_conditions, tissue, space),
-                  comm)
+    , rigid_modes(space, masses(), supports, comm)
   {}
 
 
@@ -230,20 +227,8 @@ namespace Morula
               list.push_back(std::move(term));
           });
         }
-    if (conditions.has_pushing() && !is_resisted())
+    if (conditions.has_pushing())
       list.push_back(weak_drag(attempt.typical_stiffness));
-  }
-
-
-  template <int dim>
-  bool
-  StepEquilibrium<dim>::is_resisted() const
-  {
-    return std::any_of(model.forces.begin(),
-                       model.forces.end(),
-                       [](const auto &named) {
-                         return named.force->resists_motion();
-                       });
   }
 
 
@@ -251,9 +236,8 @@ namespace Morula
   std::unique_ptr<Term<dim>>
   StepEquilibrium<dim>::weak_drag(const double typical_stiffness) const
   {
-    constexpr double    relative = 1e-4; // η h²/E
-    const double        h        = space.box().spacing();
-    const double        eta      = relative * typical_stiffness / (h * h);
+    const double        h   = space.box().spacing();
+    const double        eta = Drag<dim>::least * typical_stiffness / (h * h);
     std::vector<double> stiffnesses;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       stiffnesses.push_back(eta * tissue.cells().initial_volume(p));
@@ -281,8 +265,7 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {
-    if (!rigid_modes.any() || is_resisted() ||
-        model.boundary_conditions.has_pushing())
+    if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return rigid_modes.inertia(masses());

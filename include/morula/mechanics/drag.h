@@ -16,6 +16,9 @@ namespace Morula
   class Drag : public PointTerm<dim>
   {
   public:
+    /** k h²/(E V⁰) below which rounding decides where a free piece goes. */
+    static constexpr double least = 1e-4;
+
     /** @param stiffnesses k of each cell, kPa µm^(dim-2) */
     Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses);
 

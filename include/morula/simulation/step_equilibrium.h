@@ -43,10 +43,13 @@ namespace Morula
       std::optional<LumenMemory> lumen; // after the step
     };
 
-    /** Collective. */
+    using Supports = std::vector<typename RigidModes<dim>::Support>;
+
+    /** @param supports what holds this rank's pieces. Collective. */
     StepEquilibrium(const TissueModel<dim> &model,
                     const Tissue<dim>      &tissue,
                     const SplineSpace<dim> &space,
+                    const Supports         &supports,
                     TimerOutput            &timer,
                     const MPI_Comm          comm);
 
@@ -91,11 +94,8 @@ namespace Morula
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
-    /** Whether a force resists every motion of every cell. */
-    bool
-    is_resisted() const;
-    /** For pieces that are pushed by loads and held by nothing. It is too weak
-     *  to matter, but decides where they go: doc/theory.md (4.8f). */
+    /** Too weak to matter, but it decides where pieces go that loads push and
+     *  nothing holds: doc/theory.md (4.8f). */
     std::unique_ptr<Term<dim>>
     weak_drag(const double typical_stiffness) const;
     MassList

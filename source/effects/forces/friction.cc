@@ -12,15 +12,13 @@ namespace Morula
   FrictionParameters::FrictionParameters()
     : coefficient("Friction/Coefficient",
                   "0",
-                  "Force per initial volume against a cell's velocity, over "
-                  "that velocity: friction with what surrounds the tissue and "
-                  "stands still. An expression. Units: kPa day/um^2.",
+                  "Friction of cells, also inside of the tissue, with "
+                  "surroundings that stand still: the force on a cell per "
+                  "initial volume is minus this times its velocity; >= 0. An "
+                  "expression. Units: kPa day/um^2.",
                   Evaluated::step)
   {
-    coefficient.positive("kPa day/um^2",
-                         "Where there is hardly any friction a small number "
-                         "does, such as 1e-12; a scene without the key has "
-                         "none.");
+    coefficient.not_negative("kPa day/um^2", "0 is no friction.");
   }
 
 
@@ -60,21 +58,33 @@ namespace Morula
                       const double              t0,
                       const double              t1) const
   {
-    const Cells<dim>   &cells = tissue.cells();
-    std::vector<double> stiffnesses;
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      stiffnesses.push_back(
-        cells.initial_volume(p) *
-        present_cell(tissue, p, reader).value(coefficient, t1) / (t1 - t0));
+    std::vector<double> stiffnesses = friction(tissue, reader, t0);
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
     return std::make_unique<Drag<dim>>(positions, std::move(stiffnesses));
   }
 
 
   template <int dim>
-  bool
-  Friction<dim>::resists_motion() const
+  std::vector<double>
+  Friction<dim>::friction(const Tissue<dim>     &tissue,
+                          const CellReader<dim> &reader,
+                          const double           t0) const
   {
-    return true;
+    std::vector<double> list;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      list.push_back(present_cell(tissue, p, reader).value(coefficient, t0));
+    return list;
+  }
+
+
+  template <int dim>
+  void
+  Friction<dim>::check(const Preview<dim> &scene) const
+  {
+    if (!coefficient.depends_on_state())
+      for (const Point<dim> &X : scene.founders)
+        coefficient.value(X, scene.end_time);
   }
 
 

@@ -25,8 +25,8 @@ EXPRESSIONS = [
           "correct it, or leave it empty"),
     wrong("no value", "Body force/Force density", "0; 0; log(-1)",
           "a finite value", "t = 0 day"),
-    wrong("friction with a part of the tissue only", "Friction/Coefficient",
-          "if(Z < 20, 1e-5, 0)", "a value > 0 kPa day/um^2", "such as 1e-12"),
+    wrong("friction that becomes negative", "Friction/Coefficient",
+          "1e-5*(0.5 - t)", "a value >= 0 kPa day/um^2", "0 is no friction"),
 ]
 
 PLANE = {"Dimension": "2", CONDITIONS + "Slip where": "",

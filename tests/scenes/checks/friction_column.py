@@ -2,10 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """A column on the ground, free on top, begins to settle against friction.
 
-For small strains ξ u' = M u'' - b with M = λ + 2μ. In backward Euler's method
-the part of sin(k Y), k = (n + 1/2) π/l0, is its last value times 1 -
-(1 + M k²/ξ Δt)^-i after i steps. Argument: the allowed error of the settling,
-in units of that of the top.
+For small strains ζ ∂u/∂t = M ∂²u/∂Y² - b, M = λ + 2μ, without displacement at
+Y = 0 and traction at Y = l0. In backward Euler's method the part of sin(k Y),
+k = (n + 1/2) π/l0, is its last value times 1 - (1 + M k²/ζ Δt)^-i after i steps.
+Argument: the allowed error of the settling, in units of that of the top.
 """
 import sys
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """A free body whose force and friction have the same ratio everywhere moves by
-Δt b(t)/ξ in each step, and is not deformed."""
+Δt b(t)/ζ in each step, and is not deformed."""
 import sys
 
 from tests.common.results import (Results, agree, initial_positions, positions,

@@ -11,6 +11,7 @@
 #include <morula/particles/tissue.h>
 
 #include <memory>
+#include <vector>
 
 namespace Morula
 {
@@ -35,14 +36,28 @@ namespace Morula
          const double              t0,
          const double              t1) const = 0;
 
-    /** Whether the term resists every motion of every cell in the step, so that
-     *  no rigid motion of a piece is free: doc/theory.md, section 4.4. */
-    virtual bool
-    resists_motion() const
-    {
-      return false;
-    }
+    /**
+     * Friction with surroundings that stand still, which the term has in a step
+     * from @p t0 (day) on: the force per V⁰ over the velocity, kPa day/µm², of
+     * each of Tissue::cells(). Empty: none. No rigid motion against it is taken
+     * out of the step: doc/theory.md, section 4.4. Not collective.
+     * @throws InputError if an expression has no value
+     */
+    virtual std::vector<double>
+    friction(const Tissue<dim>     &tissue,
+             const CellReader<dim> &reader,
+             const double           t0) const;
   };
+
+
+  template <int dim>
+  std::vector<double>
+  Force<dim>::friction(const Tissue<dim> &,
+                       const CellReader<dim> &,
+                       const double) const
+  {
+    return {};
+  }
 } // namespace Morula
 
 #endif

@@ -7,6 +7,8 @@
 #include <morula/base/expression_key.h>
 #include <morula/effects/forces/force.h>
 
+#include <vector>
+
 namespace Morula
 {
   /** Section "Friction". */
@@ -14,7 +16,7 @@ namespace Morula
   {
     FrictionParameters();
 
-    ExpressionKey coefficient; // kPa day/µm²
+    ExpressionKey coefficient; // ζ, kPa day/µm²
 
     bool
     is_on() const override;
@@ -25,10 +27,9 @@ namespace Morula
     list() override;
   };
 
-  /** Friction of the cells with what surrounds them and stands still, a force
-   *  per initial volume against the velocity: doc/theory.md (4.7a). Its
-   *  coefficient may depend on the state of cells at the beginning of a step.
-   */
+  /** Friction of cells with surroundings that stand still: doc/theory.md
+   * (4.7a). Its coefficient is that of the cell's state at the beginning of a
+   * step. */
   template <int dim>
   class Friction : public Force<dim>
   {
@@ -45,8 +46,13 @@ namespace Morula
          const double              t0,
          const double              t1) const override;
 
-    bool
-    resists_motion() const override;
+    std::vector<double>
+    friction(const Tissue<dim>     &tissue,
+             const CellReader<dim> &reader,
+             const double           t0) const override;
+
+    void
+    check(const Preview<dim> &scene) const override;
 
     void
     check_cell(const PresentCell<dim> &founder,

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/mechanics/drag.h>
+#include <morula/simulation/step_supports.h>
+
+namespace Morula
+{
+  template <int dim>
+  std::vector<typename RigidModes<dim>::Support>
+  step_supports(const TissueModel<dim> &model,
+                const Tissue<dim>      &tissue,
+                const SplineSpace<dim> &space,
+                const double            t,
+                const double            t_next,
+                const double            typical_stiffness)
+  {
+    auto              list = supports(model.boundary_conditions, tissue, space);
+    const double      h    = space.box().spacing();
+    const Cells<dim> &cells = tissue.cells();
+    for (const auto &named : model.forces)
+      {
+        const std::vector<double> friction =
+          named.force->friction(tissue, model.development.reader(t), t);
+        if (friction.empty())
+          continue;
+        for (const auto &grid_cell : cells.grid_cells())
+          for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+            {
+              const double strength =
+                friction[p] * h * h / ((t_next - t) * typical_stiffness);
+              if (strength >= Drag<dim>::least)
+                list.push_back({space.piece(grid_cell.number),
+                                cells.position(p),
+                                Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                                strength * cells.initial_volume(p) / h});
+            }
+      }
+    return list;
+  }
+
+
+  template std::vector<typename RigidModes<2>::Support>
+  step_supports(const TissueModel<2> &,
+                const Tissue<2> &,
+                const SplineSpace<2> &,
+                const double,
+                const double,
+                const double);
+  template std::vector<typename RigidModes<3>::Support>
+  step_supports(const TissueModel<3> &,
+                const Tissue<3> &,
+                const SplineSpace<3> &,
+                const double,
+                const double,
+                const double);
+} // namespace Morula

@@ -36,6 +36,8 @@ WARNED = {f"hard/{name}.prm": ["Grid/Spacing"] for name in (
 WARNED["step-6.prm"] = ["Grid/Spacing"]
 # The growing layer is to be many grid cells thick, in seconds.
 WARNED["examples/folding-by-tangential-growth.prm"] = ["Grid/Spacing"]
+# Its layer has two grid spacings, and these two cells each, for time and memory.
+WARNED["showcase/cortex.prm"] = ["Grid/Spacing"]
 # Their tension is to smooth the outline, be it somewhat late.
 WARNED["showcase/spheroid.prm"] = ["Time/Step"]
 WARNED["examples/turnover.prm"] = ["Time/Step"]

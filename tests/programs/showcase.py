@@ -4,14 +4,17 @@
 """Scenes of prm/showcase at a small size: the spheroid beside Greenspan's equations,
 on a coarser lattice and for some days in which all three zones are there; one under
 pressure beside what J_e alone says; the growth plate beside its fields alone; the
-organoid against itself; openings after a cut, and their signs."""
+organoid against itself; openings after a cut, and their signs; folds of a cortex."""
+import math
 import unittest.mock
 
 import numpy
+import pandas
+from morula.prm import parse
 from morula.run import Run
 from program import TESTS, ProgramTest, main, overrides
 from scipy.linalg import solve_banded
-from upkeep.showcase import cut, organoid, plate, pressure
+from upkeep.showcase import cortex, cut, organoid, plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii
 from upkeep.showcase.spheroids import (LINES, SCENE, all_series,
                                        radii_of_run)
@@ -181,6 +184,48 @@ class Showcase(ProgramTest):
         self.assertLess(found["rim", False], -15)
         self.assertGreater(found["core", False], 15)
         self.assertLess(abs(found["rim", True]), 2)
+
+    def test_cortex(self):
+        """A small ball is smooth at first and then folds, in waves between those
+        of a thin film and half of these, as friction shortens them. The file is
+        its first case."""
+        case = cortex.all_cases()[0]
+        keys = parse(cortex.SCENE.read_text(encoding="utf-8"))
+        modulus, friction, end = (keys[key] for key, _ in case.overrides())
+        self.assertEqual((modulus, float(friction), float(end)),
+                         (case.overrides()[0][1], case.friction, case.end))
+        self.execute(cortex.SCENE, *overrides(
+            {"Tissue/Radius": "60", "Time/Step": "0.025",
+             "Friction/Coefficient": "1e-4", "Output/Formats": "csv"}))
+        times, waves = cortex.course(Run(self.work / "output"))
+        time, first = cortex.onset(times, waves)
+        thin = case.thin_film[1]
+        print("folds from", time, "depths, um:",
+              [round(wave.depth, 2) for wave in waves], "spacing:",
+              [round(wave.spacing / cortex.LAYER, 2) for wave in waves[first:]])
+        self.assertTrue(0.6 < time < 0.95, time)
+        self.assertGreater(waves[-1].depth, 4 * cortex.FOLDED)
+        self.assertTrue(thin / 2 < waves[-1].spacing / cortex.LAYER < thin)
+
+    def test_waves(self):
+        """Of a ball on which one wave stands: x y z is of degree 3, and
+        the real part of (x + i y)^20 of degree 20; their mean squares over the
+        sphere are 1/105 and 2^40 20!^2/(2 41!)."""
+        z = 1 - (2 * numpy.arange(20000) + 1) / 20000
+        angle = numpy.pi * (1 + 5**0.5) * numpy.arange(20000)
+        place = numpy.stack([numpy.sqrt(1 - z**2) * numpy.cos(angle),
+                             numpy.sqrt(1 - z**2) * numpy.sin(angle), z], axis=1)
+        for degree, wave, square in (
+                (3, place.prod(axis=1), 1 / 105),
+                (20, ((place[:, 0] + 1j * place[:, 1])**20).real,
+                 2**40 * math.factorial(20)**2 / (2 * math.factorial(41)))):
+            now = place * (100 + 2 * wave)[:, None]
+            found = cortex.Waves.of(pandas.DataFrame(
+                numpy.hstack([place, now, numpy.ones((20000, 1))]),
+                columns=["X", "Y", "Z", "x", "y", "z", "area"]))
+            self.assertLess(abs(found.depth / (2 * square**0.5) - 1), 1e-3)
+            exact = 200 * numpy.pi / (degree * (degree + 1))**0.5
+            self.assertLess(abs(found.spacing / exact - 1), 1e-2)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Compares the showcase scenes with published data.
 
-    contrib/showcase                       all runs: about an hour
+    contrib/showcase                       all runs: more than an hour
     contrib/showcase "WM983b, 2500 cells"  this one
     contrib/showcase pressure              all that begin so
     contrib/showcase --fit                 fits the equations to the data anew
@@ -24,7 +24,7 @@ from morula.scene import Scene
 
 from tests.common.tables import aligned, markdown, renew
 
-from . import cut, figure, organoid, plate, pressure
+from . import cortex, cut, figure, organoid, plate, pressure
 from .spheroids import ROOT, SCENE, all_series, fit, radii_of_run
 
 HEADER = ["series", "from the data, µm", "Greenspan's from the data, µm",
@@ -73,7 +73,9 @@ SUBJECTS = (
             plate.row, plate.draw),
     Subject("organoid", organoid.SCENE, organoid.all_cases, organoid.HEADER,
             organoid.row, organoid.draw),
-    Subject("cut", cut.SCENE, cut.all_cases, cut.HEADER, cut.row, cut.draw))
+    Subject("cut", cut.SCENE, cut.all_cases, cut.HEADER, cut.row, cut.draw),
+    Subject("cortex", cortex.SCENE, cortex.all_cases, cortex.HEADER,
+            cortex.row, cortex.draw))
 
 
 def wanted(names):

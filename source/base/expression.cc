@@ -231,7 +231,7 @@ namespace Morula
     for (unsigned int d = 0; d < 3; ++d)
       values[d] = place[d];
     values[static_cast<unsigned int>(Variable::t)] = t;
-    return allowed(evaluate(values, component), values);
+    return evaluate(values, component);
   }
 
 
@@ -253,13 +253,7 @@ namespace Morula
         if (own != of_types.end())
           return own->second.value(values, component);
       }
-    return allowed(evaluate(values, component), values);
-  }
-
-
-  double
-  Expression::allowed(const double value, const VariableValues &values) const
-  {
+    const double value = evaluate(values, component);
     if (rule && !rule->holds(value))
       throw InputError(key_,
                        text_,

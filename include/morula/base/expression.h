@@ -74,8 +74,7 @@ namespace Morula
     /**
      * The value of one component at the initial position @p X (µm) and time
      * @p t (day). The expression must use no other variables.
-     * @throws InputError if the value is not finite, or not what the rule says,
-     * or if Z occurs in 2-D
+     * @throws InputError if the value is not finite, or if Z occurs in 2-D
      */
     template <int dim>
     double
@@ -91,7 +90,7 @@ namespace Morula
     Tensor<1, dim>
     vector(const Point<dim> &X, const double t) const;
 
-    /** Sets the rule that values must obey. */
+    /** Sets the rule that values for cells must obey. */
     void
     set_rule(const ExpressionRule &rule);
 
@@ -158,11 +157,6 @@ namespace Morula
     /** The value, without a check of the rule. @throws InputError */
     double
     evaluate(const VariableValues &values, const unsigned int component) const;
-
-    /** @p value, which it has with @p values. @throws InputError if the rule
-     *  does not hold for it */
-    double
-    allowed(const double value, const VariableValues &values) const;
 
     std::shared_ptr<const Vocabulary>     vocabulary_;
     std::string                           key_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/mechanics/drag.h>
 
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -82,9 +84,19 @@ namespace Morula
   void
   Friction<dim>::check(const Preview<dim> &scene) const
   {
-    if (!coefficient.depends_on_state())
-      for (const Point<dim> &X : scene.founders)
-        coefficient.value(X, scene.end_time);
+    if (coefficient.depends_on_state())
+      return;
+    for (const Point<dim> &X : scene.founders)
+      if (const double value = coefficient.value(X, scene.end_time); value < 0.)
+        {
+          std::ostringstream remedy;
+          remedy << "It is " << value << " at the cell from (" << X
+                 << ") um at End time. 0 is no friction.";
+          throw InputError(coefficient.key(),
+                           coefficient.text(),
+                           "a value >= 0 kPa day/um^2",
+                           remedy.str());
+        }
   }
 
 

@@ -29,7 +29,7 @@ def asked_for(process):
 
 class LargePages(ProgramTest):
     def test_columns_of_cells(self):
-        """65,267 cells have 10 MB at least."""
+        """65,752 cells have 10 MB at least."""
         if not SUPPORT.is_file():
             self.skipTest("this system has no large pages")
         if b"__asan_init" in Path(self.options.morula).read_bytes():

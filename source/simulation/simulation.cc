@@ -72,34 +72,33 @@ namespace Morula
   typename StepEquilibrium<dim>::Solution
   Simulation<dim>::solve_step(const SplineSpace<dim> &space)
   {
-    typename StepEquilibrium<dim>::Supports supports;
-    everywhere(comm, [&]() {
-      supports = step_supports(model,
-                               tissue,
-                               space,
-                               time_steps.time(),
-                               time_steps.next(),
-                               typical_stiffness);
-    });
-    const StepEquilibrium<dim> equilibrium(
-      model, tissue, space, supports, timer, comm);
-    while (true)
-      try
-        {
-          return try_step(equilibrium);
-        }
-      catch (const StepFailed &failure)
-        {
-          ++row.rejected_steps;
-          ++run_state.n_rejected;
-          if (!time_steps.reject())
-            give_up_step(failure.what());
-        }
-      catch (const InputError &error)
-        {
-          // an expression without a value at this time
-          give_up(model.scene.located(error.what()));
-        }
+    try
+      {
+        typename StepEquilibrium<dim>::Supports supports;
+        everywhere(comm, [&]() {
+          supports = step_supports(
+            model, tissue, space, time_steps.time(), time_steps.next());
+        });
+        const StepEquilibrium<dim> equilibrium(
+          model, tissue, space, supports, timer, comm);
+        while (true)
+          try
+            {
+              return try_step(equilibrium);
+            }
+          catch (const StepFailed &failure)
+            {
+              ++row.rejected_steps;
+              ++run_state.n_rejected;
+              if (!time_steps.reject())
+                give_up_step(failure.what());
+            }
+      }
+    catch (const InputError &error)
+      {
+        // an expression without a value at this time
+        give_up(model.scene.located(error.what()));
+      }
   }
 
   template <int dim>

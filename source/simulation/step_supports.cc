@@ -13,23 +13,25 @@ namespace Morula
                 const Tissue<dim>      &tissue,
                 const SplineSpace<dim> &space,
                 const double            t,
-                const double            t_next,
-                const double            typical_stiffness)
+                const double            t_next)
   {
     auto              list = supports(model.boundary_conditions, tissue, space);
     const double      h    = space.box().spacing();
-    const Cells<dim> &cells = tissue.cells();
+    const Cells<dim> &cells       = tissue.cells();
+    const CellReader<dim> &reader = model.development.reader(t);
     for (const auto &named : model.forces)
       {
         const std::vector<double> friction =
-          named.force->friction(tissue, model.development.reader(t), t);
+          named.force->friction(tissue, reader, t);
         if (friction.empty())
           continue;
         for (const auto &grid_cell : cells.grid_cells())
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             {
+              const double stiffness =
+                youngs_modulus(present_cell(tissue, p, reader).lame());
               const double strength =
-                friction[p] * h * h / ((t_next - t) * typical_stiffness);
+                friction[p] * h * h / ((t_next - t) * stiffness);
               if (strength >= Drag<dim>::least)
                 list.push_back({space.piece(grid_cell.number),
                                 cells.position(p),
@@ -46,13 +48,11 @@ namespace Morula
                 const Tissue<2> &,
                 const SplineSpace<2> &,
                 const double,
-                const double,
                 const double);
   template std::vector<typename RigidModes<3>::Support>
   step_supports(const TissueModel<3> &,
                 const Tissue<3> &,
                 const SplineSpace<3> &,
-                const double,
                 const double,
                 const double);
 } // namespace Morula

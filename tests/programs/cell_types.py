@@ -149,6 +149,15 @@ class CellTypes(ProgramTest):
         self.assertIn(RATE, said.text)
         self.assertFalse((self.work / "refused").exists())
 
+    def test_friction_wrong_in_mid_run(self):
+        output = self.work / "output"
+        said = self.execute(SCENE, "-s", "Friction/Coefficient=1e-6*volume*sqrt(0.3-t)",
+                            output=output, code=2)
+        for part in ("Friction/Coefficient", "allowed is a finite value", "t = 0.",
+                     "snapshot.h5"):
+            self.assertIn(part, said.text)
+        self.assertTrue((output / "snapshot.h5").exists())
+
     def test_absent(self):
         output = self.work / "output"
         self.execute(SCENES / "proliferating-disc.prm", "-s", "Time/End time=0.1",

@@ -15,7 +15,6 @@ namespace Morula
    * What holds the pieces of this rank in a step from @p t to @p t_next (day):
    * fixed and slip points, and cells with friction that is not too weak to
    * decide where a free piece goes. Not collective.
-   * @param typical_stiffness kPa
    * @throws InputError if an expression has no value
    */
   template <int dim>
@@ -24,8 +23,7 @@ namespace Morula
                 const Tissue<dim>      &tissue,
                 const SplineSpace<dim> &space,
                 const double            t,
-                const double            t_next,
-                const double            typical_stiffness);
+                const double            t_next);
 } // namespace Morula
 
 #endif

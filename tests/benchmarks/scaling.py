@@ -12,7 +12,8 @@ LATENCY = 2e-6       # s, of a message
 BANDWIDTH = 1e10     # bytes a second and rank
 MESSAGES = 1         # reductions of a CG iteration
 OVERLAP = 3          # splines for each one along a block's rim at the surface
-RINGS = 12           # of grid cells around a rank's own (grid/grid_window)
+RINGS = 14           # around what a rank reaches (grid/grid_window), and its reach
+RING = 6e-7          # s a step, of a grid cell of the rings
 
 
 def counts(runner, proliferating, sphere):
@@ -78,10 +79,10 @@ class Model:
         messages = iterations * (
             MESSAGES * LATENCY * math.log2(max(ranks, 1))
             + (6 * edge**2 * 3 * 8 / BANDWIDTH if ranks > 1 else 0))
-        # What a rank's window holds: its splines, and those of the rings.
-        window = min(3 * (edge + 2 * RINGS)**3, self.rows * cells)
+        # A rank's window holds its own grid cells, and the rings around them.
+        rings = min((edge + 2 * RINGS)**3, self.rows * cells / 3) - edge**3
         return (self.per_cell * cells / ranks, self.per_row * rows * block * more,
-                self.grid_per_row * window, messages)
+                self.grid_per_row * rows + RING * max(rings, 0), messages)
 
 
 def model(runner, proliferating, sphere, penalty):

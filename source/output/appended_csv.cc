@@ -181,8 +181,10 @@ namespace Morula
             cut();
             return false;
           }
-        everywhere(comm, [&]() { part.write(rows, begin + n_before); });
-        part.finish();
+        everywhere(comm, [&]() {
+          part.write(rows, begin + n_before);
+          part.close();
+        });
       }
     catch (const std::runtime_error &) // on all ranks
       {

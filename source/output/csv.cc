@@ -11,27 +11,48 @@
 
 namespace Morula
 {
-  namespace
+  template <int dim>
+  std::unique_ptr<PendingFile>
+  begin_csv(const std::string      &path,
+            const PointFields<dim> &fields,
+            const MPI_Comm          comm,
+            const std::uint64_t     shared_from)
   {
-    void
-    write_together(SharedFile        &file,
-                   const std::string &header,
-                   const std::string &text,
-                   const MPI_Comm     comm)
-    {
-      const std::uint64_t n_own  = text.size();
-      std::uint64_t       before = 0; // stays on rank 0
-      const int           error =
-        MPI_Exscan(&n_own, &before, 1, MPI_UINT64_T, MPI_SUM, comm);
-      AssertThrowMPI(error);
-      everywhere(comm, [&]() {
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          file.write(header, 0);
-        file.write(text, header.size() + before);
+    CsvRows rows;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      rows.add(csv_row(fields.row(i), fields.n_csv_columns));
+    std::string text =
+      rows.share_in_order(global_order(fields.ids, comm), comm);
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      text.insert(0,
+                  csv_header({fields.names.begin(),
+                              fields.names.begin() + fields.n_csv_columns}));
+
+    const std::uint64_t n_own = text.size();
+    auto                file  = SharedFile::make(path,
+                                 Utilities::MPI::sum(n_own, comm),
+                                 comm,
+                                 shared_from);
+    if (file == nullptr)
+      {
+        const auto parts = gather_to_root(std::move(text), comm);
+        on_root(comm, [&]() {
+          AtomicFile file(path);
+          for (const std::string &part : parts)
+            file.write(part);
+          file.commit();
+        });
+        return nullptr;
+      }
+    std::uint64_t before = 0; // stays on rank 0
+    const int     error =
+      MPI_Exscan(&n_own, &before, 1, MPI_UINT64_T, MPI_SUM, comm);
+    AssertThrowMPI(error);
+    return std::make_unique<PendingFile>(
+      std::move(file), [before, text = std::move(text)](SharedFile &file) {
+        file.write(text, before);
       });
-      file.commit();
-    }
-  } // namespace
+  }
 
   template <int dim>
   void
@@ -40,43 +61,20 @@ namespace Morula
             const MPI_Comm          comm,
             const std::uint64_t     shared_from)
   {
-    CsvRows rows;
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      rows.add(csv_row(fields.row(i), fields.n_csv_columns));
-    const std::string text =
-      rows.share_in_order(global_order(fields.ids, comm), comm);
-    const std::string header = csv_header(
-      {fields.names.begin(), fields.names.begin() + fields.n_csv_columns});
-
-    const std::uint64_t size =
-      header.size() + Utilities::MPI::sum(std::uint64_t(text.size()), comm);
-    if (Utilities::MPI::n_mpi_processes(comm) > 1 && size >= shared_from)
-      {
-        SharedFile file(path, size, comm);
-        if (file.is_shared())
-          {
-            write_together(file, header, text, comm);
-            return;
-          }
-      }
-    const auto parts = gather_to_root(text, comm);
-    on_root(comm, [&]() {
-      AtomicFile file(path);
-      file.write(header);
-      for (const std::string &part : parts)
-        file.write(part);
-      file.commit();
-    });
+    finish(begin_csv(path, fields, comm, shared_from), comm);
   }
 
-  template void
-  write_csv<2>(const std::string &,
-               const PointFields<2> &,
-               const MPI_Comm,
-               const std::uint64_t);
-  template void
-  write_csv<3>(const std::string &,
-               const PointFields<3> &,
-               const MPI_Comm,
-               const std::uint64_t);
+#define INSTANTIATE(dim)                                                    \
+  template std::unique_ptr<PendingFile> begin_csv(const std::string &,      \
+                                                  const PointFields<dim> &, \
+                                                  const MPI_Comm,           \
+                                                  const std::uint64_t);     \
+  template void                         write_csv(const std::string &,      \
+                                                  const PointFields<dim> &, \
+                                                  const MPI_Comm,           \
+                                                  const std::uint64_t);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/output/part_of_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -47,9 +46,9 @@ namespace Morula
   PartOfFile::PartOfFile(const std::string  &path,
                          const std::uint64_t n_bytes,
                          const MPI_Comm      comm)
-    : comm(comm)
   {
-    bool usable = is_coherent(path) && has_size(path, n_bytes);
+    bool usable = Utilities::MPI::n_mpi_processes(comm) == 1 ||
+                  (is_coherent(path) && has_size(path, n_bytes));
     if (usable)
       try
         {
@@ -76,11 +75,9 @@ namespace Morula
   }
 
   void
-  PartOfFile::finish()
+  PartOfFile::close()
   {
-    everywhere(comm, [&]() {
-      file->sync();
-      file->close();
-    });
+    file->sync();
+    file->close();
   }
 } // namespace Morula

@@ -4,8 +4,24 @@
 #include <morula/base/agreement.h>
 #include <morula/output/shared_file.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace Morula
 {
+  using namespace dealii;
+
+  std::unique_ptr<SharedFile>
+  SharedFile::make(const std::string  &path,
+                   const std::uint64_t n_bytes,
+                   const MPI_Comm      comm,
+                   const std::uint64_t shared_from)
+  {
+    if (Utilities::MPI::n_mpi_processes(comm) > 1 && n_bytes < shared_from)
+      return nullptr;
+    std::unique_ptr<SharedFile> file(new SharedFile(path, n_bytes, comm));
+    return file->part->is_shared() ? std::move(file) : nullptr;
+  }
+
   SharedFile::SharedFile(const std::string  &path,
                          const std::uint64_t n_bytes,
                          const MPI_Comm      comm)
@@ -16,14 +32,6 @@ namespace Morula
       whole->reserve(n_bytes);
     });
     part.emplace(temporary_path(path), n_bytes, comm);
-    if (!part->is_shared())
-      whole.reset();
-  }
-
-  bool
-  SharedFile::is_shared() const
-  {
-    return part->is_shared();
   }
 
   void
@@ -33,9 +41,14 @@ namespace Morula
   }
 
   void
+  SharedFile::close()
+  {
+    part->close();
+  }
+
+  void
   SharedFile::commit()
   {
-    part->finish();
     on_root(comm, [&]() { whole->commit(); });
   }
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/available_memory.h>
 #include <morula/output/csv.h>
 #include <morula/output/vtu.h>
 #include <morula/simulation/run_files.h>
@@ -125,6 +126,7 @@ namespace Morula
     , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
                                   scene.output.snapshot_interval,
                                   scene.time))
+    , points(comm)
   {
     lock.emplace(scene.output_directory, comm);
     if (resumed_from)
@@ -245,6 +247,8 @@ namespace Morula
                       const std::vector<Birth<dim>> &births,
                       const std::vector<CellEvent>  &events)
   {
+    if (points.written())
+      finish_points();
     row.wall_seconds = wall_seconds();
     tables.at("statistics").append(statistics_row(row));
     tables.at("lineage").append_parts(
@@ -303,39 +307,61 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::write_series(const std::string      &stem,
-                              const PointFields<dim> &fields,
-                              const double            time)
+  RunFiles<dim>::write_points(PointFields<dim> cells,
+                              PointFields<dim> surface,
+                              const double     time)
   {
-    const unsigned int number = output_times.size() - 1;
-    if (has_format("csv"))
-      write_csv(path(numbered_file(stem, number, "csv")), fields, comm);
-    if (!has_format("vtu"))
-      return;
-    write_vtu(
-      path(numbered_file(stem, number, "vtu")), fields, time, number, comm);
-    std::vector<std::pair<double, std::string>> names;
-    for (unsigned int n = 0; n < output_times.size(); ++n)
-      names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
-    write_pvd(path(stem + ".pvd"), names, comm);
+    finish_points();
+    const unsigned int number = output_times.size();
+    output_times.push_back(time);
+    next_output = next_multiple(time, scene.output.interval, scene.time);
+
+    std::vector<std::unique_ptr<PendingFile>> files;
+    const auto add = [&](const std::string &stem, PointFields<dim> fields) {
+      if (has_format("csv"))
+        files.push_back(
+          begin_csv(path(numbered_file(stem, number, "csv")), fields, comm));
+      if (has_format("vtu"))
+        files.push_back(begin_vtu(path(numbered_file(stem, number, "vtu")),
+                                  std::move(fields),
+                                  time,
+                                  number,
+                                  comm));
+    };
+    add("cells", std::move(cells));
+    add("surface", std::move(surface));
+    points_listed = false;
+    // What waits must not be what is too much for the next step.
+    points.start(std::move(files), memory_is_short(comm));
+    if (!points.pending())
+      finish_points();
   }
 
   template <int dim>
   void
-  RunFiles<dim>::write_points(const PointFields<dim> &cells,
-                              const PointFields<dim> &surface,
-                              const double            time)
+  RunFiles<dim>::finish_points()
   {
-    output_times.push_back(time);
-    next_output = next_multiple(time, scene.output.interval, scene.time);
-    write_series("cells", cells, time);
-    write_series("surface", surface, time);
+    points.finish();
+    if (!points_listed && has_format("vtu"))
+      for (const std::string stem : {"cells", "surface"})
+        {
+          std::vector<std::pair<double, std::string>> names;
+          for (unsigned int n = 0; n < output_times.size(); ++n)
+            names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
+          write_pvd(path(stem + ".pvd"), names, comm);
+        }
+    points_listed = true;
   }
 
   template <int dim>
   void
   RunFiles<dim>::write_snapshot(SnapshotData<dim> data, TimerOutput &timer)
   {
+    if (points.pending())
+      {
+        const TimerOutput::Scope section(timer, "output");
+        finish_points();
+      }
     // Before the section begins, since deal.II cannot sum up a timer while a
     // section is open.
     const SectionTimes       sections = section_times(timer, sections_before);
@@ -383,6 +409,7 @@ namespace Morula
                         const unsigned int   rejected_steps,
                         const TimerOutput   &timer)
   {
+    finish_points();
     progress->finish({outcome,
                       dim,
                       row.time,

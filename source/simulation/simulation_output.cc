@@ -93,9 +93,9 @@ namespace Morula
     if (files->writes_points() && files->output_due(t, last))
       {
         const TimerOutput::Scope section(timer, "output");
-        const CellFields<dim>    cells   = cell_table(model, tissue, t);
-        const SurfaceFields<dim> surface = surface_table(tissue, t);
-        files->write_points(cells.fields(), surface.fields(), t);
+        files->write_points(cell_table(model, tissue, t).fields(),
+                            surface_table(tissue, t).fields(),
+                            t);
       }
     if (files->snapshot_due(t, last))
       files->write_snapshot(snapshot(), timer);

@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "output/scratch_directory.h"
+
 using namespace Morula;
 
 namespace
@@ -47,4 +51,38 @@ TEST(Simulation, StartsFromATissueThatIsSeeded)
   const unsigned int n = given.n_unknowns();
   EXPECT_EQ(n, seeds.n_unknowns());
   EXPECT_GT(n, 0u);
+}
+
+
+// Files that are still being written when a snapshot is due: a run that is
+// resumed from it would not write them again.
+TEST(Simulation, CountsOutputInASnapshotThatIsThere)
+{
+  const ScratchDirectory directory;
+  const std::string      output  = directory / "run";
+  Scene                  scene   = block();
+  scene.output_directory         = output;
+  scene.time.step                = 0.25;
+  scene.time.end_time            = 1.;
+  scene.output.interval          = 0.25;
+  scene.output.snapshot_interval = 0.5;
+  Simulation<3> simulation(scene, MPI_COMM_WORLD, false);
+  const auto    path = [&](const std::string &name) {
+    return output + '/' + name;
+  };
+  unsigned int n_seen = 0;
+  simulation.run([&]() {
+    if (!std::filesystem::exists(path("snapshot.h5")))
+      return;
+    const auto times = read_snapshot<3>(path("snapshot.h5"), MPI_COMM_WORLD)
+                         .table("output_times");
+    for (unsigned int n = 0; n < times.size(); ++n)
+      EXPECT_TRUE(
+        std::filesystem::exists(path(numbered_file("cells", n, "vtu"))));
+    const std::string list = content(path("cells.pvd"));
+    EXPECT_NE(list.find(numbered_file("cells", times.size() - 1, "vtu")),
+              std::string::npos);
+    n_seen = times.size();
+  });
+  EXPECT_EQ(n_seen, 5u);
 }

@@ -9,6 +9,8 @@
 #include <morula/output/point_fields.h>
 #include <morula/particles/cell_state.h>
 
+#include <utility>
+
 namespace Morula
 {
   /**
@@ -50,9 +52,16 @@ namespace Morula
         const CellQuantities              &quantities);
 
     const PointFields<dim> &
-    fields() const
+    fields() const &
     {
       return table;
+    }
+
+    /** Of a table that is no longer needed. */
+    PointFields<dim>
+    fields() &&
+    {
+      return std::move(table);
     }
 
   private:

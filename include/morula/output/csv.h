@@ -5,23 +5,35 @@
 #define morula_output_csv_h
 
 #include <morula/output/part_of_file.h>
+#include <morula/output/pending_file.h>
 #include <morula/output/point_fields.h>
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace Morula
 {
   /**
-   * Writes one CSV file for all ranks: a header, then the rows in the order of
+   * Begins one CSV file for all ranks: a header, then the rows in the order of
    * their ids, so that the file is the same for any number of ranks. The file
    * appears when it is complete. Collective.
-   * @param shared_from size, bytes, from which on all ranks write the file
+   * @param shared_from size, bytes, from which on several ranks write the file
    *        together if the file system allows that; else rank 0 does
+   * @return the file with the text that is to be written; nullptr, on all
+   * ranks, if rank 0 has written the file
    * @throws std::runtime_error, on all ranks, with path and reason
    */
+  template <int dim>
+  std::unique_ptr<PendingFile>
+  begin_csv(const std::string      &path,
+            const PointFields<dim> &fields,
+            const MPI_Comm          comm,
+            const std::uint64_t     shared_from = PartOfFile::worth_while);
+
+  /** The whole file at once; see begin_csv(). */
   template <int dim>
   void
   write_csv(const std::string      &path,

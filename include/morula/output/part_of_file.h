@@ -34,7 +34,8 @@ namespace Morula
 
     /** Whether all ranks see the file, on a file system that keeps what several
      *  write into it. (NFS does not; disks of single nodes are not seen.) Equal
-     *  on all ranks. Where this is false, nothing is to be written. */
+     *  on all ranks, and true on one. Where this is false, nothing is to be
+     *  written. */
     bool
     is_shared() const;
 
@@ -43,15 +44,13 @@ namespace Morula
     void
     write(const std::string_view text, const std::uint64_t offset);
 
-    /**
-     * Forces all parts to the disk, and closes the descriptors. Collective.
-     * @throws std::runtime_error on all ranks, with path and reason
-     */
+    /** Forces this rank's parts to the disk, and closes its descriptor. No
+     *  communication.
+     *  @throws std::runtime_error with path and reason */
     void
-    finish();
+    close();
 
   private:
-    const MPI_Comm           comm;
     std::optional<PosixFile> file; // if it is shared
   };
 } // namespace Morula

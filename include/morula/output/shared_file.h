@@ -9,8 +9,8 @@
 
 #include <mpi.h>
 
-#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,28 +26,39 @@ namespace Morula
   public:
     /**
      * Makes the file, and reserves its room on the disk. Collective.
+     * @param shared_from size, bytes, from which on several ranks share a file
+     * @return nullptr, on all ranks, if one rank better writes the file:
+     * several ranks have less than that, or a file system that cannot do it
      * @throws std::runtime_error on all ranks, with path and reason
      */
-    SharedFile(const std::string  &path,
-               const std::uint64_t n_bytes,
-               const MPI_Comm      comm);
-
-    /** See PartOfFile. */
-    bool
-    is_shared() const;
+    static std::unique_ptr<SharedFile>
+    make(const std::string  &path,
+         const std::uint64_t n_bytes,
+         const MPI_Comm      comm,
+         const std::uint64_t shared_from);
 
     /** See PartOfFile. */
     void
     write(const std::string_view text, const std::uint64_t offset);
 
+    /** Forces this rank's part to the disk. No communication.
+     *  @throws std::runtime_error with path and reason */
+    void
+    close();
+
     /**
-     * Forces all parts to the disk, and replaces the old file. Collective.
+     * Replaces the old file. All ranks must have closed their parts.
+     * Collective.
      * @throws std::runtime_error on all ranks, with path and reason
      */
     void
     commit();
 
   private:
+    SharedFile(const std::string  &path,
+               const std::uint64_t n_bytes,
+               const MPI_Comm      comm);
+
     const MPI_Comm            comm;
     std::optional<AtomicFile> whole; // on rank 0
     std::optional<PartOfFile> part;

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <utility>
+
 namespace Morula
 {
   /**
@@ -39,9 +41,16 @@ namespace Morula
         const Point<dim>           &position);
 
     const PointFields<dim> &
-    fields() const
+    fields() const &
     {
       return table;
+    }
+
+    /** Of a table that is no longer needed. */
+    PointFields<dim>
+    fields() &&
+    {
+      return std::move(table);
     }
 
   private:

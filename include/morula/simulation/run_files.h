@@ -5,6 +5,7 @@
 #define morula_simulation_run_files_h
 
 #include <morula/output/appended_csv.h>
+#include <morula/output/background_files.h>
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
 #include <morula/output/events.h>
@@ -76,14 +77,17 @@ namespace Morula
     bool
     snapshot_due(const double time, const bool last) const;
 
-    /** Writes the next files of the series of cells and surface. */
+    /** Begins to write the next files of the series of cells and surface. They
+     *  are complete after one of the next steps, before the next snapshot at
+     * the latest; a step that finds that they cannot be written throws a
+     *  std::runtime_error. */
     void
-    write_points(const PointFields<dim> &cells,
-                 const PointFields<dim> &surface,
-                 const double            time);
+    write_points(PointFields<dim> cells,
+                 PointFields<dim> surface,
+                 const double     time);
 
     /** Adds the files' own counters to @p data and writes it. No section of
-     *  @p timer may be open, since this function opens one. */
+     *  @p timer may be open, since this function opens some. */
     void
     write_snapshot(SnapshotData<dim> data, TimerOutput &timer);
 
@@ -123,10 +127,9 @@ namespace Morula
     bool
     has_format(const std::string &format) const;
 
+    /** Waits for the files of points, and lists them for ParaView. */
     void
-    write_series(const std::string      &stem,
-                 const PointFields<dim> &fields,
-                 const double            time);
+    finish_points();
 
     const Scene                  scene;
     const MPI_Comm               comm;
@@ -142,6 +145,8 @@ namespace Morula
     std::optional<Progress> progress;
     // The tables that the scene has, by their names without ending.
     std::map<std::string, AppendedCsv> tables;
+    BackgroundFiles                    points; // cells and surface
+    bool points_listed = true;                 // the last ones, for ParaView
   };
 } // namespace Morula
 

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/vtu_piece.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Arrays that are made at the same time. */
+    using Group = std::vector<VtuArray>;
+
+    template <int dim>
+    std::vector<Group>
+    groups_of(const PointFields<dim> &fields)
+    {
+      constexpr std::size_t largest_group = 8;
+      const Group           points = {{"Points", VtuArray::Float32, 3, 0, {}}};
+      const Group cells = {{"connectivity", VtuArray::Int32, 1, 0, {}},
+                           {"offsets", VtuArray::Int32, 1, 0, {}},
+                           {"types", VtuArray::UInt8, 1, 0, {}}};
+
+      std::vector<Group> groups = {points, cells, {}};
+      const auto         add    = [&](const std::string              &name,
+                           const unsigned int              first,
+                           const unsigned int              n,
+                           const std::vector<std::string> &components) {
+        const bool whole = fields.whole.count(name) > 0;
+        if (groups.back().size() == largest_group)
+          groups.emplace_back();
+        groups.back().push_back({name,
+                                 whole ? VtuArray::Int32 : VtuArray::Float32,
+                                 n,
+                                 first,
+                                 components});
+      };
+      for (unsigned int column = 0; column < fields.names.size(); ++column)
+        if (!fields.names[column].empty() &&
+            fields.csv_only.count(fields.names[column]) == 0)
+          add(fields.names[column], column, 1, {});
+      for (const auto &nonscalar : fields.nonscalars)
+        add(nonscalar.name,
+            nonscalar.first_column,
+            nonscalar.n_columns,
+            nonscalar.components);
+      return groups;
+    }
+
+    const std::string end_of_array = "\n</DataArray>\n";
+    const std::string end_of_piece = "</PointData>\n</Piece>\n";
+
+    /** The digits of base64 for 12 bits, two each. */
+    using Pairs = std::array<std::array<char, 2>, 4096>;
+
+    constexpr Pairs
+    base64_pairs()
+    {
+      constexpr char digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+      Pairs pairs{};
+      for (unsigned int bits = 0; bits < pairs.size(); ++bits)
+        {
+          pairs[bits][0] = digits[bits >> 6];
+          pairs[bits][1] = digits[bits & 63];
+        }
+      return pairs;
+    }
+
+    /** Writes numbers in base64 to where there is room for them. deal.II's
+     *  encode_base64() takes three times as long as all else in an output. */
+    class Base64
+    {
+    public:
+      explicit Base64(char *target)
+        : target(target)
+      {}
+
+      template <typename T>
+      void
+      add(const T value)
+      {
+        if (n + sizeof(T) > buffer.size())
+          flush();
+        std::memcpy(&buffer[n], &value, sizeof(T));
+        n += sizeof(T);
+      }
+
+      /** Writes what is left; returns the end. */
+      char *
+      finish()
+      {
+        flush();
+        if (n > 0)
+          {
+            std::fill(buffer.begin() + n, buffer.begin() + 3, 0);
+            encode(0);
+            std::fill(target + n + 1, target + 4, '=');
+            target += 4;
+          }
+        return target;
+      }
+
+    private:
+      void
+      encode(const std::size_t i)
+      {
+        static constexpr Pairs pairs = base64_pairs();
+        const std::uint32_t    bits =
+          buffer[i] << 16 | buffer[i + 1] << 8 | buffer[i + 2];
+        std::memcpy(target, pairs[bits >> 12].data(), 2);
+        std::memcpy(target + 2, pairs[bits & 4095].data(), 2);
+      }
+
+      /** Writes all whole threes of bytes. */
+      void
+      flush()
+      {
+        std::size_t i = 0;
+        for (; i + 3 <= n; i += 3, target += 4)
+          encode(i);
+        std::copy(buffer.begin() + i, buffer.begin() + n, buffer.begin());
+        n -= i;
+      }
+
+      std::array<unsigned char, 3072> buffer;
+      std::size_t                     n = 0; // bytes in it
+      char                           *target;
+    };
+
+    /** The arrays of a group as they stand in a file. */
+    class GroupText
+    {
+    public:
+      GroupText(const Group &group, const std::size_t n_points)
+      {
+        std::size_t size = 0;
+        for (const VtuArray &array : group)
+          size += array.n_bytes_in_file(n_points);
+        text.resize(size);
+        char      *place = text.data();
+        const auto put   = [&place](const std::string &what) {
+          place = std::copy(what.begin(), what.end(), place);
+        };
+        for (const VtuArray &array : group)
+          {
+            put(array.tag());
+            arrays.emplace_back(place);
+            arrays.back().add<std::uint64_t>(array.n_bytes(n_points) -
+                                             sizeof(std::uint64_t));
+            place += (array.n_bytes(n_points) + 2) / 3 * 4;
+            put(end_of_array);
+          }
+      }
+
+      /** Where the values of array number @p k go. */
+      Base64 &
+      array(const std::size_t k)
+      {
+        return arrays[k];
+      }
+
+      std::string
+      finish()
+      {
+        for (Base64 &array : arrays)
+          array.finish();
+        return std::move(text);
+      }
+
+    private:
+      std::string         text;
+      std::vector<Base64> arrays;
+    };
+
+    /** The first group. */
+    template <int dim>
+    void
+    add_points(const PointFields<dim> &fields, GroupText &text)
+    {
+      for (const Point<dim> &position : fields.positions)
+        for (unsigned int d = 0; d < 3; ++d)
+          text.array(0).add<float>(d < dim ? position[d] : 0.);
+    }
+
+    /** The second one. */
+    void
+    add_cells(const std::size_t n_points, GroupText &text)
+    {
+      constexpr std::uint8_t vtk_vertex = 1;
+      for (std::size_t i = 0; i < n_points; ++i)
+        {
+          text.array(0).add<std::int32_t>(i);
+          text.array(1).add<std::int32_t>(i + 1);
+          text.array(2).add(vtk_vertex);
+        }
+    }
+
+    /** Another one. */
+    template <int dim>
+    void
+    add_fields(const PointFields<dim> &fields,
+               const Group            &group,
+               GroupText              &text)
+    {
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        for (std::size_t k = 0; k < group.size(); ++k)
+          {
+            const double *const values = fields.row(i) + group[k].first_column;
+            for (unsigned int c = 0; c < group[k].n_components; ++c)
+              if (group[k].type == VtuArray::Int32)
+                text.array(k).add<std::int32_t>(std::lround(values[c]));
+              else
+                text.array(k).add<float>(values[c]);
+          }
+    }
+
+    /** The arrays of a group as they stand in this rank's piece. */
+    template <int dim>
+    std::string
+    elements(const PointFields<dim> &fields,
+             const Group            &group,
+             const std::size_t       g)
+    {
+      GroupText text(group, fields.size());
+      if (g == 0)
+        add_points(fields, text);
+      else if (g == 1)
+        add_cells(fields.size(), text);
+      else
+        add_fields(fields, group, text);
+      return text.finish();
+    }
+
+    /** What stands before a group of a piece. */
+    std::string
+    before(const std::size_t g, const std::size_t n_points)
+    {
+      if (g > 2)
+        return "";
+      if (g > 0)
+        return g == 1 ? "</Points>\n<Cells>\n" : "</Cells>\n<PointData>\n";
+      const std::string n = std::to_string(n_points);
+      return "<Piece NumberOfPoints=\"" + n + "\" NumberOfCells=\"" + n +
+             "\">\n<Points>\n";
+    }
+
+  } // namespace
+
+  std::string
+  VtuArray::tag() const
+  {
+    std::ostringstream text;
+    text << "<DataArray type=\""
+         << (type == Float32 ? "Float32" :
+             type == Int32   ? "Int32" :
+                               "UInt8")
+         << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n_components
+         << '"';
+    for (std::size_t c = 0; c < components.size(); ++c)
+      text << " ComponentName" << c << "=\"" << components[c] << '"';
+    text << " format=\"binary\">\n";
+    return text.str();
+  }
+
+  std::uint64_t
+  VtuArray::n_bytes(const std::uint64_t n_points) const
+  {
+    return sizeof(std::uint64_t) +
+           (type == UInt8 ? 1 : 4) * n_components * n_points;
+  }
+
+  std::uint64_t
+  VtuArray::n_bytes_in_file(const std::uint64_t n_points) const
+  {
+    return tag().size() + (n_bytes(n_points) + 2) / 3 * 4 + end_of_array.size();
+  }
+
+  template <int dim>
+  VtuPiece<dim>::VtuPiece(const PointFields<dim> &fields)
+    : parts(groups_of(fields))
+  {}
+
+  template <int dim>
+  std::size_t
+  VtuPiece<dim>::n_parts() const
+  {
+    return parts.size();
+  }
+
+  template <int dim>
+  std::uint64_t
+  VtuPiece<dim>::n_bytes(const std::uint64_t n_points) const
+  {
+    std::uint64_t size = end_of_piece.size();
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      {
+        size += before(k, n_points).size();
+        for (const VtuArray &array : parts[k])
+          size += array.n_bytes_in_file(n_points);
+      }
+    return size;
+  }
+
+  template <int dim>
+  std::string
+  VtuPiece<dim>::part(const PointFields<dim> &fields, const std::size_t k) const
+  {
+    return before(k, fields.size()) + elements(fields, parts[k], k) +
+           (k + 1 == parts.size() ? end_of_piece : "");
+  }
+
+  std::string
+  vtu_head(const double time, const unsigned int number)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    text << "<?xml version=\"1.0\"?>\n"
+         << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+         << "<UnstructuredGrid>\n<FieldData>\n"
+         << "<DataArray type=\"Float64\" Name=\"TIME\" "
+            "NumberOfTuples=\"1\" format=\"ascii\">"
+         << time << "</DataArray>\n"
+         << "<DataArray type=\"Float64\" Name=\"CYCLE\" "
+            "NumberOfTuples=\"1\" format=\"ascii\">"
+         << number << "</DataArray>\n</FieldData>\n";
+    return text.str();
+  }
+
+  template class VtuPiece<2>;
+  template class VtuPiece<3>;
+} // namespace Morula

@@ -23,6 +23,24 @@ namespace Morula
       return dofs;
     }
 
+    IndexSet
+    without(IndexSet all, const IndexSet &some)
+    {
+      all.subtract_set(some);
+      return all;
+    }
+
+    /** How many of @p some come before the first of @p others. */
+    unsigned int
+    n_before(const IndexSet &some, const IndexSet &others)
+    {
+      if (others.n_elements() == 0)
+        return some.n_elements();
+      const auto end = some.at(others.nth_index_in_set(0));
+      return end == some.end() ? some.n_elements() :
+                                 some.index_within_set(*end);
+    }
+
     /** Marks the unknowns (positions in relevant()) that the extended splines
      *  of a grid cell depend on. */
     template <int dim>
@@ -44,9 +62,13 @@ namespace Morula
   FieldUnknowns<dim, n_components>::FieldUnknowns(const SplineSpace<dim> &space,
                                                   const MPI_Comm          comm)
     : space(space)
-    , comm(comm)
     , owned_(dofs_of(space.owned(), n_components))
     , relevant_(dofs_of(space.relevant(), n_components))
+    , own(relevant_ & owned_)
+    , others(without(relevant_, owned_))
+    , n_below(n_before(others, owned_))
+    , halo(owned_, others, comm)
+    , zero_(owned_, comm)
   {}
 
   template <int dim, int n_components>
@@ -87,7 +109,6 @@ namespace Morula
   {
     Vector result = zero();
     std::copy(values.begin(), values.end(), result.begin());
-    result.compress(VectorOperation::insert);
     return result;
   }
 
@@ -95,19 +116,54 @@ namespace Morula
   TrilinosWrappers::MPI::Vector
   FieldUnknowns<dim, n_components>::zero() const
   {
-    return Vector(owned_, comm);
+    return zero_;
+  }
+
+  template <int dim, int n_components>
+  template <typename Action>
+  void
+  FieldUnknowns<dim, n_components>::for_own(const Action &action) const
+  {
+    unsigned int k = n_below;
+    for (auto range = own.begin_intervals(); range != own.end_intervals();
+         ++range)
+      {
+        const unsigned int n = range->n_elements();
+        action(k, owned_.index_within_set(*range->begin()), n);
+        k += n;
+      }
+  }
+
+  template <int dim, int n_components>
+  std::vector<double>
+  FieldUnknowns<dim, n_components>::fetch(const Vector &u) const
+  {
+    std::vector<double> fetched(others.n_elements());
+    halo.fetch(u.begin(), fetched.data());
+    std::vector<double> values(relevant_.n_elements());
+    const auto          above = fetched.begin() + n_below;
+    std::copy(fetched.begin(), above, values.begin());
+    std::copy(above, fetched.end(), values.end() - (fetched.end() - above));
+    for_own(
+      [&](const unsigned int k, const unsigned int l, const unsigned int n) {
+        std::copy(u.begin() + l, u.begin() + l + n, values.begin() + k);
+      });
+    return values;
   }
 
   template <int dim, int n_components>
   TrilinosWrappers::MPI::Vector
   FieldUnknowns<dim, n_components>::sum(const std::vector<double> &values) const
   {
-    Vector sum;
-    sum.reinit(owned_, relevant_, comm, true);
-    const std::vector<types::global_dof_index> dofs(relevant_.begin(),
-                                                    relevant_.end());
-    sum.add(dofs, values);
-    sum.compress(VectorOperation::add);
+    const unsigned int  n_above = others.n_elements() - n_below;
+    std::vector<double> of_others(values.begin(), values.begin() + n_below);
+    of_others.insert(of_others.end(), values.end() - n_above, values.end());
+    Vector sum = zero();
+    for_own(
+      [&](const unsigned int k, const unsigned int l, const unsigned int n) {
+        std::copy(values.begin() + k, values.begin() + k + n, sum.begin() + l);
+      });
+    halo.add_back(of_others.data(), sum.begin());
     return sum;
   }
 

@@ -15,8 +15,9 @@ namespace Morula
 {
   template <int dim, int n_components>
   MatrixScatter<dim, n_components>::MatrixScatter(const SplineSpace<dim> &space,
-                                                  Matrix        &matrix,
-                                                  const MPI_Comm comm)
+                                                  const IndexSet &own_rows,
+                                                  Matrix         &matrix,
+                                                  const MPI_Comm  comm)
     : space(space)
     , matrix(matrix)
     , comm(comm)
@@ -24,7 +25,7 @@ namespace Morula
     const Couplings                 columns   = couplings();
     const std::vector<unsigned int> owners    = owners_of_relevant();
     const Messages                  announced = announce(columns, owners);
-    make_pattern(columns, announced);
+    make_pattern(columns, announced, own_rows);
     make_received(announced);
     make_positions(columns, owners);
   }
@@ -97,7 +98,8 @@ namespace Morula
   template <int dim, int n_components>
   void
   MatrixScatter<dim, n_components>::make_pattern(const Couplings &columns,
-                                                 const Messages  &announced)
+                                                 const Messages  &announced,
+                                                 const IndexSet  &own_rows)
   {
     const IndexSet &relevant = space.relevant(), &owned = space.owned();
     Unknowns        unknowns(owned.n_elements());
@@ -127,7 +129,7 @@ namespace Morula
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     // Only the graph is taken: no need for a matrix with values of its own.
-    Epetra_CrsMatrix without_values(View, graph(unknowns, others));
+    Epetra_CrsMatrix without_values(View, graph(unknowns, others, own_rows));
     without_values.FillComplete();
     matrix.reinit(without_values, false);
   }
@@ -136,12 +138,11 @@ namespace Morula
   Epetra_CrsGraph
   MatrixScatter<dim, n_components>::graph(
     const Unknowns                             &unknowns,
-    const std::vector<types::global_dof_index> &others) const
+    const std::vector<types::global_dof_index> &others,
+    const IndexSet                             &own_rows) const
   {
     const IndexSet  &owned = space.owned();
-    const Epetra_Map rows  = FieldUnknowns<dim, n_components>(space, comm)
-                              .owned()
-                              .make_trilinos_map(comm);
+    const Epetra_Map rows  = own_rows.make_trilinos_map(comm);
 
     std::vector<int> columns(rows.MyGlobalElements(),
                              rows.MyGlobalElements() + rows.NumMyElements());
@@ -305,12 +306,59 @@ namespace Morula
 
   template <int dim, int n_components>
   void
+  MatrixScatter<dim, n_components>::clear()
+  {
+    int    *offsets, *columns;
+    double *values;
+    matrix.trilinos_matrix().ExtractCrsDataPointers(offsets, columns, values);
+    std::fill(values, values + matrix.trilinos_matrix().NumMyNonzeros(), 0.);
+    for (auto &[rank, values] : sent)
+      std::fill(values.begin(), values.end(), 0.);
+  }
+
+  template <int dim, int n_components>
+  std::map<unsigned int, std::vector<double>>
+  MatrixScatter<dim, n_components>::exchange() const
+  {
+    constexpr int                               tag = 0;
+    std::map<unsigned int, std::vector<double>> values;
+    std::vector<MPI_Request>                    requests;
+    for (const auto &[rank, rows] : received)
+      {
+        std::size_t n = 0;
+        for (const Received &row : rows)
+          n += n_components * n_components * row.positions.size();
+        std::vector<double> &buffer = values[rank];
+        buffer.resize(n);
+        requests.emplace_back();
+        const int error = MPI_Irecv(
+          buffer.data(), n, MPI_DOUBLE, rank, tag, comm, &requests.back());
+        AssertThrowMPI(error);
+      }
+    for (const auto &[rank, buffer] : sent)
+      {
+        requests.emplace_back();
+        const int error = MPI_Isend(buffer.data(),
+                                    buffer.size(),
+                                    MPI_DOUBLE,
+                                    rank,
+                                    tag,
+                                    comm,
+                                    &requests.back());
+        AssertThrowMPI(error);
+      }
+    const int error =
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    AssertThrowMPI(error);
+    return values;
+  }
+
+  template <int dim, int n_components>
+  void
   MatrixScatter<dim, n_components>::finish()
   {
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return;
     const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-    for (const auto &[rank, values] : Utilities::MPI::some_to_some(comm, sent))
+    for (const auto &[rank, values] : exchange())
       {
         const double *value = values.data();
         for (const Received &row : received.at(rank))
@@ -328,8 +376,6 @@ namespace Morula
                   target[position + j] += *value++;
             }
       }
-    for (auto &[rank, values] : sent)
-      std::fill(values.begin(), values.end(), 0.);
   }
 
   template class MatrixScatter<2, 1>;

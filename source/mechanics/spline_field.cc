@@ -4,31 +4,31 @@
 #include <morula/mechanics/condensation.h>
 #include <morula/mechanics/spline_field.h>
 
-#include <vector>
-
 namespace Morula
 {
+  template <int dim, int n_components>
+  SplineField<dim, n_components>::SplineField(
+    const SplineSpace<dim>                 &space,
+    const FieldUnknowns<dim, n_components> &unknowns,
+    const TrilinosWrappers::MPI::Vector    &u)
+    : space(space)
+    , values(unknowns.fetch(u))
+  {}
+
   template <int dim, int n_components>
   SplineField<dim, n_components>::SplineField(
     const SplineSpace<dim>              &space,
     const TrilinosWrappers::MPI::Vector &u,
     const MPI_Comm                       comm)
-    : space(space)
-  {
-    const FieldUnknowns<dim, n_components> unknowns(space, comm);
-    relevant.reinit(unknowns.owned(), unknowns.relevant(), comm);
-    relevant = u;
-  }
+    : SplineField(space, FieldUnknowns<dim, n_components>(space, comm), u)
+  {}
 
   template <int dim, int n_components>
   LocalField<dim, n_components>
   SplineField<dim, n_components>::on_grid_cell(
     const unsigned int grid_cell) const
   {
-    // A ghosted Trilinos vector stores its entries in the order of the set of
-    // relevant degrees of freedom.
-    const double *const values   = relevant.trilinos_vector()[0];
-    const auto         &unknowns = space.grid_cells()[grid_cell].unknowns;
+    const auto &unknowns = space.grid_cells()[grid_cell].unknowns;
     if (space.grid_cells()[grid_cell].weights.empty())
       {
         // The unknowns are the splines.

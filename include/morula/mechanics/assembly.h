@@ -68,7 +68,7 @@ namespace Morula
     void
     make_pattern()
     {
-      scatter.emplace(space, matrix_, comm);
+      scatter.emplace(space, unknowns_.owned(), matrix_, comm);
     }
 
     /** Adds up the tangents; the matrix of the last call is overwritten.
@@ -109,7 +109,7 @@ namespace Morula
                                         const Add           &add,
                                         std::vector<double> *magnitudes) const
   {
-    const SplineField<dim, n_components> field(space, u, comm);
+    const SplineField<dim, n_components> field(space, unknowns_, u);
     std::vector<double> sums(unknowns_.relevant().n_elements(), 0.);
     if (magnitudes != nullptr)
       magnitudes->assign(sums.size(), 0.);
@@ -155,8 +155,8 @@ namespace Morula
                                       Local        &local,
                                       const Add    &add)
   {
-    matrix_ = 0.;
-    const SplineField<dim, n_components>           field(space, u, comm);
+    scatter->clear();
+    const SplineField<dim, n_components>           field(space, unknowns_, u);
     typename Condensation<dim, n_components>::Work work;
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
@@ -167,7 +167,6 @@ namespace Morula
                        .condense(local.matrix, work));
       }
     scatter->finish();
-    matrix_.compress(VectorOperation::add);
     return matrix_;
   }
 } // namespace Morula

@@ -4,6 +4,7 @@
 #ifndef morula_mechanics_field_unknowns_h
 #define morula_mechanics_field_unknowns_h
 
+#include <morula/base/halo.h>
 #include <morula/grid/spline_space.h>
 
 #include <deal.II/base/index_set.h>
@@ -18,8 +19,8 @@ namespace Morula
   /**
    * The degrees of freedom of a field of n components on a spline space:
    * component i of unknown spline s is number s n + i, over all ranks. Without
-   * a number of components the field is the displacement. Keeps a reference to
-   * the space.
+   * a number of components the field is the displacement. It knows once and for
+   * all which values ranks exchange. Keeps a reference to the space.
    */
   template <int dim, int n_components = dim>
   class FieldUnknowns
@@ -27,6 +28,7 @@ namespace Morula
   public:
     using Vector = TrilinosWrappers::MPI::Vector;
 
+    /** Collective. */
     FieldUnknowns(const SplineSpace<dim> &space, const MPI_Comm comm);
 
     /** Those of the splines that this rank owns. */
@@ -42,22 +44,36 @@ namespace Morula
     IndexSet
     of_extended_splines() const;
 
-    /** The vector with these values at owned(), in order. Collective. */
+    /** The vector with these values at owned(), in order. */
     Vector
     vector(const std::vector<double> &values) const;
 
-    /** Zero everywhere. Collective. */
+    /** Zero everywhere. */
     Vector
     zero() const;
 
-    /** Adds up what all ranks have at relevant(), in order. Collective. */
+    /** The values of @p u at relevant(), in order. Neighbours exchange them. */
+    std::vector<double>
+    fetch(const Vector &u) const;
+
+    /** Adds up what all ranks have at relevant(), in order. Neighbours exchange
+     *  it. */
     Vector
     sum(const std::vector<double> &values) const;
 
   private:
+    /** Calls action(k, l, n) for intervals of relevant() that are owned, too:
+     *  from k on they are number l ... l + n - 1 of owned(). */
+    template <typename Action>
+    void
+    for_own(const Action &action) const;
+
     const SplineSpace<dim> &space;
-    const MPI_Comm          comm;
     const IndexSet          owned_, relevant_;
+    const IndexSet          own, others; // of the relevant ones
+    const unsigned int      n_below;     // others that come before the own ones
+    const Halo              halo;        // of the others
+    const Vector            zero_;       // copies share its map
   };
 
   /**

@@ -32,8 +32,10 @@ namespace Morula
   public:
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** Initialises @p matrix; it must outlive this object. Collective. */
+    /** Initialises @p matrix; it must outlive this object. Collective.
+     *  @param own_rows as FieldUnknowns::owned() */
     MatrixScatter(const SplineSpace<dim> &space,
+                  const IndexSet         &own_rows,
                   Matrix                 &matrix,
                   const MPI_Comm          comm);
 
@@ -44,7 +46,12 @@ namespace Morula
     void
     add(const unsigned int grid_cell, const std::vector<double> &local_matrix);
 
-    /** Adds what was added to other ranks' rows to these. Collective. */
+    /** Makes all entries zero. */
+    void
+    clear();
+
+    /** Adds what was added to other ranks' rows to these. Neighbours exchange
+     *  it. */
     void
     finish();
 
@@ -74,7 +81,13 @@ namespace Morula
 
     /** Own rows, with the columns that any rank adds to. */
     void
-    make_pattern(const Couplings &columns, const Messages &announced);
+    make_pattern(const Couplings &columns,
+                 const Messages  &announced,
+                 const IndexSet  &own_rows);
+
+    /** What other ranks have added to own rows, by rank. */
+    std::map<unsigned int, std::vector<double>>
+    exchange() const;
 
     /** Where the entries that other ranks send go. */
     void
@@ -95,7 +108,8 @@ namespace Morula
      */
     Epetra_CrsGraph
     graph(const Unknowns                             &unknowns,
-          const std::vector<types::global_dof_index> &others) const;
+          const std::vector<types::global_dof_index> &others,
+          const IndexSet                             &own_rows) const;
 
     /** Position in the matrix's columns of a global unknown's first
      *  component. */

@@ -12,6 +12,8 @@
 
 #include <mpi.h>
 
+#include <vector>
+
 namespace Morula
 {
   /**
@@ -22,9 +24,13 @@ namespace Morula
   class SplineField
   {
   public:
-    /**
-     * @param u in the layout of FieldUnknowns::owned(). Collective.
-     */
+    /** @param u in the layout of FieldUnknowns::owned(). Neighbours exchange
+     *  values. */
+    SplineField(const SplineSpace<dim>                 &space,
+                const FieldUnknowns<dim, n_components> &unknowns,
+                const TrilinosWrappers::MPI::Vector    &u);
+
+    /** The same where the unknowns are not known. Collective. */
     SplineField(const SplineSpace<dim>              &space,
                 const TrilinosWrappers::MPI::Vector &u,
                 const MPI_Comm                       comm);
@@ -56,8 +62,8 @@ namespace Morula
     }
 
   private:
-    const SplineSpace<dim>       &space;
-    TrilinosWrappers::MPI::Vector relevant;
+    const SplineSpace<dim>   &space;
+    const std::vector<double> values; // at FieldUnknowns::relevant()
   };
 
   /** The displacement. */

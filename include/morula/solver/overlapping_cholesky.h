@@ -4,8 +4,8 @@
 #ifndef morula_solver_overlapping_cholesky_h
 #define morula_solver_overlapping_cholesky_h
 
+#include <morula/base/halo.h>
 #include <morula/solver/block_cholesky.h>
-#include <morula/solver/halo.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>

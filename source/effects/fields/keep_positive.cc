@@ -87,10 +87,7 @@ namespace Morula
           taken[s] = wants >= has ? (has > 0. ? 1. : 0.) : wants / has;
         }
       taken.compress(VectorOperation::insert);
-      TrilinosWrappers::MPI::Vector relevant;
-      relevant.reinit(unknowns.owned(), unknowns.relevant(), comm);
-      relevant                  = taken;
-      const double *const parts = relevant.trilinos_vector()[0];
+      const std::vector<double> parts = unknowns.fetch(taken);
       for (unsigned int c = 0; c < contents.size(); ++c)
         {
           double part = 0.;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/halo.h>
+#include <morula/base/halo.h>
 
 #include <deal.II/base/array_view.h>
 

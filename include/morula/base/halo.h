@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_solver_halo_h
-#define morula_solver_halo_h
+#ifndef morula_base_halo_h
+#define morula_base_halo_h
 
 #include <deal.II/base/partitioner.h>
 

@@ -46,4 +46,21 @@ namespace Morula
       ghosts,
       requests);
   }
+
+  std::vector<std::pair<unsigned int, std::vector<unsigned int>>>
+  Halo::needed_elsewhere() const
+  {
+    std::vector<std::pair<unsigned int, std::vector<unsigned int>>> result;
+    auto range = partitioner.import_indices().begin();
+    for (const auto &[rank, n] : partitioner.import_targets())
+      {
+        auto &entries =
+          result.emplace_back(rank, std::vector<unsigned int>()).second;
+        for (; entries.size() < n; ++range)
+          for (unsigned int entry = range->first; entry < range->second;
+               ++entry)
+            entries.push_back(entry);
+      }
+    return result;
+  }
 } // namespace Morula

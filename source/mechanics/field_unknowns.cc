@@ -40,29 +40,12 @@ namespace Morula
       return end == some.end() ? some.n_elements() :
                                  some.index_within_set(*end);
     }
-
-    /** Marks the unknowns (positions in relevant()) that the extended splines
-     *  of a grid cell depend on. */
-    template <int dim>
-    void
-    mark_extensions(const typename SplineSpace<dim>::GridCell &grid_cell,
-                    std::vector<bool>                         &marked)
-    {
-      const std::size_t n = grid_cell.unknowns.size();
-      for (auto row = grid_cell.weights.begin(); row != grid_cell.weights.end();
-           row += n)
-        if (std::count(row, row + n, 0.) + 1 < static_cast<long>(n))
-          for (std::size_t k = 0; k < n; ++k)
-            if (row[k] != 0.)
-              marked[grid_cell.unknowns[k]] = true;
-    }
   } // namespace
 
   template <int dim, int n_components>
   FieldUnknowns<dim, n_components>::FieldUnknowns(const SplineSpace<dim> &space,
                                                   const MPI_Comm          comm)
-    : space(space)
-    , owned_(dofs_of(space.owned(), n_components))
+    : owned_(dofs_of(space.owned(), n_components))
     , relevant_(dofs_of(space.relevant(), n_components))
     , own(relevant_ & owned_)
     , others(without(relevant_, owned_))
@@ -83,23 +66,6 @@ namespace Morula
   FieldUnknowns<dim, n_components>::relevant() const
   {
     return relevant_;
-  }
-
-  template <int dim, int n_components>
-  IndexSet
-  FieldUnknowns<dim, n_components>::of_extended_splines() const
-  {
-    std::vector<bool> marked(space.relevant().n_elements(), false);
-    for (const auto &grid_cell : space.grid_cells())
-      mark_extensions<dim>(grid_cell, marked);
-    std::vector<types::global_dof_index> dofs;
-    for (unsigned int s = 0; s < marked.size(); ++s)
-      for (unsigned int i = 0; marked[s] && i < n_components; ++i)
-        dofs.push_back(space.relevant().nth_index_in_set(s) * n_components + i);
-    IndexSet result(relevant_.size());
-    result.add_indices(dofs.begin(), dofs.end());
-    result.compress();
-    return result;
   }
 
   template <int dim, int n_components>

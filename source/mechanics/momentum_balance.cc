@@ -386,9 +386,8 @@ namespace Morula
       std::all_of(terms.begin(), terms.end(), [](const auto &term) {
         return term->is_conservative();
       });
-    result.null_space       = std::move(null_space);
-    result.strongly_coupled = assembly.unknowns().relevant();
-    result.n_components     = dim;
+    result.null_space   = std::move(null_space);
+    result.n_components = dim;
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
     result.costly = Utilities::MPI::sum(1. * n_cells, comm) >=

@@ -101,7 +101,8 @@ namespace Morula
         positive_ = positive_ && entry > 0.;
         scales[r] = entry > 0. ? 1. / std::sqrt(entry) : 1.;
       }
-    const double mean = n_entries / (n * n * std::max(1., 1. * n_blocks));
+    const double mean = parameters.mean_blocks.value_or(
+      n_entries / (n * n * std::max(1., 1. * n_blocks)));
     n_most = std::min(std::ceil(parameters.fill * mean), 1. * n_blocks);
   }
 
@@ -230,7 +231,7 @@ namespace Morula
 
   template <int n>
   void
-  BlockCholesky<n>::solve(double *x) const
+  BlockCholesky<n>::solve(double *x, const int n_dropped) const
   {
     // Far from the limits of single precision.
     double largest = 0.;
@@ -257,6 +258,7 @@ namespace Morula
               sum -= blocks[e].column[m] * z[m];
           }
       }
+    std::fill_n(y.begin(), n_dropped / n, Part());
     for (int k = n_blocks - 1; k >= 0; --k)
       {
         Lane sums[n] = {};

@@ -3,9 +3,6 @@
 
 #include <morula/solver/overlapping_cholesky.h>
 
-#include <Epetra_Import.h>
-#include <Epetra_Map.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -13,21 +10,29 @@ namespace Morula
 {
   namespace
   {
+    /** Those of lower ranks that the own rows couple with. */
     IndexSet
-    difference(IndexSet all, const IndexSet &part)
+    lower_columns(const Epetra_CrsMatrix &K, const IndexSet &own)
     {
-      all.subtract_set(part);
-      return all;
+      std::vector<types::global_dof_index> columns;
+      for (int k = 0; k < K.NumMyCols(); ++k)
+        if (const types::global_dof_index column = K.GCID(k);
+            own.n_elements() > 0 && column < own.nth_index_in_set(0))
+          columns.push_back(column);
+      std::sort(columns.begin(), columns.end());
+      IndexSet result(own.size());
+      result.add_indices(columns.begin(), columns.end());
+      result.compress();
+      return result;
     }
 
-    Epetra_Map
-    map_of(const IndexSet &set, const Epetra_Comm &comm)
+    /** An entry of a row on its way to another rank. In front of a row's
+     *  entries stands one with their number. */
+    struct Entry
     {
-      std::vector<int> rows;
-      for (const auto row : set)
-        rows.push_back(static_cast<int>(row));
-      return Epetra_Map(-1, rows.size(), rows.data(), 0, comm);
-    }
+      int   column;
+      float value;
+    };
 
     std::unique_ptr<IncompleteCholesky>
     make_factor(const unsigned int                    n_components,
@@ -50,40 +55,70 @@ namespace Morula
   } // namespace
 
   OverlappingCholesky::OverlappingCholesky(const Matrix      &K,
-                                           const IndexSet    &others,
                                            const unsigned int n_components,
                                            const Parameters  &parameters)
     : own(K.locally_owned_range_indices())
-    , others(difference(others, own))
-    , gathered(own.n_elements() + this->others.n_elements())
+    , others(lower_columns(K.trilinos_matrix(), own))
+    , gathered(own.n_elements() + others.n_elements())
   {
-    const Epetra_CrsMatrix &epetra = K.trilinos_matrix();
-    const Epetra_Map        map    = map_of(this->others, epetra.Comm());
-    Epetra_CrsMatrix        received(Copy, map, 0);
-    if (epetra.Comm().NumProc() > 1)
-      {
-        halo.emplace(own, this->others, K.get_mpi_communicator());
-        const int error =
-          received.Import(epetra, Epetra_Import(map, epetra.RowMap()), Insert);
-        AssertThrow(error == 0, ExcTrilinosError(error));
-      }
-    factorize(epetra, received, n_components, parameters);
+    if (Utilities::MPI::n_mpi_processes(K.get_mpi_communicator()) > 1)
+      halo.emplace(own, others, K.get_mpi_communicator());
+    factorize(K.trilinos_matrix(),
+              receive(K.trilinos_matrix()),
+              n_components,
+              parameters);
+  }
+
+  int
+  OverlappingCholesky::number_of(const types::global_dof_index row) const
+  {
+    if (own.is_element(row))
+      return others.n_elements() + own.index_within_set(row);
+    return others.is_element(row) ? others.index_within_set(row) : -1;
+  }
+
+  OverlappingCholesky::ReceivedRows
+  OverlappingCholesky::receive(const Epetra_CrsMatrix &K) const
+  {
+    ReceivedRows received;
+    received.begins.push_back(0);
+    if (!halo)
+      return received;
+    const auto append = [&](const unsigned int row, std::vector<Entry> &rows) {
+      int     length, *ids;
+      double *entries;
+      K.ExtractMyRowView(row, length, entries, ids);
+      const std::size_t head = rows.size();
+      rows.push_back({0, 0.f});
+      for (int k = 0; k < length; ++k)
+        if (const int column = K.GCID(ids[k]); column >= K.GRID(row))
+          rows.push_back({column, static_cast<float>(entries[k])});
+      rows[head].column = rows.size() - head - 1;
+    };
+    const auto take = [&](const std::vector<Entry> &rows) {
+      for (auto entry = rows.begin(); entry != rows.end();)
+        {
+          const auto end = entry + 1 + entry->column;
+          for (++entry; entry != end; ++entry)
+            if (const int column = number_of(entry->column); column >= 0)
+              {
+                received.columns.push_back(column);
+                received.values.push_back(entry->value);
+              }
+          received.begins.push_back(received.columns.size());
+        }
+    };
+    halo->fetch_lists<Entry>(append, take);
+    return received;
   }
 
   void
   OverlappingCholesky::factorize(const Epetra_CrsMatrix &K,
-                                 const Epetra_CrsMatrix &received,
+                                 const ReceivedRows     &received,
                                  const unsigned int      n_components,
                                  const Parameters       &parameters)
   {
-    const int  n_own     = own.n_elements();
-    const auto number_of = [&](const types::global_dof_index row) {
-      if (own.is_element(row))
-        return static_cast<int>(own.index_within_set(row));
-      return others.is_element(row) ?
-               n_own + static_cast<int>(others.index_within_set(row)) :
-               -1;
-    };
+    const int        n_others = others.n_elements();
     std::vector<int> numbers(K.NumMyCols()); // of the matrix's columns
     for (int k = 0; k < K.NumMyCols(); ++k)
       numbers[k] = number_of(K.GCID(k));
@@ -91,27 +126,33 @@ namespace Morula
     const auto row_of = [&](const int row, IncompleteCholesky::Row &result) {
       result.columns.clear();
       result.values.clear();
-      const bool is_own = row < n_own;
-      int        length, *ids;
-      double    *entries;
-      if (is_own)
-        K.ExtractMyRowView(row, length, entries, ids);
-      else
-        received.ExtractGlobalRowView(others.nth_index_in_set(row - n_own),
-                                      length,
-                                      entries,
-                                      ids);
-      for (int k = 0; k < length; ++k)
+      if (row < n_others)
         {
-          const int column = is_own ? numbers[ids[k]] : number_of(ids[k]);
-          if (column >= 0)
-            {
-              result.columns.push_back(column);
-              result.values.push_back(entries[k]);
-            }
+          const auto begin = received.begins[row],
+                     end   = received.begins[row + 1];
+          result.columns.assign(received.columns.begin() + begin,
+                                received.columns.begin() + end);
+          result.values.assign(received.values.begin() + begin,
+                               received.values.begin() + end);
+          return;
         }
+      int     length, *ids;
+      double *entries;
+      K.ExtractMyRowView(row - n_others, length, entries, ids);
+      for (int k = 0; k < length; ++k)
+        if (const int column = numbers[ids[k]]; column >= 0)
+          {
+            result.columns.push_back(column);
+            result.values.push_back(entries[k]);
+          }
     };
-    factor = make_factor(n_components, gathered.size(), row_of, parameters);
+    // The first rows of a block lack what lies outside of it: with as few
+    // blocks as that leaves the factor of own rows is barely positive.
+    Parameters of_block = parameters;
+    if (halo && own.n_elements() > 0)
+      of_block.mean_blocks =
+        0.5 * (1. * K.NumMyNonzeros() / (n_components * own.n_elements()) - 1.);
+    factor = make_factor(n_components, gathered.size(), row_of, of_block);
   }
 
   bool
@@ -129,12 +170,14 @@ namespace Morula
         factor->solve(y.trilinos_vector()[0]);
         return;
       }
-    const std::size_t n_own  = own.n_elements();
-    double *const     result = y.trilinos_vector()[0];
-    std::copy_n(x.begin(), n_own, gathered.begin());
-    halo->fetch(gathered.data(), gathered.data() + n_own);
-    factor->solve(gathered.data());
-    std::copy_n(gathered.begin(), n_own, result);
-    halo->add_back(gathered.data() + n_own, result);
+    const std::size_t n_own    = own.n_elements();
+    const std::size_t n_others = others.n_elements();
+    double *const     of_own   = gathered.data() + n_others;
+    double *const     result   = y.trilinos_vector()[0];
+    std::copy_n(x.begin(), n_own, of_own);
+    halo->fetch(of_own, gathered.data());
+    factor->solve(gathered.data(), n_others);
+    std::copy_n(of_own, n_own, result);
+    halo->add_back(gathered.data(), result);
   }
 } // namespace Morula

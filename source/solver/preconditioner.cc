@@ -74,8 +74,9 @@ namespace Morula
         parameters.relative_diagonal = attempts[n_tried].relative_diagonal;
         parameters.absolute_diagonal =
           absolute_diagonal * problem.typical_entry;
-        auto made = std::make_unique<OverlappingCholesky>(
-          A, problem.strongly_coupled, problem.n_components, parameters);
+        auto       made   = std::make_unique<OverlappingCholesky>(A,
+                                                          problem.n_components,
+                                                          parameters);
         const bool failed = !made->is_positive(); // on this rank
         if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
           factorisation_ = std::move(made);

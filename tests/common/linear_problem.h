@@ -73,7 +73,6 @@ namespace Morula
           pattern.add(row, column);
       pattern.compress();
       K.reinit(pattern);
-      linear.strongly_coupled = owned;
     }
 
     Vector

@@ -202,10 +202,7 @@ namespace
       }
     K.compress(VectorOperation::add);
     b.compress(VectorOperation::insert);
-    const OverlappingCholesky P(K,
-                                IndexSet(K.m()),
-                                dim,
-                                parameters(1.25, 1.02, 2e-5));
+    const OverlappingCholesky P(K, dim, parameters(1.25, 1.02, 2e-5));
     ASSERT_TRUE(P.is_positive());
     // Ifpack's factors of single entries, with 0.6 times those of the triangle
     // and with as many as these, took 33 and 19 in 2-D, 33 and 22 in 3-D.

@@ -291,8 +291,7 @@ namespace
     b *= -1.;
 
     LinearProblem problem;
-    problem.strongly_coupled = assembly.unknowns().of_extended_splines();
-    problem.typical_entry    = D * std::pow(ball.points[0].h, dim - 2);
+    problem.typical_entry = D * std::pow(ball.points[0].h, dim - 2);
     QuietTimer       timer;
     SolverParameters parameters;
     parameters.linear_solver = linear_solver;

@@ -4,8 +4,11 @@
 #ifndef morula_base_halo_h
 #define morula_base_halo_h
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/partitioner.h>
 
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -37,10 +40,76 @@ namespace Morula
     void
     add_back(double *others, double *own) const;
 
+    /**
+     * Lists of any length that go with the entries. Neighbours have to do the
+     * same.
+     * @tparam T trivially copyable
+     * @param append appends the list of an own entry, by its number among these
+     * @param take   gets the lists of consecutive entries of other ranks, one
+     *               after the other; called in the order of the entries
+     */
+    template <typename T, typename Append, typename Take>
+    void
+    fetch_lists(const Append &append, const Take &take) const;
+
   private:
+    /** By rank that needs them: numbers of own entries. */
+    std::vector<std::pair<unsigned int, std::vector<unsigned int>>>
+    needed_elsewhere() const;
+
     Utilities::MPI::Partitioner partitioner;
     mutable std::vector<double> buffer; // of the messages
   };
+
+
+  template <typename T, typename Append, typename Take>
+  void
+  Halo::fetch_lists(const Append &append, const Take &take) const
+  {
+    static_assert(std::is_trivially_copyable<T>::value,
+                  "only plain values can be sent byte by byte");
+    constexpr int               tag  = 0;
+    const MPI_Comm              comm = partitioner.get_mpi_communicator();
+    std::vector<std::vector<T>> sent;
+    std::vector<MPI_Request>    requests;
+    for (const auto &[rank, entries] : needed_elsewhere())
+      {
+        std::vector<T> &lists = sent.emplace_back();
+        for (const unsigned int entry : entries)
+          append(entry, lists);
+        requests.emplace_back();
+        const int error = MPI_Isend(lists.data(),
+                                    lists.size() * sizeof(T),
+                                    MPI_BYTE,
+                                    rank,
+                                    tag,
+                                    comm,
+                                    &requests.back());
+        AssertThrowMPI(error);
+      }
+    for (const auto &source : partitioner.ghost_targets())
+      {
+        MPI_Status status;
+        int        error = MPI_Probe(source.first, tag, comm, &status);
+        AssertThrowMPI(error);
+        int n_bytes;
+        error = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+        AssertThrowMPI(error);
+        std::vector<T> lists(n_bytes / sizeof(T));
+        error = MPI_Recv(lists.data(),
+                         n_bytes,
+                         MPI_BYTE,
+                         source.first,
+                         tag,
+                         comm,
+                         MPI_STATUS_IGNORE);
+        AssertThrowMPI(error);
+        take(lists);
+      }
+    const int error =
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    AssertThrowMPI(error);
+  }
 } // namespace Morula
 
 #endif

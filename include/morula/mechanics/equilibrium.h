@@ -104,10 +104,6 @@ namespace Morula
      * to them.
      */
     std::vector<Equilibrium::Vector> null_space;
-    /** Unknowns, of this rank or others, that this rank's part of the problem
-     *  couples strongly, such as those that extended splines depend on. The
-     *  preconditioner keeps them in one block. */
-    IndexSet strongly_coupled;
     /** Unknowns of a spline: they follow each other, on the same rank. */
     unsigned int n_components = 1;
     /** Typical entry of a matrix; of a tangent in kPa µm^(dim-2). */

@@ -39,11 +39,6 @@ namespace Morula
     const IndexSet &
     relevant() const;
 
-    /** Those that extended splines in this rank's active grid cells depend on.
-     *  A matrix couples these many times as much as others. */
-    IndexSet
-    of_extended_splines() const;
-
     /** The vector with these values at owned(), in order. */
     Vector
     vector(const std::vector<double> &values) const;
@@ -68,12 +63,11 @@ namespace Morula
     void
     for_own(const Action &action) const;
 
-    const SplineSpace<dim> &space;
-    const IndexSet          owned_, relevant_;
-    const IndexSet          own, others; // of the relevant ones
-    const unsigned int      n_below;     // others that come before the own ones
-    const Halo              halo;        // of the others
-    const Vector            zero_;       // copies share its map
+    const IndexSet     owned_, relevant_;
+    const IndexSet     own, others; // of the relevant ones
+    const unsigned int n_below;     // others that come before the own ones
+    const Halo         halo;        // of the others
+    const Vector       zero_;       // copies share its map
   };
 
   /**

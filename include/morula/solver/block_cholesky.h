@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -20,6 +21,9 @@ namespace Morula
       /** Blocks of the factor over those of the matrix's triangle; the largest
        *  of each column are kept. */
       double fill = 1.;
+      /** Blocks of the triangle in a column, in the mean, if these are not the
+       *  matrix's own: a part of a matrix has fewer than the whole. */
+      std::optional<double> mean_blocks;
       /** The diagonal is multiplied by the relative one and raised by the
        *  absolute one. */
       double relative_diagonal = 1.;
@@ -44,9 +48,10 @@ namespace Morula
     virtual bool
     is_positive() const = 0;
 
-    /** x = M⁻¹ x. */
+    /** x = L⁻ᵀ D L⁻¹ x, where D is 1 but for the first @p n_dropped rows, in
+     *  which it is 0: M⁻¹ x if there are none. */
     virtual void
-    solve(double *x) const = 0;
+    solve(double *x, const int n_dropped = 0) const = 0;
   };
 
   /** n numbers in one register: three take the place of four. */
@@ -100,7 +105,7 @@ namespace Morula
     is_positive() const override;
 
     void
-    solve(double *x) const override;
+    solve(double *x, const int n_dropped = 0) const override;
 
   private:
     using Lane = typename Lanes<n>::Type;

@@ -13,6 +13,7 @@
 
 #include <Epetra_CrsMatrix.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,13 +23,19 @@ namespace Morula
   using namespace dealii;
 
   /**
-   * A preconditioner for symmetric positive matrices: the sum of incomplete
-   * Cholesky factorisations of overlapping blocks, one a rank; on one rank the
-   * factorisation of the matrix. Ifpack has overlapping blocks (and deal.II's
-   * PreconditionIC uses these), but overlaps whole layers of the matrix's
-   * graph, which is several times the work that is needed here, and drops a
-   * block's contributions outside the rank's own rows, which is not symmetric
-   * (doc/performance.md, Two ranks).
+   * A preconditioner for symmetric positive matrices, of which each rank makes
+   * a part: an approximate inverse in factors, M⁻¹ = Gᵀ G, doc/theory.md (7.2).
+   * A rank's block has its own rows and, in front of them, all that couple with
+   * these and belong to lower ranks. In the block's incomplete factor L the
+   * rows of L⁻¹ that are the rank's own are its rows of G. If each block had
+   * all lower rows, G would be the inverse of the whole matrix's factor; on one
+   * rank it is. In additive Schwarz methods, Ifpack's among them, what blocks
+   * have in common counts several times, which costs more than twice the
+   * iterations on 16 ranks (doc/performance.md, The linear solver).
+   *
+   * I. E. Kaporin and I. N. Konshin: A parallel block overlap preconditioning
+   * with inexact submatrix inversion for linear elasticity problems, Numer.
+   * Linear Algebra Appl. 9, 141-162 (2002).
    */
   class OverlappingCholesky
   {
@@ -40,12 +47,10 @@ namespace Morula
 
     /**
      * @param K is not used afterwards
-     * @param others rows of this rank's block besides its own
      * @param n_components unknowns of a spline, 1 to 3: these follow each
-     *        other, and go to the same ranks and blocks
+     *        other, on the same rank
      */
     OverlappingCholesky(const Matrix      &K,
-                        const IndexSet    &others,
                         const unsigned int n_components,
                         const Parameters  &parameters);
 
@@ -58,14 +63,31 @@ namespace Morula
     vmult(Vector &y, const Vector &x) const;
 
   private:
+    /** Rows of lower ranks, from the diagonal on: all that a symmetric block
+     *  needs of them, as precise as its factor. */
+    struct ReceivedRows
+    {
+      std::vector<std::size_t> begins;
+      std::vector<int>         columns; // in the block
+      std::vector<float>       values;
+    };
+
+    /** Number of a row in this rank's block, -1 if it is not there: own ones
+     *  come last. */
+    int
+    number_of(const types::global_dof_index row) const;
+
+    ReceivedRows
+    receive(const Epetra_CrsMatrix &K) const;
+
     void
     factorize(const Epetra_CrsMatrix &K,
-              const Epetra_CrsMatrix &received,
+              const ReceivedRows     &received,
               const unsigned int      n_components,
               const Parameters       &parameters);
 
     const IndexSet                      own;
-    const IndexSet                      others; // without the own ones
+    const IndexSet                      others; // rows of lower ranks
     std::optional<Halo>                 halo;   // not on one rank
     std::unique_ptr<IncompleteCholesky> factor;
     mutable std::vector<double>         gathered; // of the block

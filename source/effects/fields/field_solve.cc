@@ -73,7 +73,6 @@ namespace Morula
     , values(reader.columns.fields.size())
   {
     assembly.make_pattern();
-    problem.strongly_coupled = assembly.unknowns().of_extended_splines();
     equation.cell_places =
       grouped_places(tissue.cells(),
                      space,

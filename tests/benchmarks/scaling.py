@@ -6,12 +6,12 @@ import math
 
 CELLS = ("tangent", "residual", "commit", "growth", "points", "nitsche",
          "division", "strays", "statistics")
-ROWS = ("preconditioner", "linear solver", "sparsity pattern")
 # What the model takes a cluster to be.
 LATENCY = 2e-6       # s, of a message
 BANDWIDTH = 1e10     # bytes a second and rank
 MESSAGES = 1         # reductions of a CG iteration
-OVERLAP = 3          # splines for each one along a block's rim at the surface
+REACH = 2            # splines around own ones that these couple with
+SUBSTITUTION = 0.3   # of an iteration, whose other part is the product
 RINGS = 14           # around what a rank reaches (grid/grid_window), and its reach
 RING = 6e-7          # s a step, of a grid cell of the rings
 
@@ -49,7 +49,10 @@ class Model:
         cells = last(large, "cells")
         self.newton = large.total("newton_iterations") / (len(large.rows) - 1)
         self.per_cell = step_time(large, CELLS) / cells
-        self.per_row = step_time(large, ROWS) / last(large, "unknowns")
+        self.pattern, self.factor, self.iteration = (
+            step_time(large, (name,)) / last(large, "unknowns")
+            for name in ("sparsity pattern", "preconditioner",
+                         "linear solver"))  # by row
         self.rows = last(large, "unknowns") / cells
         # The grid: a part for each cell, one for each row.
         self.grid_per_row = ((step_time(fine, ("grid",))
@@ -71,17 +74,18 @@ class Model:
         more = ((cells / self.cells)**self.growth
                 * (penalty if ranks > 1 else 1))
         rows = self.rows * cells / ranks
-        # Blocks overlap where the tissue's surface has their rim: the slowest
-        # is a cube of which one face lies in the surface.
+        # All wait for the largest block, whose neighbours are all lower ranks.
         edge = (rows / 3)**(1 / 3)
-        block = 1 + 4 * edge * OVERLAP / edge**3 if ranks > 1 else 1
+        block = (1 + 2 * REACH / edge)**3 if ranks > 1 else 1
+        by_row = (self.pattern + self.factor * block + self.iteration * more
+                  * (1 - SUBSTITUTION + SUBSTITUTION * block))
         iterations = self.newton * self.iterations * more
         messages = iterations * (
             MESSAGES * LATENCY * math.log2(max(ranks, 1))
             + (6 * edge**2 * 3 * 8 / BANDWIDTH if ranks > 1 else 0))
         # A rank's window holds its own grid cells, and the rings around them.
         rings = min((edge + 2 * RINGS)**3, self.rows * cells / 3) - edge**3
-        return (self.per_cell * cells / ranks, self.per_row * rows * block * more,
+        return (self.per_cell * cells / ranks, by_row * rows,
                 self.grid_per_row * rows + RING * max(rings, 0), messages)
 
 

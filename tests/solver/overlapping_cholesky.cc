@@ -17,7 +17,7 @@ using namespace Morula;
 
 namespace
 {
-  constexpr unsigned int n = 30;
+  constexpr unsigned int n = 72;
 
   double
   entry(const unsigned int i, const unsigned int j, const double diagonal)
@@ -27,12 +27,13 @@ namespace
     return -1. / (1. + (i > j ? i - j : j - i));
   }
 
-  /** Each row couples to its four neighbours by number, and to some far away.
+  /** Each six rows couple to the six before and behind, and to some far away.
    */
   bool
   couple(const unsigned int i, const unsigned int j)
   {
-    return (i > j ? i - j : j - i) <= 2 || (i + j) % 11 == 0;
+    const unsigned int a = i / 6, b = j / 6;
+    return (a > b ? a - b : b - a) <= 1 || (a + b) % 7 == 0;
   }
 
   /** Rows of a rank's part: about equal parts, in order. */
@@ -138,10 +139,6 @@ TEST(OverlappingCholesky, HasTheRanksRowsOfTheirBlocksInverseFactors)
   const double                   diagonal = 6.;
   TrilinosWrappers::SparseMatrix K;
   fill(K, diagonal);
-  OverlappingCholesky::Parameters parameters;
-  parameters.fill = 10.;
-  const OverlappingCholesky P(K, 1, parameters);
-  EXPECT_TRUE(P.is_positive());
   std::vector<double>         all(n);
   OverlappingCholesky::Vector x(own_rows(), MPI_COMM_WORLD), y(x);
   for (unsigned int i = 0; i < n; ++i)
@@ -149,20 +146,27 @@ TEST(OverlappingCholesky, HasTheRanksRowsOfTheirBlocksInverseFactors)
   for (const auto i : own_rows())
     x(i) = all[i];
   x.compress(VectorOperation::insert);
-  P.vmult(y, x);
-  const std::vector<double> expected = exact(all, diagonal);
-  for (const auto i : own_rows())
-    EXPECT_NEAR(y(i), expected[i], 1e-6) << "row " << i;
+  const std::vector<double>       expected = exact(all, diagonal);
+  OverlappingCholesky::Parameters parameters;
+  parameters.fill = 100.;
+  for (const unsigned int n_components : {1, 2, 3})
+    {
+      const OverlappingCholesky P(K, n_components, parameters);
+      EXPECT_TRUE(P.is_positive());
+      P.vmult(y, x);
+      for (const auto i : own_rows())
+        EXPECT_NEAR(y(i), expected[i], 1e-6) << "row " << i;
+    }
 }
 
 
 TEST(OverlappingCholesky, RaisesTheDiagonal)
 {
   TrilinosWrappers::SparseMatrix K, raised;
-  fill(K, 3.);
-  fill(raised, 3.);
+  fill(K, 6.);
+  fill(raised, 6.);
   for (const auto i : own_rows())
-    raised.set(i, i, 1.5 * entry(i, i, 3.) + 0.25);
+    raised.set(i, i, 1.5 * entry(i, i, 6.) + 0.25);
   raised.compress(VectorOperation::insert);
   OverlappingCholesky::Parameters parameters, none;
   parameters.relative_diagonal = 1.5;

@@ -54,27 +54,14 @@ namespace Morula
       });
   }
 
-  template <int dim>
-  void
-  write_csv(const std::string      &path,
-            const PointFields<dim> &fields,
-            const MPI_Comm          comm,
-            const std::uint64_t     shared_from)
-  {
-    finish(begin_csv(path, fields, comm, shared_from), comm);
-  }
-
-#define INSTANTIATE(dim)                                                    \
-  template std::unique_ptr<PendingFile> begin_csv(const std::string &,      \
-                                                  const PointFields<dim> &, \
-                                                  const MPI_Comm,           \
-                                                  const std::uint64_t);     \
-  template void                         write_csv(const std::string &,      \
-                                                  const PointFields<dim> &, \
-                                                  const MPI_Comm,           \
-                                                  const std::uint64_t);
-
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template std::unique_ptr<PendingFile>
+  begin_csv<2>(const std::string &,
+               const PointFields<2> &,
+               const MPI_Comm,
+               const std::uint64_t);
+  template std::unique_ptr<PendingFile>
+  begin_csv<3>(const std::string &,
+               const PointFields<3> &,
+               const MPI_Comm,
+               const std::uint64_t);
 } // namespace Morula

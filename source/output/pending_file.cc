@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/output/pending_file.h>
 
 #include <utility>
@@ -25,15 +24,6 @@ namespace Morula
   void
   PendingFile::commit()
   {
-    file->commit();
-  }
-
-  void
-  finish(std::unique_ptr<PendingFile> file, const MPI_Comm comm)
-  {
-    if (file == nullptr)
-      return;
-    everywhere(comm, [&]() { file->write(); });
     file->commit();
   }
 } // namespace Morula

@@ -108,19 +108,6 @@ namespace Morula
       });
   }
 
-  template <int dim>
-  void
-  write_vtu(const std::string  &path,
-            PointFields<dim>    fields,
-            const double        time,
-            const unsigned int  number,
-            const MPI_Comm      comm,
-            const std::uint64_t shared_from)
-  {
-    finish(begin_vtu(path, std::move(fields), time, number, comm, shared_from),
-           comm);
-  }
-
   void
   write_pvd(const std::string                                 &path,
             const std::vector<std::pair<double, std::string>> &times_and_names,
@@ -140,21 +127,18 @@ namespace Morula
     });
   }
 
-#define INSTANTIATE(dim)                                                \
-  template std::unique_ptr<PendingFile> begin_vtu(const std::string &,  \
-                                                  PointFields<dim>,     \
-                                                  const double,         \
-                                                  const unsigned int,   \
-                                                  const MPI_Comm,       \
-                                                  const std::uint64_t); \
-  template void                         write_vtu(const std::string &,  \
-                                                  PointFields<dim>,     \
-                                                  const double,         \
-                                                  const unsigned int,   \
-                                                  const MPI_Comm,       \
-                                                  const std::uint64_t);
-
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template std::unique_ptr<PendingFile>
+  begin_vtu<2>(const std::string &,
+               PointFields<2>,
+               const double,
+               const unsigned int,
+               const MPI_Comm,
+               const std::uint64_t);
+  template std::unique_ptr<PendingFile>
+  begin_vtu<3>(const std::string &,
+               PointFields<3>,
+               const double,
+               const unsigned int,
+               const MPI_Comm,
+               const std::uint64_t);
 } // namespace Morula

@@ -330,19 +330,27 @@ namespace Morula
     };
     add("cells", std::move(cells));
     add("surface", std::move(surface));
-    points_listed = false;
     // What waits must not be what is too much for the next step.
     points.start(std::move(files), memory_is_short(comm));
     if (!points.pending())
-      finish_points();
+      list_points();
   }
 
   template <int dim>
   void
   RunFiles<dim>::finish_points()
   {
+    if (!points.pending())
+      return;
     points.finish();
-    if (!points_listed && has_format("vtu"))
+    list_points();
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::list_points()
+  {
+    if (has_format("vtu"))
       for (const std::string stem : {"cells", "surface"})
         {
           std::vector<std::pair<double, std::string>> names;
@@ -350,7 +358,6 @@ namespace Morula
             names.emplace_back(output_times[n], numbered_file(stem, n, "vtu"));
           write_pvd(path(stem + ".pvd"), names, comm);
         }
-    points_listed = true;
   }
 
   template <int dim>

@@ -13,6 +13,7 @@
 #include <random>
 
 #include "output/scratch_directory.h"
+#include "output/write_at_once.h"
 
 using namespace Morula;
 
@@ -86,7 +87,7 @@ TEST(Csv, WritesRowsInIdOrder)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "cells-0000.csv";
-  write_csv(path, dealt_points(1000), MPI_COMM_WORLD);
+  write_csv(path, dealt_points(1000));
 
   std::string expected = "id,third\n";
   for (int id = 0; id < 1000; ++id)
@@ -97,10 +98,10 @@ TEST(Csv, WritesRowsInIdOrder)
 TEST(Csv, WritesAHeaderWithoutRows)
 {
   const ScratchDirectory directory;
-  write_csv(directory / "a.csv", dealt_points(0), MPI_COMM_WORLD);
+  write_csv(directory / "a.csv", dealt_points(0));
   EXPECT_EQ(content(directory / "a.csv"), "id,third\n");
   MPI_Barrier(MPI_COMM_WORLD);
-  write_csv(directory / "a.csv", dealt_points(1), MPI_COMM_WORLD);
+  write_csv(directory / "a.csv", dealt_points(1));
   EXPECT_EQ(content(directory / "a.csv"), "id,third\n0,0\n");
 }
 
@@ -108,12 +109,12 @@ TEST(Csv, LeavesTheOldFileWhenTheDiskIsFull)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "a.csv";
-  write_csv(path, dealt_points(1), MPI_COMM_WORLD);
+  write_csv(path, dealt_points(1));
   {
     const FullDisk full(1000);
     try
       {
-        write_csv(path, dealt_points(1000), MPI_COMM_WORLD);
+        write_csv(path, dealt_points(1000));
         ADD_FAILURE() << "a full disk went unnoticed";
       }
     catch (const std::runtime_error &error)
@@ -137,8 +138,8 @@ TEST(Csv, IsTheSameWrittenTogether)
       const auto        fields   = dealt_points(n);
       const std::string gathered = directory / "gathered.csv";
       const std::string together = directory / "together.csv";
-      write_csv(gathered, fields, MPI_COMM_WORLD, ~std::uint64_t(0));
-      write_csv(together, fields, MPI_COMM_WORLD, 0);
+      write_csv(gathered, fields, ~std::uint64_t(0));
+      write_csv(together, fields, 0);
       EXPECT_GE(content(gathered).size(), 9u + 4u * n);
       EXPECT_EQ(content(together), content(gathered));
       EXPECT_EQ(directory.files(),

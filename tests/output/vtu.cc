@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "output/scratch_directory.h"
+#include "output/write_at_once.h"
 
 using namespace Morula;
 
@@ -82,7 +83,7 @@ namespace
   {
     const ScratchDirectory directory;
     const std::string      path = directory / "cells-0002.vtu";
-    write_vtu(path, dealt_points<dim>(7), 0.5, 2, MPI_COMM_WORLD);
+    write_vtu(path, dealt_points<dim>(7), 0.5, 2);
     const auto found = summary(path);
     EXPECT_EQ(found.first, 7u);
     EXPECT_EQ(found.second,
@@ -155,15 +156,15 @@ TEST(Vtu, CanBeEmpty)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "surface-0000.vtu";
-  write_vtu(path, dealt_points<3>(0), 0., 0, MPI_COMM_WORLD);
+  write_vtu(path, dealt_points<3>(0), 0., 0);
   EXPECT_EQ(summary(path).first, 0u);
 }
 
 TEST(Vtu, IsReadByTheVtkLibrary)
 {
   const ScratchDirectory directory;
-  write_vtu(directory / "a.vtu", dealt_points<2>(7), 0.5, 2, MPI_COMM_WORLD);
-  write_vtu(directory / "b.vtu", dealt_points<3>(7), 0.5, 2, MPI_COMM_WORLD);
+  write_vtu(directory / "a.vtu", dealt_points<2>(7), 0.5, 2);
+  write_vtu(directory / "b.vtu", dealt_points<3>(7), 0.5, 2);
   const std::string python = python_with_vtk();
   if (python.empty())
     GTEST_SKIP() << "there is no Python with the VTK library";
@@ -186,7 +187,7 @@ TEST(Vtu, LeavesTheOldFileWhenTheDiskIsFull)
   on_root(MPI_COMM_WORLD, [&]() { write(path, "old"); });
   {
     const FullDisk full(500);
-    EXPECT_THROW(write_vtu(path, dealt_points<3>(7), 0.5, 2, MPI_COMM_WORLD),
+    EXPECT_THROW(write_vtu(path, dealt_points<3>(7), 0.5, 2),
                  std::runtime_error);
   }
   EXPECT_EQ(content(path), "old");
@@ -230,7 +231,7 @@ TEST(Vtu, IsTheSameWrittenTogether)
       const auto write  = [&](const std::string  &name,
                              const std::uint64_t shared_from) {
         const std::string path = directory / name;
-        write_vtu(path, fields, 0.5, 2, MPI_COMM_WORLD, shared_from);
+        write_vtu(path, fields, 0.5, 2, shared_from);
         return content(path);
       };
       const std::string gathered = write("gathered.vtu", ~std::uint64_t(0));
@@ -247,13 +248,9 @@ TEST(Vtu, IsTheSameWrittenTogether)
 TEST(Vtu, FailsTogether)
 {
   const ScratchDirectory directory;
-  EXPECT_THROW(write_vtu(directory / "missing/cells.vtu",
-                         dealt_points<3>(7),
-                         0.5,
-                         2,
-                         MPI_COMM_WORLD,
-                         0),
-               std::runtime_error);
+  EXPECT_THROW(
+    write_vtu(directory / "missing/cells.vtu", dealt_points<3>(7), 0.5, 2, 0),
+    std::runtime_error);
   EXPECT_EQ(directory.files(), std::vector<std::string>());
 }
 
@@ -270,9 +267,8 @@ TEST(Vtu, FailsTogetherWhereOneRankCannotWrite)
     std::optional<FullDisk> full;
     if (rank + 1 == n)
       full.emplace(1000);
-    EXPECT_THROW(
-      write_vtu(path, dealt_points<3>(500), 0.5, 2, MPI_COMM_WORLD, 0),
-      std::runtime_error);
+    EXPECT_THROW(write_vtu(path, dealt_points<3>(500), 0.5, 2, 0),
+                 std::runtime_error);
   }
   MPI_Barrier(MPI_COMM_WORLD); // rank 0 has removed what there was
   EXPECT_EQ(directory.files(), std::vector<std::string>{"cells.vtu"});

@@ -20,7 +20,7 @@ namespace Morula
    * The degrees of freedom of a field of n components on a spline space:
    * component i of unknown spline s is number s n + i, over all ranks. Without
    * a number of components the field is the displacement. It knows once and for
-   * all which values ranks exchange. Keeps a reference to the space.
+   * all which values ranks exchange.
    */
   template <int dim, int n_components = dim>
   class FieldUnknowns

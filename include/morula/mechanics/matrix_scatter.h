@@ -85,7 +85,9 @@ namespace Morula
                  const Messages  &announced,
                  const IndexSet  &own_rows);
 
-    /** What other ranks have added to own rows, by rank. */
+    /** What other ranks have added to own rows, by rank. deal.II's
+     *  some_to_some() would ask anew who has something for whom, which takes
+     *  barriers of all ranks. */
     std::map<unsigned int, std::vector<double>>
     exchange() const;
 

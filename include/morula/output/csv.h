@@ -32,14 +32,6 @@ namespace Morula
             const PointFields<dim> &fields,
             const MPI_Comm          comm,
             const std::uint64_t     shared_from = PartOfFile::worth_while);
-
-  /** The whole file at once; see begin_csv(). */
-  template <int dim>
-  void
-  write_csv(const std::string      &path,
-            const PointFields<dim> &fields,
-            const MPI_Comm          comm,
-            const std::uint64_t     shared_from = PartOfFile::worth_while);
 } // namespace Morula
 
 #endif

@@ -37,12 +37,6 @@ namespace Morula
     std::unique_ptr<SharedFile>       file;
     std::function<void(SharedFile &)> content;
   };
-
-  /** Writes the file, unless it is nullptr, and replaces the old one.
-   *  Collective.
-   *  @throws std::runtime_error on all ranks, with path and reason */
-  void
-  finish(std::unique_ptr<PendingFile> file, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

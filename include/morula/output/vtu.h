@@ -41,16 +41,6 @@ namespace Morula
             const MPI_Comm      comm,
             const std::uint64_t shared_from = PartOfFile::worth_while);
 
-  /** The whole file at once; see begin_vtu(). */
-  template <int dim>
-  void
-  write_vtu(const std::string  &path,
-            PointFields<dim>    fields,
-            const double        time,
-            const unsigned int  number,
-            const MPI_Comm      comm,
-            const std::uint64_t shared_from = PartOfFile::worth_while);
-
   /**
    * Writes the ParaView record of a series: times (day) and file names relative
    * to the record. Files that are not there (the format was switched on later)

@@ -127,9 +127,13 @@ namespace Morula
     bool
     has_format(const std::string &format) const;
 
-    /** Waits for the files of points, and lists them for ParaView. */
+    /** Waits for the files of points, if there are any, and lists them. */
     void
     finish_points();
+
+    /** Lists the files of points for ParaView. */
+    void
+    list_points();
 
     const Scene                  scene;
     const MPI_Comm               comm;
@@ -146,7 +150,6 @@ namespace Morula
     // The tables that the scene has, by their names without ending.
     std::map<std::string, AppendedCsv> tables;
     BackgroundFiles                    points; // cells and surface
-    bool points_listed = true;                 // the last ones, for ParaView
   };
 } // namespace Morula
 

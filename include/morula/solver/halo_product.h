@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_base_halo_product_h
-#define morula_base_halo_product_h
+#ifndef morula_solver_halo_product_h
+#define morula_solver_halo_product_h
 
 #include <morula/base/halo.h>
 #include <morula/mechanics/equilibrium.h>

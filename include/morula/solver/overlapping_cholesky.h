@@ -31,11 +31,8 @@ namespace Morula
    * all lower rows, G would be the inverse of the whole matrix's factor; on one
    * rank it is. In additive Schwarz methods, Ifpack's among them, what blocks
    * have in common counts several times, which costs more than twice the
-   * iterations on 16 ranks (doc/performance.md, The linear solver).
-   *
-   * I. E. Kaporin and I. N. Konshin: A parallel block overlap preconditioning
-   * with inexact submatrix inversion for linear elasticity problems, Numer.
-   * Linear Algebra Appl. 9, 141-162 (2002).
+   * iterations on 16 ranks (doc/performance.md, The linear solver). After I. E.
+   * Kaporin and I. N. Konshin, Numer. Linear Algebra Appl. 9 (2002).
    */
   class OverlappingCholesky
   {

@@ -421,7 +421,7 @@ namespace Morula
   void
   FieldSolver<dim>::at_cells(const Vector &field, const Action &action) const
   {
-    const SplineField<dim, 1> splines(space, field, tissue.communicator());
+    const SplineField<dim, 1> splines(space, assembly.unknowns(), field);
     const auto               &places = equation.cell_places;
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
@@ -461,7 +461,7 @@ namespace Morula
   FieldSolver<dim>::gradients(const Vector &field) const
   {
     std::vector<Tensor<1, dim>> result(tissue.cells().size());
-    const SplineField<dim, 1>   all(space, field, tissue.communicator());
+    const SplineField<dim, 1>   all(space, assembly.unknowns(), field);
     all.at_points(tissue.cells(),
                   [&](const unsigned int        p,
                       const LocalField<dim, 1> &here,

@@ -92,7 +92,7 @@ namespace Morula
     /** Points that a rank sends in one go at most. All points, as at the start
      *  of a run, would be there four times: as they are, as messages to be
      *  sent, as received ones, and as what becomes of these. On 16 ranks that
-     * is the most memory that a run takes (doc/performance.md, Two ranks). */
+     *  was the most memory that a run took (doc/performance.md, Two ranks). */
     constexpr std::size_t points_at_once = 1 << 13;
 
     /** How many points all ranks have for this one. Collective. */

@@ -16,6 +16,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -31,19 +32,23 @@ namespace Morula
   namespace
   {
     /**
-     * Gives arrays of 32 MB and more a memory mapping of their own, which
-     * returns to the system when they are freed. That is glibc's default, but
-     * SuperLU_DIST, which Trilinos may link, switches it off for the whole
-     * process when it is loaded. The holes that such arrays then leave in the
-     * heap cost 0.6 GB for a million cells (doc/performance.md, Numbers of
-     * cells).
+     * Gives large arrays a memory mapping of their own, which returns to the
+     * system when they are freed: those of 2 MB and more on one rank, and on
+     * several what is a rank's share of that. glibc does so by default, from
+     * 128 kB on at first, but SuperLU_DIST, which Trilinos may link, switches
+     * it off for the whole process when it is loaded. The holes that such
+     * arrays then leave in the heap cost 0.6 GB for a million cells. Mappings
+     * of smaller arrays cost more time than they save memory
+     * (doc/performance.md, Numbers of cells).
      */
     void
     map_large_arrays()
     {
 #ifdef __GLIBC__
+      const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       mallopt(M_MMAP_MAX, 1 << 16);
-      mallopt(M_MMAP_THRESHOLD, 1 << 25);
+      mallopt(M_MMAP_THRESHOLD, std::max((1u << 21) / n_ranks, 1u << 16));
 #endif
     }
 
@@ -161,7 +166,6 @@ namespace Morula
   int
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
-    map_large_arrays();
     set_up_open_mpi();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
@@ -169,6 +173,7 @@ namespace Morula
     char                           **only_name = name;
     int                              n_words   = 1;
     Utilities::MPI::MPI_InitFinalize mpi(n_words, only_name, 1);
+    map_large_arrays();
     deal_II_exceptions::disable_abort_on_exception();
     deal_II_exceptions::suppress_stacktrace_in_exceptions();
 

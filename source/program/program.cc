@@ -37,8 +37,7 @@ namespace Morula
      * several what is a rank's share of that. glibc does so by default, from
      * 128 kB on at first, but SuperLU_DIST, which Trilinos may link, switches
      * it off for the whole process when it is loaded. The holes that such
-     * arrays then leave in the heap cost 0.6 GB for a million cells. Mappings
-     * of smaller arrays cost more time than they save memory
+     * arrays then leave in the heap cost 0.6 GB for a million cells
      * (doc/performance.md, Numbers of cells).
      */
     void

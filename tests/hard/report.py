@@ -90,6 +90,7 @@ def markdown(runs, findings, full):
     """The table, and below it what is asserted."""
     size = "Full size." if full else "At the size of ctest."
     asserted = [f"- {finding.text}: {finding.value:.4g} ({finding.limits()})"
+                + ("" if finding.holds() else " **not met**")
                 for finding in findings]
     return "\n".join([f"*{size}*", "",
                       tables.markdown(HEADER, rows(runs, findings)), "",

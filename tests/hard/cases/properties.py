@@ -159,10 +159,9 @@ def judge_volumes(runs):
             divisions += run.results.statistics()["dividing"].sum()
         # One point a cell and flat patches: of first order at a surface that
         # cuts through the lattice, of second order at one along it.
-        most = 0.08 if family is PROJECTED else 0.05
         yield Finding(f"{family.name}: volume of cells against the volume inside "
                       "the surface, over L_p/R", max(errors),
-                      at_most=0.002 if family in (BOXES, BOXES_3D) else most)
+                      at_most=0.002 if family in (BOXES, BOXES_3D) else 0.05)
     yield Finding("initial volume lost or won by division, relative",
                   conserved, at_most=2e-9)
     yield Finding("divisions in these scenes", divisions, at_least=100)
@@ -176,8 +175,6 @@ def judge_turns(runs):
                          for seed, run, other in family.of(runs, name)]
             # what the solver leaves, and the tables' digits
             limit = 1e-8 if family in (BOXES, BOXES_3D) else 1e-7
-            if family is ALIGNED_3D and len(distances) > 1:
-                limit = 5e-5  # still depends on the frame: see the document
             yield Finding(f"{family.name} {name}: cells apart / h",
                           max(distances), at_most=limit, error=True,
                           trial=f"{family.name}, {name}")

@@ -38,8 +38,7 @@ def judge(runs):
     worst = max(abs(enclosed(read_csv(s)) / read_csv(c)["volume"].sum() - 1)
                 for c, s in files)
     yield Finding("volume inside the surface against that of the cells, "
-                  "largest relative difference", worst,
-                  at_most=0.06 if n[-1] < 1e5 else 0.09,
+                  "largest relative difference", worst, at_most=0.06,
                   error=True, trial="ball")
 
     trace = cells["volume"] * numpy.trace(stresses(cells), axis1=1, axis2=2)

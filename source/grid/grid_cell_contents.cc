@@ -8,6 +8,13 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** Points so near to a grid line are on it, in units of h: that is what
+     *  rounding leaves of their places. */
+    constexpr double on_line = 1e-9;
+  } // namespace
+
   template <int dim>
   GridCellContents<dim>::GridCellContents(const GridWindow<dim> &window)
     : window_(window)
@@ -61,7 +68,16 @@ namespace Morula
   void
   GridCellContents<dim>::add_quadrature_point(const Point<dim> &x)
   {
-    ++counts[boxes().number(boxes().locate(x))][quadrature];
+    Point<dim> lower = x, upper = x;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] -= on_line * boxes().spacing();
+        upper[d] += on_line * boxes().spacing();
+      }
+    boxes().for_range({boxes().locate(lower), boxes().locate(upper)},
+                      [&](const unsigned int number, const auto &) {
+                        ++counts[number][quadrature];
+                      });
   }
 
   template <int dim>

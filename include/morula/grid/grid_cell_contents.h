@@ -37,7 +37,8 @@ namespace Morula
     void
     add_boundary_point(const Point<dim> &x);
 
-    /** Adds a quadrature point at @p x. */
+    /** Adds a quadrature point at @p x. On a grid line it counts on both sides:
+     *  else a mirrored tissue would have other classes of grid cells. */
     void
     add_quadrature_point(const Point<dim> &x);
 

@@ -92,7 +92,9 @@ namespace Morula
       }
     const TimerOutput::Scope section(timer, "linear solver");
     if (!is_direct && !(product && product->is_of(K)))
-      product.emplace(K);
+      product.emplace(K, problem.n_components, problem.symmetric);
+    else if (!is_direct && !as_before)
+      product->read();
     try
       {
         if (is_direct)

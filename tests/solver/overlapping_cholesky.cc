@@ -4,20 +4,21 @@
 
 #include <morula/solver/overlapping_cholesky.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/lac/vector.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "common/coupled_rows.h"
+
 using namespace Morula;
 
 namespace
 {
-  constexpr unsigned int n = 72;
+  using CoupledRows::couple, CoupledRows::n, CoupledRows::own_rows,
+    CoupledRows::rows_of;
 
   double
   entry(const unsigned int i, const unsigned int j, const double diagonal)
@@ -27,47 +28,12 @@ namespace
     return -1. / (1. + (i > j ? i - j : j - i));
   }
 
-  /** Each six rows couple to the six before and behind, and to some far away.
-   */
-  bool
-  couple(const unsigned int i, const unsigned int j)
-  {
-    const unsigned int a = i / 6, b = j / 6;
-    return (a > b ? a - b : b - a) <= 1 || (a + b) % 7 == 0;
-  }
-
-  /** Rows of a rank's part: about equal parts, in order. */
-  IndexSet
-  rows_of(const unsigned int rank)
-  {
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    IndexSet rows(n);
-    rows.add_range(n * rank / n_ranks, n * (rank + 1) / n_ranks);
-    return rows;
-  }
-
-  IndexSet
-  own_rows()
-  {
-    return rows_of(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-  }
-
   void
   fill(TrilinosWrappers::SparseMatrix &K, const double diagonal)
   {
-    TrilinosWrappers::SparsityPattern pattern(own_rows(), MPI_COMM_WORLD);
-    for (const auto i : own_rows())
-      for (unsigned int j = 0; j < n; ++j)
-        if (couple(i, j))
-          pattern.add(i, j);
-    pattern.compress();
-    K.reinit(pattern);
-    for (const auto i : own_rows())
-      for (unsigned int j = 0; j < n; ++j)
-        if (couple(i, j))
-          K.set(i, j, entry(i, j, diagonal));
-    K.compress(VectorOperation::insert);
+    CoupledRows::fill(K, [&](const auto i, const auto j) {
+      return entry(i, j, diagonal);
+    });
   }
 
   /** Rows of lower ranks that a rank's rows couple with. */

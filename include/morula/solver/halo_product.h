@@ -6,6 +6,7 @@
 
 #include <morula/base/halo.h>
 #include <morula/mechanics/equilibrium.h>
+#include <morula/solver/block_rows.h>
 
 #include <Epetra_BlockMap.h>
 
@@ -15,8 +16,8 @@
 namespace Morula
 {
   /**
-   * Products with a distributed matrix by messages between neighbours alone:
-   * see Halo. On one rank they are the matrix's own.
+   * Products with a distributed matrix by the blocks of its rows (BlockRows)
+   * and messages between neighbours alone (Halo).
    */
   class HaloProduct
   {
@@ -24,8 +25,17 @@ namespace Morula
     using Vector = Equilibrium::Vector;
     using Matrix = Equilibrium::Matrix;
 
-    /** Collective. @param K kept as a reference; its entries may change */
-    explicit HaloProduct(const Matrix &K);
+    /** Collective.
+     *  @param K            kept as a reference
+     *  @param n_components unknowns of a spline, 1 to 3
+     *  @param symmetric    whether K is */
+    HaloProduct(const Matrix      &K,
+                const unsigned int n_components,
+                const bool         symmetric);
+
+    /** Takes over the entries that K has now. */
+    void
+    read();
 
     const Matrix &
     matrix() const;
@@ -39,14 +49,13 @@ namespace Morula
     vmult(Vector &y, const Vector &x) const;
 
   private:
-    const Matrix       &K;
-    Epetra_BlockMap     columns;
-    std::optional<Halo> halo; // not on one rank
-    std::size_t         n_own;
-    std::vector<int>    sources; // of the columns' values, in `gathered`
+    const Matrix              &K;
+    Epetra_BlockMap            columns;
+    std::unique_ptr<BlockRows> rows;
+    std::optional<Halo>        halo; // not on one rank
+    std::size_t                n_own;
 
-    mutable std::vector<double> gathered; // own entries, then others
-    mutable std::vector<double> values;   // by column
+    mutable std::vector<double> by_column; // on several ranks: x
   };
 } // namespace Morula
 

@@ -148,7 +148,7 @@ namespace Morula
             system, P, x, b, tolerance, max_iterations, iterations, needed);
         };
         const OverlappingCholesky *const factorisation =
-          preconditioner.factorisation();
+          shift < Shifts::for_jacobi ? preconditioner.factorisation() : nullptr;
         const CgOutcome outcome =
           factorisation != nullptr ?
             iterate(*factorisation) :

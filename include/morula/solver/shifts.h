@@ -21,6 +21,10 @@ namespace Morula
     constexpr double factor           = 4.;
     constexpr double curvature_factor = 2.;
     constexpr double last             = 300.;
+    /** From this shift on the diagonal prevails: Jacobi's preconditioner, which
+     *  knows the shift, takes fewer iterations than a factorisation that does
+     *  not. */
+    constexpr double for_jacobi = 1.;
   } // namespace Shifts
 } // namespace Morula
 

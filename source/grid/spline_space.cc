@@ -186,7 +186,7 @@ namespace Morula
         std::vector<Terms>   rows;
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           rows.push_back(terms_of(copy_at(index, a)));
-        add_grid_cell(occupancy_.window().whole().number(index), rows);
+        add_grid_cell(number, rows);
       }
   }
 
@@ -209,7 +209,8 @@ namespace Morula
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 
     GridCell grid_cell;
-    grid_cell.number = number;
+    grid_cell.number = occupancy_.window().whole().number(boxes.index(number));
+    grid_cell.thin   = occupancy_.is_thin(number);
     if (!plain)
       {
         grid_cell.weights.assign(n * columns.size(), 0.);

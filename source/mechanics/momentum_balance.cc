@@ -335,8 +335,11 @@ namespace Morula
       local.last = !linearisations.empty() && linearisations[c] ?
                            &*linearisations[c] :
                            nullptr;
-      // Extended splines may move what hardly anything resists.
-      local.in_single = dim == 3 && space.grid_cells()[c].weights.empty();
+      // Hardly anything may resist extended splines, and some motions of thin
+      // tissue.
+      const auto &grid_cell = space.grid_cells()[c];
+      local.in_single =
+        dim == 3 && grid_cell.weights.empty() && !grid_cell.thin;
       for (const auto &term : terms)
         term->add(c, field, at, local);
       if (pressure != 0.)

@@ -44,6 +44,8 @@ namespace Morula
       /** Weights of the unknowns (columns) in the splines (3^dim rows). Empty
        *  if the unknowns are the splines themselves in order. */
       std::vector<double> weights;
+      /** Whether the tissue around is thin, see Occupancy::is_thin(). */
+      bool thin;
     };
 
     /** @param occupancy after both rounds. Collective. */

@@ -431,44 +431,6 @@ namespace
           }
       }
   }
-
-  /** A ball of cells whose centres stand on grid lines, nearly: turned by 180°
-   *  its grid cells are of the same classes. */
-  template <int dim>
-  void
-  check_lines()
-  {
-    const GridBox<dim> box = cube<dim>(16, 1.);
-    for (const double off_line : {0., 1e-12, -1e-12})
-      {
-        Particles<dim>   particles;
-        constexpr double L = 0.5;
-        Point<dim>       half_a_cell;
-        for (unsigned int d = 0; d < dim; ++d)
-          half_a_cell[d] = 0.5 * L;
-        for (Point<dim> x :
-             lattice_points<dim>(half_a_cell, 4., L, [&](const auto &x) {
-               return x.norm() < 3.75;
-             }))
-          {
-            x[0] += off_line;
-            particles.emplace_back(x, std::pow(L, dim));
-          }
-        const Occupancy<dim> occupancy = occupancy_of(box, particles);
-        const auto           classes   = classify(occupancy, 0.85);
-        for (unsigned int number = 0; number < classes.size(); ++number)
-          {
-            GridIndex<dim> turned = box.index(number);
-            for (int &i : turned)
-              i = -1 - i;
-            const unsigned int other = box.number(turned);
-            EXPECT_EQ(classes[number] == GridCellClass::inner,
-                      classes[other] == GridCellClass::inner);
-            EXPECT_EQ(occupancy.n_quadrature_points(number),
-                      occupancy.n_quadrature_points(other));
-          }
-      }
-  }
 } // namespace
 
 
@@ -494,10 +456,6 @@ TEST(Occupancy,
 
 TEST(Occupancy, ThinTissueHasInnerGridCellsOnOneSideOfAGridLine){
   MORULA_BOTH_DIMENSIONS(check_thin)}
-
-
-TEST(Occupancy,
-     PointsOnGridLinesCountOnBothSides){MORULA_BOTH_DIMENSIONS(check_lines)}
 
 
 TEST(Occupancy, CellsOfASingleLayerHaveSeveralPoints)

@@ -75,6 +75,12 @@ TEST(HaloProduct, IsTheMatrixs)
       EXPECT_LE(error(any, 0.), 1e-13);
       any.read();
       EXPECT_LE(error(any, 0.5), 1e-12);
+
+      HaloProduct older(K, n_components, true);
+      set(K, 0.);
+      EXPECT_GT(error(older, 0.), 0.1);
+      older.read();
+      EXPECT_LE(error(older, 0.), 1e-13);
     }
 }
 

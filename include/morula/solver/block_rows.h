@@ -16,7 +16,7 @@ namespace Morula
    * Products with the rows of a matrix that a rank owns, by the blocks of the
    * splines' unknowns. Of a symmetric matrix it reads each pair of blocks once:
    * a product takes as long as the memory takes to deliver the entries, and
-   * these are less than half of the matrix's own, whose columns are numbered
+   * these take a third of the matrix's own bytes, where columns are numbered
    * entry by entry (doc/performance.md, The linear solver). Epetra's block
    * matrices have pointers for each block and no symmetric form.
    */

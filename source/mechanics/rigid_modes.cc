@@ -48,6 +48,75 @@ namespace Morula
       basis.push_back(std::move(vector));
       return true;
     }
+
+    /** The grid cell with tissue around @p x. */
+    template <int dim>
+    const typename SplineSpace<dim>::GridCell &
+    grid_cell_at(const SplineSpace<dim> &space, const Point<dim> &x)
+    {
+      return *std::lower_bound(space.grid_cells().begin(),
+                               space.grid_cells().end(),
+                               space.box().number(space.box().locate(x)),
+                               [](const auto &c, const unsigned int number) {
+                                 return c.number < number;
+                               });
+    }
+
+    /** Σ V⁰ N_a and Σ V⁰ N_a (x - center) of particles in one grid cell: what
+     *  their forces of inertia need, whatever the motion. */
+    template <int dim>
+    class FirstMoments
+    {
+    public:
+      using Masses = std::vector<typename RigidModes<dim>::Mass>;
+
+      /** Takes the particles from @p mass on that follow each other in this
+       *  grid cell; @p mass is the next one then. */
+      FirstMoments(const SplineSpace<dim>                &space,
+                   const unsigned int                     grid_cell,
+                   const Point<dim>                      &center,
+                   typename Masses::const_iterator       &mass,
+                   const typename Masses::const_iterator &end)
+      {
+        for (; mass != end; ++mass)
+          {
+            const GridIndex<dim> index = space.box().locate(mass->x);
+            if (space.box().number(index) != grid_cell)
+              return;
+            const Tensor<1, dim>    z = mass->x - center;
+            const SplineValues<dim> splines(space.box().unit_position(mass->x,
+                                                                      index),
+                                            space.box().spacing());
+            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+              {
+                const double V0 = mass->V0 * splines.value[a];
+                volume[a] += V0;
+                for (unsigned int d = 0; d < dim; ++d)
+                  first[d][a] += V0 * z[d];
+              }
+          }
+      }
+
+      /** Σ V⁰ N_a (a + B (x - center)), component after component. */
+      std::array<double, Condensation<dim>::n_dofs>
+      forces(const typename RigidModes<dim>::Mode &mode) const
+      {
+        constexpr unsigned int                        n = BSpline<dim>::n;
+        std::array<double, Condensation<dim>::n_dofs> result;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int a = 0; a < n; ++a)
+            {
+              result[i * n + a] = mode.a[i] * volume[a];
+              for (unsigned int d = 0; d < dim; ++d)
+                result[i * n + a] += mode.B[i][d] * first[d][a];
+            }
+        return result;
+      }
+
+    private:
+      std::array<double, BSpline<dim>::n>                  volume{};
+      std::array<std::array<double, BSpline<dim>::n>, dim> first{};
+    };
   } // namespace
 
   template <int dim>
@@ -205,38 +274,21 @@ namespace Morula
     const FieldUnknowns<dim>         unknowns(space, comm);
     std::vector<std::vector<double>> sums(
       first.back(), std::vector<double>(unknowns.relevant().n_elements(), 0.));
-    const auto &grid_cells = space.grid_cells();
-    for (const Mass &mass : masses)
+    for (auto mass = masses.begin(); mass != masses.end();)
       {
-        const Piece &piece = pieces[mass.piece];
-        if (piece.free.empty())
-          continue;
-        const GridIndex<dim> index = space.box().locate(mass.x);
-        const auto           grid_cell =
-          std::lower_bound(grid_cells.begin(),
-                           grid_cells.end(),
-                           space.box().number(index),
-                           [](const auto &c, const unsigned int number) {
-                             return c.number < number;
-                           });
-        const SplineValues<dim> splines(space.box().unit_position(mass.x,
-                                                                  index),
-                                        space.box().spacing());
-        const Condensation<dim> condensation(*grid_cell);
-        for (unsigned int k = 0; k < piece.free.size(); ++k)
+        const unsigned int      p         = mass->piece;
+        const auto             &grid_cell = grid_cell_at(space, mass->x);
+        const FirstMoments<dim> moments(
+          space, grid_cell.number, pieces[p].center, mass, masses.end());
+        const Condensation<dim> condensation(grid_cell);
+        const unsigned int      m = condensation.m();
+        for (unsigned int k = 0; k < pieces[p].free.size(); ++k)
           {
-            const Mode          &mode = piece.free[k];
-            const Tensor<1, dim> force =
-              mass.V0 * (mode.a + mode.B * (mass.x - piece.center));
-            std::array<double, Condensation<dim>::n_dofs> forces;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-                forces[i * BSpline<dim>::n + a] = force[i] * splines.value[a];
-            const std::vector<double> condensed = condensation.condense(forces);
-            const unsigned int        m         = grid_cell->unknowns.size();
+            const std::vector<double> condensed =
+              condensation.condense(moments.forces(pieces[p].free[k]));
             for (unsigned int s = 0; s < m; ++s)
               for (unsigned int i = 0; i < dim; ++i)
-                sums[first[mass.piece] + k][grid_cell->unknowns[s] * dim + i] +=
+                sums[first[p] + k][grid_cell.unknowns[s] * dim + i] +=
                   condensed[i * m + s];
           }
       }

@@ -51,36 +51,40 @@ namespace Morula
         }
     }
 
+    /** A site and its position: computed once, as many samples ask for it. */
+    template <int dim>
+    struct Site
+    {
+      std::uint64_t number;
+      Point<dim>    x;
+    };
+
     /** Those of @p sites that are occupied, ascending. */
     template <int dim>
-    std::vector<std::uint64_t>
-    occupied(const Lattice<dim>        &lattice,
-             const Shape<dim>          &shape,
-             std::vector<std::uint64_t> sites)
+    std::vector<Site<dim>>
+    occupied(const Lattice<dim>               &lattice,
+             const Shape<dim>                 &shape,
+             const std::vector<std::uint64_t> &sites)
     {
-      sites.erase(std::remove_if(sites.begin(),
-                                 sites.end(),
-                                 [&](const std::uint64_t site) {
-                                   return !lattice.is_occupied(
-                                     shape, lattice.position(site));
-                                 }),
-                  sites.end());
-      return sites;
+      std::vector<Site<dim>> result;
+      for (const std::uint64_t site : sites)
+        if (const Point<dim> x = lattice.position(site);
+            lattice.is_occupied(shape, x))
+          result.push_back({site, x});
+      return result;
     }
 
     template <int dim>
     std::uint64_t
-    nearest(const Lattice<dim>               &lattice,
-            const std::vector<std::uint64_t> &sites,
-            const Point<dim>                 &x)
+    nearest(const std::vector<Site<dim>> &sites, const Point<dim> &x)
     {
-      return *std::min_element(sites.begin(),
-                               sites.end(),
-                               [&](const std::uint64_t a,
-                                   const std::uint64_t b) {
-                                 return lattice.position(a).distance_square(x) <
-                                        lattice.position(b).distance_square(x);
-                               });
+      return std::min_element(sites.begin(),
+                              sites.end(),
+                              [&](const Site<dim> &a, const Site<dim> &b) {
+                                return a.x.distance_square(x) <
+                                       b.x.distance_square(x);
+                              })
+        ->number;
     }
   } // namespace
 
@@ -96,26 +100,20 @@ namespace Morula
     const double sample        = std::pow(side / n_samples<dim>, dim);
 
     std::vector<Part<dim>> parts(sites.size());
-    const auto             add =
-      [&](const std::uint64_t site, const Point<dim> &x, const double volume) {
-        const auto mine = std::lower_bound(sites.begin(), sites.end(), site);
-        if (mine != sites.end() && *mine == site)
-          parts[mine - sites.begin()].add(x, volume);
-      };
 
     std::vector<std::uint64_t> empty; // neighbouring boxes without a cell
-    for (const std::uint64_t site : sites)
+    for (std::size_t i = 0; i < sites.size(); ++i)
       {
-        const Point<dim> x = lattice.position(site);
+        const Point<dim> x = lattice.position(sites[i]);
         if (shape.contains(x, 3. * half_diagonal))
           {
-            add(site, x, std::pow(side, dim)); // a whole box, inside
+            parts[i].add(x, std::pow(side, dim)); // a whole box, inside
             continue;
           }
         for_samples_inside(shape, x, side, [&](const Point<dim> &y) {
-          add(site, y, sample);
+          parts[i].add(y, sample);
         });
-        for (const std::uint64_t other : lattice.neighbors(site))
+        for (const std::uint64_t other : lattice.neighbors(sites[i]))
           if (!lattice.is_occupied(shape, lattice.position(other)))
             empty.push_back(other);
       }
@@ -125,12 +123,15 @@ namespace Morula
     for (const std::uint64_t box : empty)
       {
         const auto owners = occupied(lattice, shape, lattice.neighbors(box));
-        for_samples_inside(shape,
-                           lattice.position(box),
-                           side,
-                           [&](const Point<dim> &y) {
-                             add(nearest(lattice, owners, y), y, sample);
-                           });
+        for_samples_inside(
+          shape, lattice.position(box), side, [&](const Point<dim> &y) {
+            const auto owner = nearest(owners, y);
+            const auto mine =
+              std::lower_bound(sites.begin(), sites.end(), owner);
+            // Else it is another rank's.
+            if (mine != sites.end() && *mine == owner)
+              parts[mine - sites.begin()].add(y, sample);
+          });
       }
 
     for (std::size_t i = 0; i < sites.size(); ++i)

@@ -31,8 +31,8 @@ namespace Morula
    * all lower rows, G would be the inverse of the whole matrix's factor; on one
    * rank it is. In additive Schwarz methods, Ifpack's among them, what blocks
    * have in common counts several times, which costs more than twice the
-   * iterations on 16 ranks (doc/performance.md, The linear solver). After I. E.
-   * Kaporin and I. N. Konshin, Numer. Linear Algebra Appl. 9 (2002).
+   * iterations on 16 ranks (doc/performance.md, The linear solver). Known as
+   * block incomplete inverse Cholesky decomposition, BIIC.
    */
   class OverlappingCholesky
   {

@@ -3,31 +3,46 @@
 
 #include <morula/mechanics/drag.h>
 
-#include <utility>
-
 namespace Morula
 {
   template <int dim>
-  Drag<dim>::Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses)
-    : PointTerm<dim>(std::move(cells))
-    , stiffnesses(std::move(stiffnesses))
-  {}
+  Drag<dim>::Drag(const GroupedPoints<dim>  &cells,
+                  const std::vector<double> &stiffnesses)
+    : moments(cells.offsets.size() - 1)
+  {
+    for (unsigned int c = 0; c < moments.size(); ++c)
+      for (unsigned int p = cells.offsets[c]; p < cells.offsets[c + 1]; ++p)
+        moments[c].add(cells.xi[p], {{stiffnesses[p]}});
+  }
 
 
   template <int dim>
   void
-  Drag<dim>::add_point(const unsigned int       p,
-                       const SplineValues<dim> &splines,
-                       const LocalField<dim>   &field,
-                       LocalSystem<dim>        &system) const
+  Drag<dim>::add(const unsigned int     grid_cell,
+                 const LocalField<dim> &field,
+                 const GrowthAt,
+                 LocalSystem<dim> &system) const
   {
-    const Tensor<1, dim> u = field.value(splines);
-    const double         k = stiffnesses[p];
-    add_force_at(splines,
-                 0.5 * k * u.norm_square(),
-                 k * u,
-                 k * Tensor<2, dim>(unit_symmetric_tensor<dim>()),
-                 system);
+    constexpr unsigned int    n      = BSpline<dim>::n;
+    constexpr unsigned int    n_dofs = LocalSystem<dim>::n_dofs;
+    const std::vector<double> matrix = mass_matrix(moments[grid_cell]);
+    double                    energy = 0.;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          {
+            const double k = matrix[a * n + b];
+            if (system.wanted == LocalSystem<dim>::tangent)
+              system.matrix[(i * n + a) * n_dofs + i * n + b] += k;
+            else
+              {
+                const double force = k * field.coefficient[i][b];
+                system.add_force(i, a, force);
+                energy += 0.5 * field.coefficient[i][a] * force;
+              }
+          }
+    if (system.wanted != LocalSystem<dim>::tangent)
+      system.add_energy(energy);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
@@ -130,9 +131,9 @@ namespace Morula
   of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
   {
     PointList<dim> all(own.n_numbers);
-    const auto     ids       = Utilities::MPI::all_gather(comm, own.ids);
-    const auto     positions = Utilities::MPI::all_gather(comm, own.positions);
-    const auto     numbers   = Utilities::MPI::all_gather(comm, own.numbers);
+    const auto     ids       = gather_everywhere(own.ids, comm);
+    const auto     positions = gather_everywhere(own.positions, comm);
+    const auto     numbers   = gather_everywhere(own.numbers, comm);
     for (unsigned int rank = 0; rank < ids.size(); ++rank)
       {
         PointList<dim> part(own.n_numbers);

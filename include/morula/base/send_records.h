@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -57,15 +58,40 @@ namespace Morula
     return received;
   }
 
-  /** The records of all ranks, by rank. Collective. */
+  /** The records of all ranks, by rank. deal.II's all_gather compresses what it
+   *  sends, which took a sixth of a run whose surface is merged in each step.
+   *  Collective. */
   template <typename Record>
   std::vector<std::vector<Record>>
   gather_everywhere(const std::vector<Record> &own, const MPI_Comm comm)
   {
+    static_assert(std::is_trivially_copyable<Record>::value);
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    if (n_ranks == 1)
+      return {own};
+    const int        n_own = own.size();
+    std::vector<int> sizes(n_ranks), offsets(n_ranks + 1, 0);
+    MPI_Allgather(&n_own, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm);
+    std::partial_sum(sizes.begin(), sizes.end(), offsets.begin() + 1);
+
+    MPI_Datatype record;
+    MPI_Type_contiguous(sizeof(Record), MPI_BYTE, &record);
+    MPI_Type_commit(&record);
+    std::vector<Record> list(offsets.back());
+    MPI_Allgatherv(own.data(),
+                   n_own,
+                   record,
+                   list.data(),
+                   sizes.data(),
+                   offsets.data(),
+                   record,
+                   comm);
+    MPI_Type_free(&record);
+
     std::vector<std::vector<Record>> all;
-    for (const auto &list :
-         dealii::Utilities::MPI::all_gather(comm, Bytes::of(own)))
-      all.push_back(Bytes::records<Record>(list));
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      all.emplace_back(list.begin() + offsets[rank],
+                       list.begin() + offsets[rank + 1]);
     return all;
   }
 } // namespace Morula

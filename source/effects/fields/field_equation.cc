@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fields/field_equation.h>
-#include <morula/effects/fields/spline_moments.h>
+#include <morula/mechanics/spline_moments.h>
 
 #include <algorithm>
 #include <cmath>

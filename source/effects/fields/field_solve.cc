@@ -5,7 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/effects/fields/field_solve.h>
 #include <morula/effects/fields/keep_positive.h>
-#include <morula/effects/fields/spline_moments.h>
+#include <morula/mechanics/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 

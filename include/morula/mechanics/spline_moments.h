@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_effects_fields_spline_moments_h
-#define morula_effects_fields_spline_moments_h
+#ifndef morula_mechanics_spline_moments_h
+#define morula_mechanics_spline_moments_h
 
 #include <morula/mechanics/local_system.h>
 
@@ -62,7 +62,11 @@ namespace Morula
   template <int dim>
   using MatrixMoments = SplineMoments<dim, 4, 2>;
 
-  /** Of points with one weight. */
+  /** Of points with one weight: products of two splines. */
+  template <int dim>
+  using MassMoments = SplineMoments<dim, 4, 1>;
+
+  /** Of points with one weight: single splines. */
   template <int dim>
   using LoadMoments = SplineMoments<dim, 2, 1>;
 
@@ -78,6 +82,11 @@ namespace Morula
              const double              h,
              const bool                lumped,
              std::vector<double>      &matrix);
+
+  /** Σ_p w_p N_a N_b, row by row. */
+  template <int dim>
+  std::vector<double>
+  mass_matrix(const MassMoments<dim> &moments);
 
   /** Σ_p w_p N_a of all splines. */
   template <int dim>

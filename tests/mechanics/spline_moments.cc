@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fields/spline_moments.h>
+#include <morula/mechanics/spline_moments.h>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +88,26 @@ namespace
 
   template <int dim>
   void
+  check_mass_matrix()
+  {
+    constexpr unsigned int n = BSpline<dim>::n;
+    MassMoments<dim>       moments;
+    std::vector<double>    exact(n * n);
+    for (unsigned int p = 0; p < n_places; ++p)
+      {
+        const SplineValues<dim> splines(some_place<dim>(p), h);
+        moments.add(some_place<dim>(p), {{rate(p)}});
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int b = 0; b < n; ++b)
+            exact[a * n + b] += rate(p) * splines.value[a] * splines.value[b];
+      }
+    const std::vector<double> matrix = mass_matrix(moments);
+    for (unsigned int k = 0; k < exact.size(); ++k)
+      EXPECT_NEAR(matrix[k], exact[k], 1e-14);
+  }
+
+  template <int dim>
+  void
   check_sums()
   {
     constexpr unsigned int n = BSpline<dim>::n;
@@ -130,6 +150,13 @@ TEST(SplineMoments, GiveTheMatrix)
       check_matrix<2>(lumped);
       check_matrix<3>(lumped);
     }
+}
+
+
+TEST(SplineMoments, GiveTheMassMatrix)
+{
+  check_mass_matrix<2>();
+  check_mass_matrix<3>();
 }
 
 

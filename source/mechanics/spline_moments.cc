@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fields/spline_moments.h>
+#include <morula/mechanics/spline_moments.h>
 
 #include <algorithm>
 
@@ -141,6 +141,27 @@ namespace Morula
       return after;
     }
 
+    /** Σ_p w_p N_a N_b by pairs in each direction. */
+    template <int dim>
+    Sums<dim>
+    sums_of_pairs(const MassMoments<dim> &moments)
+    {
+      constexpr auto values = products<5>(0);
+      Sums<dim>      sums{};
+      std::copy(moments.sums[0].begin(), moments.sums[0].end(), sums.begin());
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Sums<dim> next{};
+          add_direction(values,
+                        sums.data(),
+                        Utilities::pow(5, dim - 1 - d) *
+                          Utilities::pow(n_pairs, d),
+                        next.data());
+          sums = next;
+        }
+      return sums;
+    }
+
     /** Places in sums_of_pairs() of the entries of a matrix. */
     template <int dim>
     std::array<unsigned int, BSpline<dim>::n * BSpline<dim>::n>
@@ -180,6 +201,20 @@ namespace Morula
 
 
   template <int dim>
+  std::vector<double>
+  mass_matrix(const MassMoments<dim> &moments)
+  {
+    static const auto   places = places_of_pairs<dim>();
+    const Sums<dim>     sums   = sums_of_pairs(moments);
+    std::vector<double> matrix;
+    matrix.reserve(places.size());
+    for (const unsigned int place : places)
+      matrix.push_back(sums[place]);
+    return matrix;
+  }
+
+
+  template <int dim>
   std::array<double, BSpline<dim>::n>
   spline_sums(const LoadMoments<dim> &moments)
   {
@@ -212,13 +247,14 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                    \
-  template void add_matrix(const MatrixMoments<dim> &,      \
-                           const double,                    \
-                           const bool,                      \
-                           std::vector<double> &);          \
-  template std::array<double, BSpline<dim>::n> spline_sums( \
-    const LoadMoments<dim> &);                              \
+#define INSTANTIATE(dim)                                              \
+  template void                add_matrix(const MatrixMoments<dim> &, \
+                                          const double,               \
+                                          const bool,                 \
+                                          std::vector<double> &);     \
+  template std::vector<double> mass_matrix(const MassMoments<dim> &); \
+  template std::array<double, BSpline<dim>::n> spline_sums(           \
+    const LoadMoments<dim> &);                                        \
   template double value_at(const LocalField<dim, 1> &, const Point<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -195,6 +195,22 @@ namespace Morula
                              advice(vocabulary));
         }
     make_unique(used_);
+    if (used_.empty())
+      evaluate_once();
+  }
+
+
+  void
+  Expression::evaluate_once()
+  {
+    std::vector<double> numbers;
+    for (const auto &parser : parsers)
+      numbers.push_back(parser->value(VariableValues()));
+    // What is not finite is refused where it is asked for.
+    if (std::all_of(numbers.begin(), numbers.end(), [](const double c) {
+          return std::isfinite(c);
+        }))
+      constants = std::move(numbers);
   }
 
 
@@ -345,7 +361,7 @@ namespace Morula
 
 
   std::optional<double>
-  Expression::plain_number() const
+  Expression::number() const
   {
     return constants.empty() ? std::optional<double>() : constants[0];
   }

@@ -163,9 +163,9 @@ namespace Morula
   ExpressionKey::largest_number(const unsigned int dim) const
   {
     const Expression     &of_all  = expression(dim);
-    std::optional<double> largest = of_all.plain_number();
+    std::optional<double> largest = of_all.number();
     for (const auto &[type, own] : of_all.types())
-      largest = std::max(largest, own.plain_number());
+      largest = std::max(largest, own.number());
     return largest;
   }
 
@@ -335,7 +335,7 @@ namespace Morula
                        value.text(),
                        "an expression of X, Y, Z",
                        "It is evaluated once, at t = 0: remove t.");
-    const std::optional<double> number = value.plain_number();
+    const std::optional<double> number = value.number();
     if (rule && number && !rule->holds(*number))
       throw InputError(value.key(), value.text(), rule->allowed, rule->remedy);
   }

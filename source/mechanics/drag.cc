@@ -2,47 +2,62 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/drag.h>
+#include <morula/mechanics/spline_moments.h>
+
+#include <utility>
 
 namespace Morula
 {
   template <int dim>
-  Drag<dim>::Drag(const GroupedPoints<dim>  &cells,
-                  const std::vector<double> &stiffnesses)
-    : moments(cells.offsets.size() - 1)
-  {
-    for (unsigned int c = 0; c < moments.size(); ++c)
-      for (unsigned int p = cells.offsets[c]; p < cells.offsets[c + 1]; ++p)
-        moments[c].add(cells.xi[p], {{stiffnesses[p]}});
-  }
+  Drag<dim>::Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses)
+    : PointTerm<dim>(std::move(cells))
+    , stiffnesses(std::move(stiffnesses))
+  {}
 
 
   template <int dim>
   void
   Drag<dim>::add(const unsigned int     grid_cell,
                  const LocalField<dim> &field,
-                 const GrowthAt,
-                 LocalSystem<dim> &system) const
+                 const GrowthAt         growth,
+                 LocalSystem<dim>      &system) const
   {
+    if (system.wanted != LocalSystem<dim>::tangent)
+      {
+        PointTerm<dim>::add(grid_cell, field, growth, system);
+        return;
+      }
+    // It does not depend on u: sums over the cells say all, which entries cell
+    // by cell would take far longer to.
+    const GroupedPoints<dim> &cells = this->points;
+    MassMoments<dim>          moments;
+    for (unsigned int p = cells.offsets[grid_cell];
+         p < cells.offsets[grid_cell + 1];
+         ++p)
+      moments.add(cells.xi[p], {{stiffnesses[p]}});
+    const std::vector<double> mass   = mass_matrix(moments);
     constexpr unsigned int    n      = BSpline<dim>::n;
     constexpr unsigned int    n_dofs = LocalSystem<dim>::n_dofs;
-    const std::vector<double> matrix = mass_matrix(moments[grid_cell]);
-    double                    energy = 0.;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
-          {
-            const double k = matrix[a * n + b];
-            if (system.wanted == LocalSystem<dim>::tangent)
-              system.matrix[(i * n + a) * n_dofs + i * n + b] += k;
-            else
-              {
-                const double force = k * field.coefficient[i][b];
-                system.add_force(i, a, force);
-                energy += 0.5 * field.coefficient[i][a] * force;
-              }
-          }
-    if (system.wanted != LocalSystem<dim>::tangent)
-      system.add_energy(energy);
+        {
+          double *const row = &system.matrix[(i * n + a) * n_dofs + i * n];
+          for (unsigned int b = 0; b < n; ++b)
+            row[b] += mass[a * n + b];
+        }
+  }
+
+
+  template <int dim>
+  void
+  Drag<dim>::add_point(const unsigned int       p,
+                       const SplineValues<dim> &splines,
+                       const LocalField<dim>   &field,
+                       LocalSystem<dim>        &system) const
+  {
+    const Tensor<1, dim> u = field.value(splines);
+    system.add_energy(0.5 * stiffnesses[p] * u.norm_square());
+    add_force_at(splines, stiffnesses[p] * u, system);
   }
 
 

@@ -242,7 +242,7 @@ namespace Morula
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       stiffnesses.push_back(eta * tissue.cells().initial_volume(p));
     return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
-                                       stiffnesses);
+                                       std::move(stiffnesses));
   }
 
 

@@ -127,6 +127,8 @@ TEST(Expression, RecognisesPlainNumbersAndTime)
   EXPECT_TRUE(Expression(key, " -1.5e3 ").is_constant());
   EXPECT_TRUE(Expression(key, "0; 1; 2", 3).is_constant());
   EXPECT_EQ(Expression(key, "0; 1; -2", 3).vector(Point<3>(), 1.)[2], -2.);
+  EXPECT_TRUE(Expression(key, "3^2; 2*pi", 2).is_constant());
+  EXPECT_EQ(*Expression(key, "3^2").number(), 9.);
   EXPECT_FALSE(Expression(key, "0; X; 2", 3).is_constant());
   EXPECT_TRUE(Expression(key, "1 + sin(t)").depends_on_time());
   EXPECT_FALSE(Expression(key, "sqrt(X) + tan(Y)").depends_on_time());

@@ -115,19 +115,20 @@ namespace Morula
     bool
     depends_on_state() const;
 
-    /** Whether all components are plain numbers, the same for all types. */
+    /** Whether all components are numbers, or made of numbers alone, as 2*pi
+     * is, the same for all types. */
     bool
     is_constant() const;
 
-    /** Whether each of the first @p n_components is this plain number, for all
-     *  types of cells. */
+    /** Whether each of the first @p n_components is this number, without any
+     *  variable, for all types of cells. */
     bool
     is_always(const double number, const unsigned int n_components = 1) const;
 
-    /** The first component, if this text has only plain numbers. The texts of
-     *  types do not count. */
+    /** The first component, if this text has no variables. The texts of types
+     * do not count. */
     std::optional<double>
-    plain_number() const;
+    number() const;
 
     /** The expressions of types that have one of their own. */
     const std::map<unsigned int, Expression> &
@@ -154,6 +155,11 @@ namespace Morula
     text() const;
 
   private:
+    /** Makes constants of what has no variables: cells need not ask a parser
+     * for the same number. */
+    void
+    evaluate_once();
+
     /** The value, without a check of the rule. @throws InputError */
     double
     evaluate(const VariableValues &values, const unsigned int component) const;

@@ -35,7 +35,6 @@ namespace Morula
               const LocalField<dim>   &field,
               LocalSystem<dim>        &system) const = 0;
 
-  private:
     const GroupedPoints<dim> points;
   };
 

@@ -101,7 +101,7 @@ namespace Morula
   std::optional<double>
   Field<dim>::uniform_diffusion() const
   {
-    return diffusion_.is_constant() ? diffusion_.plain_number() :
+    return diffusion_.is_constant() ? diffusion_.number() :
                                       std::optional<double>();
   }
 

@@ -6,6 +6,7 @@
 #include <morula/mechanics/drag.h>
 
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -62,7 +63,7 @@ namespace Morula
     std::vector<double> stiffnesses = friction(tissue, reader, t0);
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
-    return std::make_unique<Drag<dim>>(positions, stiffnesses);
+    return std::make_unique<Drag<dim>>(positions, std::move(stiffnesses));
   }
 
 

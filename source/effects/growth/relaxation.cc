@@ -72,7 +72,7 @@ namespace Morula
       for (const Point<dim> &X : scene.founders)
         consider(time.value(X, 0.5 * scene.step));
     for (const auto &[type, own] : time.types())
-      consider(own.plain_number().value_or(0.));
+      consider(own.number().value_or(0.));
     shortest = Utilities::MPI::min(shortest, scene.comm);
     if (shortest < none && scene.step > 0.2 * shortest * (1. + 1e-9))
       review.warn(

@@ -38,6 +38,7 @@ namespace Morula
                      const double               tolerance) {
           unsigned int iterations = 0;
           own->solver.solve(A, x, b, tolerance, iterations);
+          return !own->solver.has_shifted();
         };
       };
     }
@@ -93,6 +94,7 @@ namespace Morula
       {
         clipped[field.number] += field.clipped;
         warn_if_unsettled(field, t);
+        warn_if_raised(field, t);
       }
     return found;
   }
@@ -114,6 +116,27 @@ namespace Morula
          << " iterations, as what cells do to it depends on itself. The next "
             "step goes on from there; expressions without jumps converge "
             "better. Later ones are not told of.";
+    announce(text.str());
+  }
+
+
+  template <int dim>
+  void
+  StepFields<dim>::warn_if_raised(const FieldSolution<dim> &field,
+                                  const double              t)
+  {
+    if (!(field.raised > 1.) || warned_of_surface)
+      return;
+    warned_of_surface = true;
+    std::ostringstream text;
+    text << "Warning: at t = " << t << " day the fixed value of the field '"
+         << model.scene.fields.fields[field.number].name << "' was enforced "
+         << field.raised
+         << " times as strongly as usual: the surface is rough, or the tissue "
+            "thin, within a grid spacing, and the field is inexact there. Take "
+            "a smaller Grid/Spacing with smaller cells, or keep the surface "
+            "smooth by Boundary conditions/Surface tension. Later times are "
+            "not told of.";
     announce(text.str());
   }
 

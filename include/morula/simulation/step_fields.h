@@ -66,6 +66,8 @@ namespace Morula
          const double            t1);
     void
     warn_if_unsettled(const FieldSolution<dim> &field, const double t);
+    void
+    warn_if_raised(const FieldSolution<dim> &field, const double t);
 
     const TissueModel<dim>         &model;
     TimerOutput                    &timer;
@@ -73,6 +75,7 @@ namespace Morula
     std::optional<FieldSolver<dim>> solver;         // of the configuration
     std::vector<std::uint64_t>      clipped;        // by field, in the step
     bool                            warned = false; // of one not converged
+    bool                            warned_of_surface = false;
   };
 } // namespace Morula
 

@@ -111,7 +111,7 @@ namespace Morula
   FieldEquation<dim>::weight(const unsigned int         c,
                              const FieldAtSurface<dim> &point) const
   {
-    const double of_grid = penalty / surface_places.h;
+    const double of_grid = raised * penalty / surface_places.h;
     return point.weight +
            point.fixed *
              (steepness.empty() ? of_grid : std::hypot(of_grid, steepness[c]));

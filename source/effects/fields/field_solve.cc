@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/step_failed.h>
 #include <morula/effects/fields/field_solve.h>
 #include <morula/effects/fields/keep_positive.h>
 #include <morula/mechanics/spline_moments.h>
@@ -44,6 +45,9 @@ namespace Morula
      *  more exact. */
     constexpr LinearAccuracy accuracy_of_iterations{1e-12, 1e-4},
       accuracy_of_kept{1e-12, 1e-2};
+
+    /** The penalty of fixed values is raised no further beyond this. */
+    constexpr double most_raised = 1000.;
 
     /** Amounts are kept as well as this says. */
     constexpr LinearAccuracy accuracy_of_steady{1e-10, 0.},
@@ -176,6 +180,7 @@ namespace Morula
                                      const double      t1)
   {
     equation.surface.clear();
+    equation.raised = 1.;
     if (!field.has_surface())
       return;
     const BoundaryPoints<dim> &points = tissue.boundary_points();
@@ -297,25 +302,48 @@ namespace Morula
                                    const bool            same_matrix)
   {
     using Local = LocalEquations<dim, 1>;
-    Local        matrix(Local::tangent), load(Local::energy_and_residual);
-    const auto  &A = same_matrix ? assembly.last_matrix() :
-                                   assembly.matrix(known, matrix, equation);
-    const Vector b =
-      assembly.unknowns().sum(assembly.residual(known, load, equation));
-    if (!linear)
+    Local matrix(Local::tangent), load(Local::energy_and_residual);
+    for (bool keep = same_matrix;; keep = false)
       {
-        problem.typical_entry = A.linfty_norm();
-        linear                = make_solver(problem);
+        const auto  &A = keep ? assembly.last_matrix() :
+                                assembly.matrix(known, matrix, equation);
+        const Vector b =
+          assembly.unknowns().sum(assembly.residual(known, load, equation));
+        if (!linear)
+          {
+            problem.typical_entry = A.linfty_norm();
+            linear                = make_solver(problem);
+          }
+        Vector       x     = start, missing(b), change(b);
+        const double small = accuracy.tolerance * b.l2_norm();
+        A.residual(missing, x, b);
+        const double size = missing.l2_norm();
+        if (!(size > small))
+          return x;
+        if (linear(
+              A, change, missing, std::max(small / size, accuracy.reduction)))
+          {
+            x += change;
+            return x;
+          }
+        raise_penalty();
       }
-    Vector       x     = start, missing(b), change(b);
-    const double small = accuracy.tolerance * b.l2_norm();
-    A.residual(missing, x, b);
-    const double size = missing.l2_norm();
-    if (!(size > small))
-      return x;
-    linear(A, change, missing, std::max(small / size, accuracy.reduction));
-    x += change;
-    return x;
+  }
+
+
+  template <int dim>
+  void
+  FieldSolver<dim>::raise_penalty()
+  {
+    const bool has_fixed =
+      std::any_of(equation.surface.begin(),
+                  equation.surface.end(),
+                  [](const auto &point) { return point.fixed > 0.; });
+    if (Utilities::MPI::max(has_fixed ? 1 : 0, tissue.communicator()) == 0 ||
+        equation.raised > most_raised)
+      throw StepFailed("its matrix is not positive.");
+    equation.raised *= 4.;
+    linear = nullptr;
   }
 
 
@@ -337,6 +365,7 @@ namespace Morula
     // Where the first values were far off, so was what they had lumped.
     if (!(t1 > t) && field.is_nonlinear() && result.converged && step > far_off)
       iterate(field, t, t1 - t, result);
+    result.raised = equation.raised;
     return result;
   }
 

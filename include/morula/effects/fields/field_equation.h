@@ -70,6 +70,8 @@ namespace Morula
     /** By grid cell: 1/sqrt(D/k), the inverse of the length over which a fixed
      *  value falls off, per µm; empty if that is many grid cells everywhere. */
     std::vector<double> steepness;
+    /** What the penalty of fixed values is multiplied by. */
+    double raised = 1.;
     /** By grid cell: whether N_a N_b is lumped, since the field ends there;
      *  empty: nowhere. */
     std::vector<bool> lumped;

@@ -16,8 +16,9 @@
 namespace Morula
 {
   /** Solves A x = b for a positive A, to a residual of @p tolerance |b|; may
-   *  keep a preconditioner for the next call. Collective. @throws StepFailed */
-  using SolveLinear = std::function<void(const Equilibrium::Matrix &A,
+   *  keep a preconditioner for the next call. Collective. @return whether A
+   *  turned out to be positive; if not, x is of no use. @throws StepFailed */
+  using SolveLinear = std::function<bool(const Equilibrium::Matrix &A,
                                          Equilibrium::Vector       &x,
                                          const Equilibrium::Vector &b,
                                          const double               tolerance)>;
@@ -48,6 +49,8 @@ namespace Morula
     unsigned int iterations = 0;
     /** The last change, relative to the largest value. */
     double change = 0.;
+    /** What the penalty of fixed values had to be multiplied by. */
+    double raised = 1.;
     /** Whether the changes have become small. */
     bool converged = true;
   };
@@ -142,6 +145,7 @@ namespace Morula
     set_known(std::vector<double> &known, Vector &known_field);
 
     /**
+     * Raises the penalty of fixed values where the matrix is not positive.
      * @param start where conjugate gradients begin
      * @param same_matrix whether only loads differ from the last equation's
      */
@@ -150,6 +154,12 @@ namespace Morula
                    const Vector         &start,
                    const LinearAccuracy &accuracy,
                    const bool            same_matrix = false);
+
+    /** Gives fixed values a larger penalty, for a matrix that is not positive:
+     *  where a surface is rough within a grid spacing, its flux may outweigh
+     * the usual one. @throws StepFailed if there is none, or if it is large */
+    void
+    raise_penalty();
 
     /**
      * Iterates from the values of now, with no grid cell lumped at first.

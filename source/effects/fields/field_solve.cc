@@ -242,12 +242,7 @@ namespace Morula
   void
   FieldSolver<dim>::check_sink(const Field<dim> &field) const
   {
-    double sink = 0.;
-    for (const FieldAtCell &cell : equation.cells)
-      sink += cell.volume * cell.rate;
-    for (const FieldAtSurface<dim> &point : equation.surface)
-      sink += point.weight + point.fixed;
-    if (!(Utilities::MPI::sum(sink, tissue.communicator()) > 0.))
+    if (!(Utilities::MPI::sum(equation.sink(), tissue.communicator()) > 0.))
       throw InputError(
         "Fields/" + field.name() + "/Consumption",
         "",
@@ -335,11 +330,8 @@ namespace Morula
   void
   FieldSolver<dim>::raise_penalty()
   {
-    const bool has_fixed =
-      std::any_of(equation.surface.begin(),
-                  equation.surface.end(),
-                  [](const auto &point) { return point.fixed > 0.; });
-    if (Utilities::MPI::max(has_fixed ? 1 : 0, tissue.communicator()) == 0 ||
+    const int has_fixed = equation.has_fixed_value() ? 1 : 0;
+    if (Utilities::MPI::max(has_fixed, tissue.communicator()) == 0 ||
         equation.raised > most_raised)
       throw StepFailed("its matrix is not positive.");
     equation.raised *= 4.;

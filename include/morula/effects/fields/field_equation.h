@@ -62,6 +62,16 @@ namespace Morula
                const Known       &known,
                Local             &local) const;
 
+    /** What cells take, and what goes through the surface, per unit of the
+     * field on this rank, µm^dim/day: without any a steady field has no level.
+     */
+    double
+    sink() const;
+
+    /** Whether the field has a value at some boundary point of this rank. */
+    bool
+    has_fixed_value() const;
+
     /** Places of the cells and boundary points in their grid cells. */
     GroupedPoints<dim> cell_places, surface_places;
     /** In the order of the places. */

@@ -115,8 +115,8 @@ namespace Morula
     bool
     depends_on_state() const;
 
-    /** Whether all components are numbers, or made of numbers alone, as 2*pi
-     * is, the same for all types. */
+    /** Whether no component has a variable, as 1 and 2*pi have none, and all
+     *  types have the same. */
     bool
     is_constant() const;
 
@@ -125,8 +125,8 @@ namespace Morula
     bool
     is_always(const double number, const unsigned int n_components = 1) const;
 
-    /** The first component, if this text has no variables. The texts of types
-     * do not count. */
+    /** The first component, if this text has no variables. Those of types do
+     *  not count. */
     std::optional<double>
     number() const;
 
@@ -156,7 +156,7 @@ namespace Morula
 
   private:
     /** Makes constants of what has no variables: cells need not ask a parser
-     * for the same number. */
+     *  for the same number. */
     void
     evaluate_once();
 

@@ -75,7 +75,7 @@ namespace Morula
     std::optional<FieldSolver<dim>> solver;         // of the configuration
     std::vector<std::uint64_t>      clipped;        // by field, in the step
     bool                            warned = false; // of one not converged
-    bool                            warned_of_surface = false;
+    bool                            warned_of_surface = false; // too rough
   };
 } // namespace Morula
 

@@ -62,9 +62,8 @@ namespace Morula
                const Known       &known,
                Local             &local) const;
 
-    /** What cells take, and what goes through the surface, per unit of the
-     * field on this rank, µm^dim/day: without any a steady field has no level.
-     */
+    /** What cells and the surface of this rank take per unit of the field,
+     *  µm^dim/day: without any a steady field has no level. */
     double
     sink() const;
 

@@ -156,8 +156,8 @@ namespace Morula
                    const bool            same_matrix = false);
 
     /** Gives fixed values a larger penalty, for a matrix that is not positive:
-     *  where a surface is rough within a grid spacing, its flux may outweigh
-     * the usual one. @throws StepFailed if there is none, or if it is large */
+     *  doc/theory.md (11.3). Collective. @throws StepFailed if there is none,
+     * or if it is large already */
     void
     raise_penalty();
 

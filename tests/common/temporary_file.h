@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_tests_particles_temporary_file_h
-#define morula_tests_particles_temporary_file_h
+#ifndef morula_tests_common_temporary_file_h
+#define morula_tests_common_temporary_file_h
 
 #include <deal.II/base/mpi.h>
 
@@ -16,7 +16,11 @@
 
 namespace Morula
 {
-  /** A file that exists, for all ranks, as long as the object does. */
+  /**
+   * A file that exists, for all ranks, as long as the object does. Every file
+   * has a name of its own: rank 0 would write one anew while another rank still
+   * reads the one before.
+   */
   class TemporaryFile
   {
   public:
@@ -25,7 +29,8 @@ namespace Morula
       const std::string process = std::to_string(
         dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD,
                                           static_cast<long>(getpid())));
-      path = ::testing::TempDir() + "morula-test-" + process + ending;
+      path = ::testing::TempDir() + "morula-test-" + process + '-' +
+             std::to_string(n_made++) + ending;
       if (is_writer())
         std::ofstream(path, std::ios::binary) << content;
       MPI_Barrier(MPI_COMM_WORLD);
@@ -43,6 +48,9 @@ namespace Morula
     std::string path;
 
   private:
+    /** As many on all ranks, as all of them make every file. */
+    static inline unsigned int n_made = 0;
+
     static bool
     is_writer()
     {

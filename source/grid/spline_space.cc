@@ -196,22 +196,25 @@ namespace Morula
                                   const std::vector<Terms> &rows)
   {
     constexpr unsigned int    n = BSpline<dim>::n;
-    std::vector<unsigned int> columns;
-    bool                      plain = true;
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        for (const auto &[unknown, weight] : rows[a])
-          columns.push_back(unknown);
-        plain = plain && rows[a].size() == 1 &&
-                (a == 0 || columns[a] > columns[a - 1]);
-      }
+    std::vector<unsigned int> terms; // of one spline after the other
+    for (const Terms &row : rows)
+      for (const auto &term : row)
+        terms.push_back(term.first);
+    std::vector<unsigned int> columns = terms;
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    const bool is_one_each =
+      columns.size() == n &&
+      std::all_of(rows.begin(), rows.end(), [](const Terms &row) {
+        return row.size() == 1 && row.front().second == 1.;
+      });
 
     GridCell grid_cell;
     grid_cell.number = occupancy_.window().whole().number(boxes.index(number));
     grid_cell.thin   = occupancy_.is_thin(number);
-    if (!plain)
+    if (is_one_each)
+      grid_cell.unknowns = std::move(terms);
+    else
       {
         grid_cell.weights.assign(n * columns.size(), 0.);
         for (unsigned int a = 0; a < n; ++a)
@@ -220,8 +223,8 @@ namespace Morula
                               (std::lower_bound(
                                  columns.begin(), columns.end(), unknown) -
                                columns.begin())] += weight;
+        grid_cell.unknowns = std::move(columns);
       }
-    grid_cell.unknowns = std::move(columns);
     grid_cells_.push_back(std::move(grid_cell));
   }
 

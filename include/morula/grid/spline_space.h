@@ -39,10 +39,11 @@ namespace Morula
     struct GridCell
     {
       unsigned int number; // of the grid cell in the grid's box
-      /** The unknowns, as positions in relevant(), increasing. */
+      /** The unknowns, as positions in relevant(), each of them once. */
       std::vector<unsigned int> unknowns;
       /** Weights of the unknowns (columns) in the splines (3^dim rows). Empty
-       *  if the unknowns are the splines themselves in order. */
+       *  if unknowns[a] is spline a itself: most grid cells are without, also
+       *  between two ranks, where the numbers do not increase with a. */
       std::vector<double> weights;
       /** Whether the tissue around is thin, see Occupancy::is_thin(). */
       bool thin;

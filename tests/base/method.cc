@@ -17,7 +17,9 @@ namespace
   read(const std::string &text, const std::vector<std::string> &overrides = {})
   {
     const TemporaryFile file(".prm", text);
-    return Scene::read(file.path, overrides);
+    Scene               scene = Scene::read(file.path, overrides);
+    scene.output_directory    = "output"; // not the file's name
+    return scene;
   }
 
   const std::string consistent = "set Method = consistent\n";

@@ -214,9 +214,9 @@ namespace Morula
     /** Refuses a file whose bytes are not those that were written: the HDF5
      *  library must not see it. */
     void
-    check_seal(const std::string &path)
+    check_seal(const std::string &path, const SealState state)
     {
-      switch (examine_seal(path))
+      switch (state)
         {
           case SealState::missing:
             throw InputError("--resume",
@@ -379,19 +379,15 @@ namespace Morula
                  shared.boundary_columns,
                  comm);
     write_weights(file, data.grid_weights);
-    const bool written = file.close();
-
-    on_root(comm, [&]() {
-      if (!written)
-        {
-          std::remove(temporary_path(path).c_str());
-          throw std::runtime_error("cannot write the snapshot '" + path +
-                                   "': is the disk full? The last good "
-                                   "snapshot, if there is one, stays");
-        }
-      seal(temporary_path(path));
-      publish(path);
-    });
+    if (!file.close())
+      on_root(comm, [&]() {
+        std::remove(temporary_path(path).c_str());
+        throw std::runtime_error("cannot write the snapshot '" + path +
+                                 "': is the disk full? The last good "
+                                 "snapshot, if there is one, stays");
+      });
+    seal(temporary_path(path), comm);
+    on_root(comm, [&]() { publish(path); });
   }
 
   template <int dim>
@@ -422,7 +418,8 @@ namespace Morula
       data.boundary_columns = read_columns(file, "boundary points");
       data.grid_weights     = read_weights(file, comm);
     };
-    on_root(comm, [&]() { check_seal(path); });
+    const SealState state = examine_seal(path, comm);
+    on_root(comm, [&]() { check_seal(path, state); });
     everywhere(comm, [&]() { read_checked(path, read); });
     return data;
   }
@@ -430,8 +427,9 @@ namespace Morula
   std::string
   read_snapshot_parameters(const std::string &path, const MPI_Comm comm)
   {
-    std::string parameters;
-    on_root(comm, [&]() { check_seal(path); });
+    std::string     parameters;
+    const SealState state = examine_seal(path, comm);
+    on_root(comm, [&]() { check_seal(path, state); });
     everywhere(comm, [&]() {
       read_checked(path, [&](const Hdf5Reader &file) {
         parameters = file.text("parameters");

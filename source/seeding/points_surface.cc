@@ -3,11 +3,11 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/share.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/points_surface_mesh.h>
-#include <morula/seeding/share.h>
 
 #include <deal.II/base/mpi.h>
 

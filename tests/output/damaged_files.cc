@@ -303,15 +303,15 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
 
   const ScratchDirectory directory;
   const std::string      path = directory / "file";
-  on_root(MPI_COMM_WORLD, [&]() {
-    write(path, std::string(size_of_seal, 'x') + "123456789");
-    seal(path);
-  });
+  on_root(MPI_COMM_WORLD,
+          [&]() { write(path, std::string(size_of_seal, 'x') + "123456789"); });
+  seal(path, MPI_COMM_WORLD);
   std::string expected =
     "Morula snapshot\nbytes 9\nCRC-64/XZ 995dc9bbdf1939fa\n";
   expected.resize(size_of_seal, '\n');
   EXPECT_EQ(content(path), expected + "123456789");
-  EXPECT_EQ(examine_seal(path), SealState::whole);
-  EXPECT_EQ(examine_seal(directory / "none"), SealState::missing);
+  EXPECT_EQ(examine_seal(path, MPI_COMM_WORLD), SealState::whole);
+  EXPECT_EQ(examine_seal(directory / "none", MPI_COMM_WORLD),
+            SealState::missing);
   MPI_Barrier(MPI_COMM_WORLD);
 }

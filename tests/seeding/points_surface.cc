@@ -3,8 +3,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/share.h>
 #include <morula/seeding/points_surface.h>
-#include <morula/seeding/share.h>
 
 #include <deal.II/base/mpi.h>
 

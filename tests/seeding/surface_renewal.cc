@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/share.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/tissue.h>
-#include <morula/seeding/share.h>
 #include <morula/seeding/surface_renewal.h>
 
 #include <gtest/gtest.h>

@@ -4,6 +4,8 @@
 #ifndef morula_output_sealed_file_h
 #define morula_output_sealed_file_h
 
+#include <mpi.h>
+
 #include <cstddef>
 #include <string>
 
@@ -28,11 +30,12 @@ namespace Morula
   constexpr std::size_t size_of_seal = 512;
 
   /**
-   * Writes the seal of a complete file over its first bytes.
-   * @throws std::runtime_error with path and reason
+   * Writes the seal of a complete file over its first bytes. Every rank reads
+   * a share of the file. Collective.
+   * @throws std::runtime_error on all ranks, with path and reason
    */
   void
-  seal(const std::string &path);
+  seal(const std::string &path, const MPI_Comm comm);
 
   /** The state of a file that should have a seal. */
   enum class SealState
@@ -44,9 +47,10 @@ namespace Morula
     whole
   };
 
-  /** Compares a file with its seal. Reads the whole file. */
+  /** Compares a file with its seal. Every rank reads a share of the file.
+   *  Collective. */
   SealState
-  examine_seal(const std::string &path);
+  examine_seal(const std::string &path, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_seeding_share_h
-#define morula_seeding_share_h
+#ifndef morula_base_share_h
+#define morula_base_share_h
 
 #include <mpi.h>
 

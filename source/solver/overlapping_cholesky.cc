@@ -64,7 +64,7 @@ namespace Morula
     if (Utilities::MPI::n_mpi_processes(K.get_mpi_communicator()) > 1)
       halo.emplace(own, others, K.get_mpi_communicator());
     factorize(K.trilinos_matrix(),
-              receive(K.trilinos_matrix()),
+              receive(K.trilinos_matrix(), n_components),
               n_components,
               parameters);
   }
@@ -78,33 +78,44 @@ namespace Morula
   }
 
   OverlappingCholesky::ReceivedRows
-  OverlappingCholesky::receive(const Epetra_CrsMatrix &K) const
+  OverlappingCholesky::receive(const Epetra_CrsMatrix &K,
+                               const unsigned int      n_components) const
   {
     ReceivedRows received;
     received.begins.push_back(0);
     if (!halo)
       return received;
+    const int *const global_columns = K.ColMap().MyGlobalElements();
     const auto append = [&](const unsigned int row, std::vector<Entry> &rows) {
       int     length, *ids;
       double *entries;
       K.ExtractMyRowView(row, length, entries, ids);
-      const std::size_t head = rows.size();
+      const int         first = K.GRID(row);
+      const std::size_t head  = rows.size();
       rows.push_back({0, 0.f});
       for (int k = 0; k < length; ++k)
-        if (const int column = K.GCID(ids[k]); column >= K.GRID(row))
+        if (const int column = global_columns[ids[k]]; column >= first)
           rows.push_back({column, static_cast<float>(entries[k])});
       rows[head].column = rows.size() - head - 1;
     };
     const auto take = [&](const std::vector<Entry> &rows) {
       for (auto entry = rows.begin(); entry != rows.end();)
         {
-          const auto end = entry + 1 + entry->column;
-          for (++entry; entry != end; ++entry)
-            if (const int column = number_of(entry->column); column >= 0)
-              {
-                received.columns.push_back(column);
-                received.values.push_back(entry->value);
-              }
+          const auto end  = entry + 1 + entry->column;
+          int        last = -1, column = -1; // the same one, in the block
+          for (++entry; entry != end; last = (entry++)->column)
+            {
+              // A spline's unknowns are in the block together.
+              if (entry->column != last + 1 ||
+                  entry->column % n_components == 0)
+                column = number_of(entry->column);
+              else if (column >= 0)
+                ++column;
+              if (column < 0)
+                continue;
+              received.columns.push_back(column);
+              received.values.push_back(entry->value);
+            }
           received.begins.push_back(received.columns.size());
         }
     };

@@ -75,7 +75,7 @@ namespace Morula
     number_of(const types::global_dof_index row) const;
 
     ReceivedRows
-    receive(const Epetra_CrsMatrix &K) const;
+    receive(const Epetra_CrsMatrix &K, const unsigned int n_components) const;
 
     void
     factorize(const Epetra_CrsMatrix &K,

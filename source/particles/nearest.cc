@@ -53,23 +53,24 @@ namespace Morula
               const PointStore<dim>           &points,
               const NearestQuery              &wanted)
     {
-      PointList<dim>      list(wanted.n);
-      std::vector<double> numbers;
-      auto                cell = points.grid_cells().begin();
+      std::vector<unsigned int> found;
+      auto                      cell = points.grid_cells().begin();
       for (const unsigned int number : grid_cells)
         {
           while (cell != points.grid_cells().end() && cell->number < number)
             ++cell;
-          if (cell == points.grid_cells().end() || cell->number != number)
-            continue;
-          for (unsigned int p = cell->begin; p < cell->end; ++p)
-            {
-              numbers.clear();
-              wanted.append(p, numbers);
-              list.add(points.id(p),
-                       points.position(p),
-                       make_array_view(numbers));
-            }
+          if (cell != points.grid_cells().end() && cell->number == number)
+            for (unsigned int p = cell->begin; p < cell->end; ++p)
+              found.push_back(p);
+        }
+      PointList<dim>      list(wanted.n);
+      std::vector<double> numbers;
+      list.reserve(found.size());
+      for (const unsigned int p : found)
+        {
+          numbers.clear();
+          wanted.append(p, numbers);
+          list.add(points.id(p), points.position(p), make_array_view(numbers));
         }
       return list;
     }

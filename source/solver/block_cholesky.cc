@@ -57,6 +57,7 @@ namespace Morula
                                   const Rows       &rows,
                                   const Parameters &parameters)
     : n_blocks(n_rows / n)
+    , n_dropped(parameters.n_dropped / n)
     , scales(n_rows)
     , diagonal(n_blocks)
     , begins(1, 0)
@@ -104,6 +105,7 @@ namespace Morula
     const double mean = parameters.mean_blocks.value_or(
       n_entries / (n * n * std::max(1., 1. * n_blocks)));
     n_most = std::min(std::ceil(parameters.fill * mean), 1. * n_blocks);
+    n_most_of_dropped = std::ceil(parameters.fill_of_dropped * n_most);
   }
 
   template <int n>
@@ -197,10 +199,11 @@ namespace Morula
         if (row != k && sum > 0.f)
           sizes.emplace_back(-sum, row);
       }
-    if (sizes.size() > n_most)
+    const std::size_t n_kept = k < n_dropped ? n_most_of_dropped : n_most;
+    if (sizes.size() > n_kept)
       {
-        std::nth_element(sizes.begin(), sizes.begin() + n_most, sizes.end());
-        sizes.resize(n_most);
+        std::nth_element(sizes.begin(), sizes.begin() + n_kept, sizes.end());
+        sizes.resize(n_kept);
       }
     for (const auto &[size, row] : sizes)
       numbers.push_back(row);
@@ -231,7 +234,7 @@ namespace Morula
 
   template <int n>
   void
-  BlockCholesky<n>::solve(double *x, const int n_dropped) const
+  BlockCholesky<n>::solve(double *x) const
   {
     // Far from the limits of single precision.
     double largest = 0.;
@@ -258,7 +261,7 @@ namespace Morula
               sum -= blocks[e].column[m] * z[m];
           }
       }
-    std::fill_n(y.begin(), n_dropped / n, Part());
+    std::fill_n(y.begin(), n_dropped, Part());
     for (int k = n_blocks - 1; k >= 0; --k)
       {
         Lane sums[n] = {};

@@ -34,6 +34,10 @@ namespace Morula
       float value;
     };
 
+    /** Blocks of columns of lower ranks, of those of own columns: with fewer
+     *  iterations increase (doc/performance.md, The linear solver). */
+    constexpr double fill_of_others = 0.6;
+
     std::unique_ptr<IncompleteCholesky>
     make_factor(const unsigned int                    n_components,
                 const int                             n_rows,
@@ -159,7 +163,9 @@ namespace Morula
     };
     // The first rows of a block lack what lies outside of it: with as few
     // blocks as that leaves the factor of own rows is barely positive.
-    Parameters of_block = parameters;
+    Parameters of_block      = parameters;
+    of_block.n_dropped       = n_others;
+    of_block.fill_of_dropped = fill_of_others;
     if (halo && own.n_elements() > 0)
       of_block.mean_blocks =
         0.5 * (1. * K.NumMyNonzeros() / (n_components * own.n_elements()) - 1.);
@@ -187,7 +193,7 @@ namespace Morula
     double *const     result   = y.trilinos_vector()[0];
     std::copy_n(x.begin(), n_own, of_own);
     halo->fetch(of_own, gathered.data());
-    factor->solve(gathered.data(), n_others);
+    factor->solve(gathered.data());
     std::copy_n(of_own, n_own, result);
     halo->add_back(gathered.data(), result);
   }

@@ -227,6 +227,37 @@ TEST(BlockCholesky, TakesNoMoreIterationsThanSingleEntriesDid){
   MORULA_BOTH_DIMENSIONS(check_tangent)}
 
 
+// Columns of dropped rows that keep no block leave the other rows alone.
+TEST(BlockCholesky, DroppedRowsKeepTheirPartOfTheBlocks)
+{
+  const unsigned int       size = 60, n_dropped = 24;
+  const FullMatrix<double> A = random_matrix(size, 8.);
+  FullMatrix<double>       rest(size - n_dropped, size - n_dropped);
+  for (unsigned int i = 0; i < rest.m(); ++i)
+    for (unsigned int j = 0; j < rest.n(); ++j)
+      rest(i, j) = A(n_dropped + i, n_dropped + j);
+
+  auto keep_none            = parameters(1e3);
+  keep_none.n_dropped       = n_dropped;
+  keep_none.fill_of_dropped = 0.;
+  auto keep_all             = keep_none;
+  keep_all.fill_of_dropped  = 1.;
+  std::vector<double> without(size, 1.), with(size, 1.), alone(rest.m(), 1.);
+  BlockCholesky<3>(size, rows_of(A), keep_none).solve(without.data());
+  BlockCholesky<3>(size, rows_of(A), keep_all).solve(with.data());
+  BlockCholesky<3>(rest.m(), rows_of(rest), parameters(1e3))
+    .solve(alone.data());
+  double difference = 0.;
+  for (unsigned int i = 0; i < size; ++i)
+    {
+      const double expected = i < n_dropped ? 0. : alone[i - n_dropped];
+      EXPECT_NEAR(without[i], expected, 1e-5 * std::abs(expected));
+      difference = std::max(difference, std::abs(with[i] - without[i]));
+    }
+  EXPECT_GT(difference, 1e-3);
+}
+
+
 // The matrix of M. Kershaw, positive, of which the incomplete factor is not:
 // more blocks or a raised diagonal make it so.
 TEST(BlockCholesky, SeesThatItIsNotPositive)

@@ -24,6 +24,10 @@ namespace Morula
       /** Blocks of the triangle in a column, in the mean, if these are not the
        *  matrix's own: a part of a matrix has fewer than the whole. */
       std::optional<double> mean_blocks;
+      /** So many first rows are to be dropped (solve()); their columns keep
+       *  the part @p fill_of_dropped of the others' blocks. */
+      int    n_dropped       = 0;
+      double fill_of_dropped = 1.;
       /** The diagonal is multiplied by the relative one and raised by the
        *  absolute one. */
       double relative_diagonal = 1.;
@@ -48,10 +52,10 @@ namespace Morula
     virtual bool
     is_positive() const = 0;
 
-    /** x = L⁻ᵀ D L⁻¹ x, where D is 1 but for the first @p n_dropped rows, in
-     *  which it is 0: M⁻¹ x if there are none. */
+    /** x = L⁻ᵀ D L⁻¹ x, where D is 1 but for the rows to be dropped, in which
+     *  it is 0: M⁻¹ x if there are none. */
     virtual void
-    solve(double *x, const int n_dropped = 0) const = 0;
+    solve(double *x) const = 0;
   };
 
   /** n numbers in one register: three take the place of four. */
@@ -105,7 +109,7 @@ namespace Morula
     is_positive() const override;
 
     void
-    solve(double *x, const int n_dropped = 0) const override;
+    solve(double *x) const override;
 
   private:
     using Lane = typename Lanes<n>::Type;
@@ -140,18 +144,20 @@ namespace Morula
     bool
     invert_diagonal(const int k, const Block &block);
 
-    /** Keeps the n_most largest blocks of column k. */
+    /** Keeps the largest blocks of column k. */
     void
     keep(const int k, Column &column);
 
     int                      n_blocks;
-    std::vector<float>       scales;   // diag^(-1/2), by row
-    std::vector<Block>       diagonal; // inverses of its lower triangles
-    std::vector<std::size_t> begins;   // by column
-    std::vector<int>         numbers;  // of block rows, ascending in a column
-    std::vector<Block>       blocks;   // below the diagonal
-    std::size_t              n_most    = 0; // blocks a column
-    bool                     positive_ = true;
+    int                      n_dropped; // of the blocks' rows
+    std::vector<float>       scales;    // diag^(-1/2), by row
+    std::vector<Block>       diagonal;  // inverses of its lower triangles
+    std::vector<std::size_t> begins;    // by column
+    std::vector<int>         numbers;   // of block rows, ascending in a column
+    std::vector<Block>       blocks;    // below the diagonal
+    std::size_t              n_most            = 0; // blocks a column
+    std::size_t              n_most_of_dropped = 0;
+    bool                     positive_         = true;
 
     // While it is made, by column: the first block not below the current one,
     // and the next column that awaits the same row; and that list's begin.

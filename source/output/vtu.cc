@@ -25,9 +25,10 @@ namespace Morula
                 const PointFields<dim> &fields,
                 std::uint64_t           offset)
     {
+      std::string text;
       for (std::size_t k = 0; k < piece.n_parts(); ++k)
         {
-          const std::string text = piece.part(fields, k);
+          piece.make_part(fields, k, text);
           file.write(text, offset);
           offset += text.size();
         }
@@ -52,9 +53,10 @@ namespace Morula
       for (unsigned int r = 0; r < Utilities::MPI::n_mpi_processes(comm); ++r)
         for (std::size_t k = 0; k < piece.n_parts(); ++k)
           {
-            const std::vector<std::string> texts =
-              gather_to_root(r == rank ? piece.part(fields, k) : std::string(),
-                             comm);
+            std::string own;
+            if (r == rank)
+              piece.make_part(fields, k, own);
+            const std::vector<std::string> texts = gather_to_root(own, comm);
             on_root(comm, [&]() { file->write(texts[r]); });
           }
       on_root(comm, [&]() {

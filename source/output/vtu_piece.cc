@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {
@@ -134,20 +133,28 @@ namespace Morula
       char                           *target;
     };
 
-    /** The arrays of a group as they stand in a file. */
+    /** The arrays of a group as they stand in a file, between two other
+     *  texts. */
     class GroupText
     {
     public:
-      GroupText(const Group &group, const std::size_t n_points)
+      /** @param text becomes all of it; its memory is used again */
+      GroupText(const Group       &group,
+                const std::size_t  n_points,
+                const std::string &before,
+                const std::string &behind,
+                std::string       &text)
       {
-        std::size_t size = 0;
+        std::size_t size = before.size() + behind.size();
         for (const VtuArray &array : group)
           size += array.n_bytes_in_file(n_points);
+        text.clear();
         text.resize(size);
         char      *place = text.data();
         const auto put   = [&place](const std::string &what) {
           place = std::copy(what.begin(), what.end(), place);
         };
+        put(before);
         for (const VtuArray &array : group)
           {
             put(array.tag());
@@ -157,6 +164,7 @@ namespace Morula
             place += (array.n_bytes(n_points) + 2) / 3 * 4;
             put(end_of_array);
           }
+        put(behind);
       }
 
       /** Where the values of array number @p k go. */
@@ -166,16 +174,14 @@ namespace Morula
         return arrays[k];
       }
 
-      std::string
+      void
       finish()
       {
         for (Base64 &array : arrays)
           array.finish();
-        return std::move(text);
       }
 
     private:
-      std::string         text;
       std::vector<Base64> arrays;
     };
 
@@ -221,23 +227,6 @@ namespace Morula
           }
     }
 
-    /** The arrays of a group as they stand in this rank's piece. */
-    template <int dim>
-    std::string
-    elements(const PointFields<dim> &fields,
-             const Group            &group,
-             const std::size_t       g)
-    {
-      GroupText text(group, fields.size());
-      if (g == 0)
-        add_points(fields, text);
-      else if (g == 1)
-        add_cells(fields.size(), text);
-      else
-        add_fields(fields, group, text);
-      return text.finish();
-    }
-
     /** What stands before a group of a piece. */
     std::string
     before(const std::size_t g, const std::size_t n_points)
@@ -250,7 +239,6 @@ namespace Morula
       return "<Piece NumberOfPoints=\"" + n + "\" NumberOfCells=\"" + n +
              "\">\n<Points>\n";
     }
-
   } // namespace
 
   std::string
@@ -309,11 +297,23 @@ namespace Morula
   }
 
   template <int dim>
-  std::string
-  VtuPiece<dim>::part(const PointFields<dim> &fields, const std::size_t k) const
+  void
+  VtuPiece<dim>::make_part(const PointFields<dim> &fields,
+                           const std::size_t       k,
+                           std::string            &text) const
   {
-    return before(k, fields.size()) + elements(fields, parts[k], k) +
-           (k + 1 == parts.size() ? end_of_piece : "");
+    GroupText group(parts[k],
+                    fields.size(),
+                    before(k, fields.size()),
+                    k + 1 == parts.size() ? end_of_piece : "",
+                    text);
+    if (k == 0)
+      add_points(fields, group);
+    else if (k == 1)
+      add_cells(fields.size(), group);
+    else
+      add_fields(fields, parts[k], group);
+    group.finish();
   }
 
   std::string

@@ -62,9 +62,13 @@ namespace Morula
     std::uint64_t
     n_bytes(const std::uint64_t n_points) const;
 
-    /** Part number @p k of the piece that holds the @p fields. */
-    std::string
-    part(const PointFields<dim> &fields, const std::size_t k) const;
+    /** Makes @p text part number @p k of the piece that holds the @p fields.
+     *  Its memory is used again: in new memory, pages would take as long as the
+     *  text. */
+    void
+    make_part(const PointFields<dim> &fields,
+              const std::size_t       k,
+              std::string            &text) const;
 
   private:
     std::vector<std::vector<VtuArray>> parts;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/mechanics/matrix_scatter.h>
 
 #include <deal.II/base/mpi.h>
@@ -92,7 +93,7 @@ namespace Morula
         values.resize(values.size() +
                       n_components * n_components * columns[s].size());
       }
-    return Utilities::MPI::some_to_some(comm, messages);
+    return send_records(messages, comm);
   }
 
   template <int dim, int n_components>

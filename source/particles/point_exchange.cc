@@ -28,12 +28,21 @@ namespace Morula
       rows.insert(rows.end(), row.begin(), row.end());
     }
 
+    /** Numbers of such a row. */
+    template <int dim>
+    std::size_t
+    width_of_row(const unsigned int n_numbers)
+    {
+      return Flat<std::tuple<types::particle_index, Point<dim>>>::n + n_numbers;
+    }
+
     template <int dim>
     void
     append_points(const std::vector<double> &rows, PointList<dim> &points)
     {
       using Head = Flat<std::tuple<types::particle_index, Point<dim>>>;
-      const std::size_t width = Head::n + points.n_numbers;
+      const std::size_t width = width_of_row<dim>(points.n_numbers);
+      points.reserve(points.size() + rows.size() / width);
       for (const double *row = rows.data(); row != rows.data() + rows.size();
            row += width)
         {
@@ -85,8 +94,7 @@ namespace Morula
              const MPI_Comm                                     comm,
              PointList<dim>                                    &points)
     {
-      for (const auto &[rank, rows] :
-           Utilities::MPI::some_to_some(comm, rows_to))
+      for (const auto &[rank, rows] : send_records(rows_to, comm))
         append_points(rows, points);
     }
 
@@ -119,8 +127,12 @@ namespace Morula
   {
     std::map<unsigned int, std::vector<double>> rows_to;
     for (const auto &[rank, points] : points_to)
-      for (std::size_t i = 0; i < points.size(); ++i)
-        append_row(points, i, rows_to[rank]);
+      {
+        std::vector<double> &rows = rows_to[rank];
+        rows.reserve(points.size() * width_of_row<dim>(n_numbers));
+        for (std::size_t i = 0; i < points.size(); ++i)
+          append_row(points, i, rows);
+      }
     PointList<dim> received(n_numbers);
     exchange(rows_to, comm, received);
     return received;

@@ -4,9 +4,9 @@
 #ifndef morula_base_send_records_h
 #define morula_base_send_records_h
 
-#include <deal.II/base/mpi.templates.h>
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 
-#include <cstring>
 #include <map>
 #include <numeric>
 #include <type_traits>
@@ -14,47 +14,97 @@
 
 namespace Morula
 {
-  namespace Bytes
+  /** Records as MPI sends them: byte by byte. */
+  template <typename Record>
+  class RecordType
   {
-    /** The bytes of some records. deal.II would demand a serialize() of each
-     *  type of record, though it copies only bytes, too. */
-    template <typename Record>
-    std::vector<char>
-    of(const std::vector<Record> &records)
+    static_assert(std::is_trivially_copyable<Record>::value);
+
+  public:
+    RecordType()
     {
-      static_assert(std::is_trivially_copyable<Record>::value);
-      std::vector<char> bytes(records.size() * sizeof(Record));
-      if (!records.empty())
-        std::memcpy(bytes.data(), records.data(), bytes.size());
-      return bytes;
+      MPI_Type_contiguous(sizeof(Record), MPI_BYTE, &type);
+      MPI_Type_commit(&type);
     }
 
-    /** Inverse of of(). */
-    template <typename Record>
-    std::vector<Record>
-    records(const std::vector<char> &bytes)
-    {
-      std::vector<Record> list(bytes.size() / sizeof(Record));
-      if (!list.empty())
-        std::memcpy(list.data(), bytes.data(), bytes.size());
-      return list;
-    }
-  } // namespace Bytes
+    RecordType(const RecordType &) = delete;
 
-  /** Sends lists of records to some ranks. Collective. @return what came, by
-   *  sender */
+    ~RecordType()
+    {
+      MPI_Type_free(&type);
+    }
+
+    operator MPI_Datatype() const
+    {
+      return type;
+    }
+
+  private:
+    MPI_Datatype type;
+  };
+
+  /**
+   * Sends lists of records to some ranks. Collective. deal.II's some_to_some()
+   * copies what it sends and what it receives once more, into new memory, which
+   * took as long as the messages where cells near a surface go to other ranks
+   * (doc/performance.md, Two ranks).
+   * @return what came, by sender
+   */
   template <typename Record>
   std::map<unsigned int, std::vector<Record>>
   send_records(const std::map<unsigned int, std::vector<Record>> &lists,
                const MPI_Comm                                     comm)
   {
-    std::map<unsigned int, std::vector<char>> bytes;
-    for (const auto &[rank, list] : lists)
-      bytes[rank] = Bytes::of(list);
+    constexpr int            tag = 1;
+    const RecordType<Record> record;
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
     std::map<unsigned int, std::vector<Record>> received;
-    for (const auto &[rank, list] :
-         dealii::Utilities::MPI::some_to_some(comm, bytes))
-      received[rank] = Bytes::records<Record>(list);
+    std::vector<unsigned int>                   receivers;
+    for (const auto &[receiver, list] : lists)
+      if (receiver == rank)
+        received[rank] = list;
+      else
+        receivers.push_back(receiver);
+    // Ranks agree on this: no message of the next call can come before.
+    const unsigned int n_senders =
+      dealii::Utilities::MPI::compute_n_point_to_point_communications(
+        comm, receivers);
+
+    std::vector<MPI_Request> requests(receivers.size());
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+      {
+        const std::vector<Record> &list  = lists.at(receivers[i]);
+        const int                  error = MPI_Isend(list.data(),
+                                    list.size(),
+                                    record,
+                                    receivers[i],
+                                    tag,
+                                    comm,
+                                    &requests[i]);
+        AssertThrowMPI(error);
+      }
+    for (unsigned int i = 0; i < n_senders; ++i)
+      {
+        MPI_Status status;
+        int        n;
+        int        error = MPI_Probe(MPI_ANY_SOURCE, tag, comm, &status);
+        AssertThrowMPI(error);
+        error = MPI_Get_count(&status, record, &n);
+        AssertThrowMPI(error);
+        std::vector<Record> &list = received[status.MPI_SOURCE];
+        list.resize(n);
+        error = MPI_Recv(list.data(),
+                         n,
+                         record,
+                         status.MPI_SOURCE,
+                         tag,
+                         comm,
+                         MPI_STATUS_IGNORE);
+        AssertThrowMPI(error);
+      }
+    const int error =
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    AssertThrowMPI(error);
     return received;
   }
 
@@ -65,7 +115,6 @@ namespace Morula
   std::vector<std::vector<Record>>
   gather_everywhere(const std::vector<Record> &own, const MPI_Comm comm)
   {
-    static_assert(std::is_trivially_copyable<Record>::value);
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
     if (n_ranks == 1)
       return {own};
@@ -74,10 +123,8 @@ namespace Morula
     MPI_Allgather(&n_own, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm);
     std::partial_sum(sizes.begin(), sizes.end(), offsets.begin() + 1);
 
-    MPI_Datatype record;
-    MPI_Type_contiguous(sizeof(Record), MPI_BYTE, &record);
-    MPI_Type_commit(&record);
-    std::vector<Record> list(offsets.back());
+    const RecordType<Record> record;
+    std::vector<Record>      list(offsets.back());
     MPI_Allgatherv(own.data(),
                    n_own,
                    record,
@@ -86,7 +133,6 @@ namespace Morula
                    offsets.data(),
                    record,
                    comm);
-    MPI_Type_free(&record);
 
     std::vector<std::vector<Record>> all;
     for (unsigned int rank = 0; rank < n_ranks; ++rank)

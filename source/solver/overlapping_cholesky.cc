@@ -103,6 +103,8 @@ namespace Morula
       rows[head].column = rows.size() - head - 1;
     };
     const auto take = [&](const std::vector<Entry> &rows) {
+      received.columns.reserve(received.columns.size() + rows.size());
+      received.values.reserve(received.columns.capacity());
       for (auto entry = rows.begin(); entry != rows.end();)
         {
           const auto end  = entry + 1 + entry->column;
@@ -123,7 +125,7 @@ namespace Morula
           received.begins.push_back(received.columns.size());
         }
     };
-    halo->fetch_lists<Entry>(append, take);
+    halo->fetch_lists<Entry>(append, K.MaxNumEntries() / 2, take);
     return received;
   }
 
@@ -151,11 +153,12 @@ namespace Morula
                                received.values.begin() + end);
           return;
         }
-      int     length, *ids;
-      double *entries;
+      const int first = row - row % n_components; // of the diagonal's block
+      int       length, *ids;
+      double   *entries;
       K.ExtractMyRowView(row - n_others, length, entries, ids);
       for (int k = 0; k < length; ++k)
-        if (const int column = numbers[ids[k]]; column >= 0)
+        if (const int column = numbers[ids[k]]; column >= first)
           {
             result.columns.push_back(column);
             result.values.push_back(entries[k]);

@@ -45,12 +45,15 @@ namespace Morula
      * same.
      * @tparam T trivially copyable
      * @param append appends the list of an own entry, by its number among these
+     * @param length of a list, about: for so much there is room at once
      * @param take   gets the lists of consecutive entries of other ranks, one
      *               after the other; called in the order of the entries
      */
     template <typename T, typename Append, typename Take>
     void
-    fetch_lists(const Append &append, const Take &take) const;
+    fetch_lists(const Append     &append,
+                const std::size_t length,
+                const Take       &take) const;
 
   private:
     /** By rank that needs them: numbers of own entries. */
@@ -64,7 +67,9 @@ namespace Morula
 
   template <typename T, typename Append, typename Take>
   void
-  Halo::fetch_lists(const Append &append, const Take &take) const
+  Halo::fetch_lists(const Append     &append,
+                    const std::size_t length,
+                    const Take       &take) const
   {
     static_assert(std::is_trivially_copyable<T>::value,
                   "only plain values can be sent byte by byte");
@@ -75,6 +80,7 @@ namespace Morula
     for (const auto &[rank, entries] : needed_elsewhere())
       {
         std::vector<T> &lists = sent.emplace_back();
+        lists.reserve(entries.size() * length);
         for (const unsigned int entry : entries)
           append(entry, lists);
         requests.emplace_back();

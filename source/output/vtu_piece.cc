@@ -83,55 +83,83 @@ namespace Morula
 
       template <typename T>
       void
-      add(const T value)
+      add(const T *const values, const std::size_t n_values)
       {
-        if (n + sizeof(T) > buffer.size())
-          flush();
-        std::memcpy(&buffer[n], &value, sizeof(T));
-        n += sizeof(T);
+        const auto *bytes     = reinterpret_cast<const unsigned char *>(values);
+        const auto *const end = bytes + n_values * sizeof(T);
+        for (; n > 0 && n < 3 && bytes != end; ++bytes)
+          rest[n++] = *bytes;
+        if (n == 3)
+          {
+            target = encode(rest.data(), rest.data() + n, target);
+            n      = 0;
+          }
+        const auto *const whole = bytes + (end - bytes) / 3 * 3;
+        target                  = encode(bytes, whole, target);
+        for (bytes = whole; bytes != end; ++bytes)
+          rest[n++] = *bytes;
       }
 
-      /** Writes what is left; returns the end. */
-      char *
+      /** Writes what is left. */
+      void
       finish()
       {
-        flush();
-        if (n > 0)
+        if (n == 0)
+          return;
+        std::fill(rest.begin() + n, rest.end(), 0);
+        encode(rest.data(), rest.data() + rest.size(), target);
+        std::fill(target + n + 1, target + 4, '=');
+      }
+
+    private:
+      /** Writes all bytes, whose number is one of threes; returns the end. */
+      static char *
+      encode(const unsigned char *bytes, const unsigned char *end, char *target)
+      {
+        static constexpr Pairs pairs = base64_pairs();
+        for (; bytes != end; bytes += 3, target += 4)
           {
-            std::fill(buffer.begin() + n, buffer.begin() + 3, 0);
-            encode(0);
-            std::fill(target + n + 1, target + 4, '=');
-            target += 4;
+            const std::uint32_t bits =
+              bytes[0] << 16 | bytes[1] << 8 | bytes[2];
+            std::memcpy(target, pairs[bits >> 12].data(), 2);
+            std::memcpy(target + 2, pairs[bits & 4095].data(), 2);
           }
         return target;
       }
 
-    private:
-      void
-      encode(const std::size_t i)
-      {
-        static constexpr Pairs pairs = base64_pairs();
-        const std::uint32_t    bits =
-          buffer[i] << 16 | buffer[i + 1] << 8 | buffer[i + 2];
-        std::memcpy(target, pairs[bits >> 12].data(), 2);
-        std::memcpy(target + 2, pairs[bits & 4095].data(), 2);
-      }
-
-      /** Writes all whole threes of bytes. */
-      void
-      flush()
-      {
-        std::size_t i = 0;
-        for (; i + 3 <= n; i += 3, target += 4)
-          encode(i);
-        std::copy(buffer.begin() + i, buffer.begin() + n, buffer.begin());
-        n -= i;
-      }
-
-      std::array<unsigned char, 3072> buffer;
-      std::size_t                     n = 0; // bytes in it
-      char                           *target;
+      std::array<unsigned char, 3> rest;
+      std::size_t                  n = 0; // bytes in it
+      char                        *target;
     };
+
+    /** Points whose values the cache holds while a group's arrays get them. */
+    constexpr std::size_t n_at_once = 256;
+
+    /** visit(first, end) for all points, some at a time. */
+    template <typename Visit>
+    void
+    for_all(const std::size_t n_points, const Visit &visit)
+    {
+      for (std::size_t first = 0; first < n_points; first += n_at_once)
+        visit(first, std::min(first + n_at_once, n_points));
+    }
+
+    /** Adds value(i, c) of some points i, component by component c. */
+    template <typename T, typename Value>
+    void
+    add_values(const std::size_t  first,
+               const std::size_t  end,
+               const unsigned int n_components,
+               const Value       &value,
+               Base64            &array)
+    {
+      std::vector<T> values((end - first) * n_components);
+      T             *next = values.data();
+      for (std::size_t i = first; i < end; ++i)
+        for (unsigned int c = 0; c < n_components; ++c)
+          *next++ = value(i, c);
+      array.add(values.data(), values.size());
+    }
 
     /** The arrays of a group as they stand in a file, between two other
      *  texts. */
@@ -159,8 +187,9 @@ namespace Morula
           {
             put(array.tag());
             arrays.emplace_back(place);
-            arrays.back().add<std::uint64_t>(array.n_bytes(n_points) -
-                                             sizeof(std::uint64_t));
+            const std::uint64_t n_bytes =
+              array.n_bytes(n_points) - sizeof(std::uint64_t);
+            arrays.back().add(&n_bytes, 1);
             place += (array.n_bytes(n_points) + 2) / 3 * 4;
             put(end_of_array);
           }
@@ -190,22 +219,29 @@ namespace Morula
     void
     add_points(const PointFields<dim> &fields, GroupText &text)
     {
-      for (const Point<dim> &position : fields.positions)
-        for (unsigned int d = 0; d < 3; ++d)
-          text.array(0).add<float>(d < dim ? position[d] : 0.);
+      const auto coordinate = [&](const std::size_t i, const unsigned int d) {
+        return d < dim ? fields.positions[i][d] : 0.;
+      };
+      for_all(fields.size(), [&](const auto first, const auto end) {
+        add_values<float>(first, end, 3, coordinate, text.array(0));
+      });
     }
 
     /** The second one. */
     void
     add_cells(const std::size_t n_points, GroupText &text)
     {
-      constexpr std::uint8_t vtk_vertex = 1;
-      for (std::size_t i = 0; i < n_points; ++i)
-        {
-          text.array(0).add<std::int32_t>(i);
-          text.array(1).add<std::int32_t>(i + 1);
-          text.array(2).add(vtk_vertex);
-        }
+      constexpr std::uint8_t vertex = 1; // of VTK
+      const auto point  = [](const std::size_t i, unsigned int) { return i; };
+      const auto behind = [](const std::size_t i, unsigned int) {
+        return i + 1;
+      };
+      const auto type = [](std::size_t, unsigned int) { return vertex; };
+      for_all(n_points, [&](const auto first, const auto end) {
+        add_values<std::int32_t>(first, end, 1, point, text.array(0));
+        add_values<std::int32_t>(first, end, 1, behind, text.array(1));
+        add_values<std::uint8_t>(first, end, 1, type, text.array(2));
+      });
     }
 
     /** Another one. */
@@ -215,16 +251,23 @@ namespace Morula
                const Group            &group,
                GroupText              &text)
     {
-      for (std::size_t i = 0; i < fields.size(); ++i)
+      for_all(fields.size(), [&](const auto first, const auto end) {
         for (std::size_t k = 0; k < group.size(); ++k)
           {
-            const double *const values = fields.row(i) + group[k].first_column;
-            for (unsigned int c = 0; c < group[k].n_components; ++c)
-              if (group[k].type == VtuArray::Int32)
-                text.array(k).add<std::int32_t>(std::lround(values[c]));
-              else
-                text.array(k).add<float>(values[c]);
+            const VtuArray &array = group[k];
+            const auto value = [&](const std::size_t i, const unsigned int c) {
+              return fields.row(i)[array.first_column + c];
+            };
+            const auto whole = [&](const std::size_t i, const unsigned int c) {
+              return std::lround(value(i, c));
+            };
+            const unsigned int n = array.n_components;
+            if (array.type == VtuArray::Int32)
+              add_values<std::int32_t>(first, end, n, whole, text.array(k));
+            else
+              add_values<float>(first, end, n, value, text.array(k));
           }
+      });
     }
 
     /** What stands before a group of a piece. */

@@ -36,7 +36,7 @@ namespace Morula
 
     /** Blocks of columns of lower ranks, of those of own columns: with fewer
      *  iterations increase (doc/performance.md, The linear solver). */
-    constexpr double fill_of_others = 0.6;
+    constexpr double fill_of_others = 0.5;
 
     std::unique_ptr<IncompleteCholesky>
     make_factor(const unsigned int                    n_components,

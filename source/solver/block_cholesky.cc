@@ -104,8 +104,11 @@ namespace Morula
       }
     const double mean = parameters.mean_blocks.value_or(
       n_entries / (n * n * std::max(1., 1. * n_blocks)));
-    n_most = std::min(std::ceil(parameters.fill * mean), 1. * n_blocks);
-    n_most_of_dropped = std::ceil(parameters.fill_of_dropped * n_most);
+    const auto at_most = [&](const double fill) {
+      return std::min(std::ceil(fill * mean), 1. * n_blocks);
+    };
+    n_most            = at_most(parameters.fill);
+    n_most_of_dropped = at_most(parameters.fill * parameters.fill_of_dropped);
   }
 
   template <int n>

@@ -23,29 +23,29 @@ namespace
 {
   constexpr std::size_t large_page = std::size_t(1) << 21; // bytes
 
-  /**
-   * An array that begins with a large page, as the system only gives these to
-   * whole pages. The last page is a large one, too, if the array fills half
-   * of it. That is a wish: where it is not granted, pages are small.
-   * @return null if there is no memory
-   */
-  void *
-  allocate_in_large_pages(const std::size_t size)
+  /** Bytes of large pages that an array of @p size bytes is to have. The last
+   *  page is a large one, too, if that adds no more than an eighth: ranks have
+   *  many arrays of about a page. */
+  std::size_t
+  in_large_pages(const std::size_t size)
   {
-    const std::size_t n_pages = (size + large_page / 2) / large_page;
-    const std::size_t large   = n_pages * large_page;
-    void             *array   = nullptr;
+    const std::size_t whole = size / large_page * large_page;
+    return whole + large_page - size <= size / 8 ? whole + large_page : whole;
+  }
+
+  /** An array of which @p large bytes, from its begin on, are in large pages.
+   *  That is a wish: where it is not granted, pages are small.
+   *  @return null if there is no memory */
+  void *
+  allocate(const std::size_t size, const std::size_t large)
+  {
+    if (large == 0)
+      return std::malloc(size > 0 ? size : 1);
+    void *array = nullptr;
     if (posix_memalign(&array, large_page, std::max(size, large)) != 0)
       return nullptr;
     madvise(array, large, MADV_HUGEPAGE);
     return array;
-  }
-
-  void *
-  allocate(const std::size_t size)
-  {
-    return size < large_page / 2 ? std::malloc(size > 0 ? size : 1) :
-                                   allocate_in_large_pages(size);
   }
 } // namespace
 
@@ -56,7 +56,7 @@ operator new(const std::size_t size)
 {
   for (;;)
     {
-      if (void *const array = allocate(size))
+      if (void *const array = allocate(size, in_large_pages(size)))
         return array;
       const std::new_handler handler = std::get_new_handler();
       if (handler == nullptr)

@@ -45,9 +45,9 @@ namespace Morula
 
   /**
    * Sends lists of records to some ranks. Collective. deal.II's some_to_some()
-   * copies what it sends and what it receives once more, into new memory, which
-   * took as long as the messages where cells near a surface go to other ranks
-   * (doc/performance.md, Two ranks).
+   * copies what it sends and what it receives once more, into new memory
+   * (doc/performance.md, Two ranks), and demands a serialize() of each type of
+   * record.
    * @return what came, by sender
    */
   template <typename Record>

@@ -101,6 +101,23 @@ namespace Morula
     {
       return text.compare(0, start.size(), start) == 0;
     }
+
+    /** Reads the seal of a file.
+     *  @return `whole` if there is one, whatever it says */
+    SealState
+    read_seal(const std::string &path, std::string &found)
+    {
+      std::ifstream in(path, std::ios::binary);
+      if (!in)
+        return SealState::missing;
+      found.resize(size_of_seal);
+      in.read(found.data(), found.size());
+      found.resize(in.gcount());
+      if (begins_with(found, "\x89HDF\r\n\x1a\n"))
+        return SealState::plain_hdf5;
+      return begins_with(found, first_line) ? SealState::whole :
+                                              SealState::foreign;
+    }
   } // namespace
 
   void
@@ -119,19 +136,9 @@ namespace Morula
   SealState
   examine_seal(const std::string &path, const MPI_Comm comm)
   {
-    std::string found(size_of_seal, '\0');
+    std::string found;
     SealState   state = SealState::whole;
-    on_root(comm, [&]() {
-      std::ifstream in(path, std::ios::binary);
-      if (!in)
-        state = SealState::missing;
-      in.read(&found[0], found.size());
-      found.resize(in.gcount());
-      if (begins_with(found, "\x89HDF\r\n\x1a\n"))
-        state = SealState::plain_hdf5;
-      else if (in.is_open() && !begins_with(found, first_line))
-        state = SealState::foreign;
-    });
+    on_root(comm, [&]() { state = read_seal(path, found); });
     state = Utilities::MPI::broadcast(comm, state);
     if (state != SealState::whole)
       return state;

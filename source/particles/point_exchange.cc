@@ -42,7 +42,6 @@ namespace Morula
     {
       using Head = Flat<std::tuple<types::particle_index, Point<dim>>>;
       const std::size_t width = width_of_row<dim>(points.n_numbers);
-      points.reserve(points.size() + rows.size() / width);
       for (const double *row = rows.data(); row != rows.data() + rows.size();
            row += width)
         {
@@ -94,7 +93,13 @@ namespace Morula
              const MPI_Comm                                     comm,
              PointList<dim>                                    &points)
     {
-      for (const auto &[rank, rows] : send_records(rows_to, comm))
+      const auto  received  = send_records(rows_to, comm);
+      std::size_t n_numbers = 0;
+      for (const auto &[rank, rows] : received)
+        n_numbers += rows.size();
+      points.reserve(points.size() +
+                     n_numbers / width_of_row<dim>(points.n_numbers));
+      for (const auto &[rank, rows] : received)
         append_points(rows, points);
     }
 

@@ -89,6 +89,9 @@ namespace Morula
     received.begins.push_back(0);
     if (!halo)
       return received;
+    const std::size_t length_of_row = K.MaxNumEntries() / 2; // at most, about
+    received.columns.reserve(others.n_elements() * length_of_row);
+    received.values.reserve(others.n_elements() * length_of_row);
     const int *const global_columns = K.ColMap().MyGlobalElements();
     const auto append = [&](const unsigned int row, std::vector<Entry> &rows) {
       int     length, *ids;
@@ -103,8 +106,6 @@ namespace Morula
       rows[head].column = rows.size() - head - 1;
     };
     const auto take = [&](const std::vector<Entry> &rows) {
-      received.columns.reserve(received.columns.size() + rows.size());
-      received.values.reserve(received.columns.capacity());
       for (auto entry = rows.begin(); entry != rows.end();)
         {
           const auto end  = entry + 1 + entry->column;
@@ -125,7 +126,7 @@ namespace Morula
           received.begins.push_back(received.columns.size());
         }
     };
-    halo->fetch_lists<Entry>(append, K.MaxNumEntries() / 2, take);
+    halo->fetch_lists<Entry>(append, length_of_row, take);
     return received;
   }
 

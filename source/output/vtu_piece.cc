@@ -73,7 +73,7 @@ namespace Morula
     }
 
     /** Writes numbers in base64 to where there is room for them. deal.II's
-     *  encode_base64() takes three times as long as all else in an output. */
+     *  encode_base64() took three times as long as all else in an output. */
     class Base64
     {
     public:

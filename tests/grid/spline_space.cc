@@ -157,8 +157,7 @@ namespace
             const std::set<unsigned int> different(grid_cell.unknowns.begin(),
                                                    grid_cell.unknowns.end());
             EXPECT_EQ(different.size(), m);
-            // Work for such weights would be in vain, on many ranks for most
-            // grid cells.
+            // Work for such weights would be in vain.
             const std::size_t n_zeros = std::count(grid_cell.weights.begin(),
                                                    grid_cell.weights.end(),
                                                    0.);

@@ -35,6 +35,7 @@ namespace Morula
     for (const char *variable :
          {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
       setenv(variable, "100", 0);
+    setenv("HWLOC_COMPONENTS", "-gl", 0);
     if (is_launched())
       return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

@@ -7,6 +7,7 @@ Python is missing."""
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -247,6 +248,31 @@ class Render(ProgramTest):
         drawn = (picture < 200).any(axis=2)
         for panel in np.array_split(drawn, 2, axis=1):
             self.assertGreater(panel.mean(), 0.2)
+
+
+class VirtualScreen(ProgramTest):
+    # Draws nothing, but wants a screen of its own while it has one.
+    NESTED = """import os, sys
+from morula.draw.screen import run_on_virtual_screen
+print(os.environ["DISPLAY"], flush=True)
+depth = int(sys.argv[2])
+sys.exit(3 if depth == 0 else run_on_virtual_screen(
+    [sys.executable, "-c", sys.argv[1], sys.argv[1], str(depth - 1)]))
+"""
+
+    def test_displays(self):
+        """None of 0 to 9, where Open MPI looks for graphics cards, and none
+        that another process has."""
+        done = subprocess.run(
+            [sys.executable, "-c", self.NESTED, self.NESTED, "2"],
+            capture_output=True, text=True, check=False,
+            env={**os.environ, "DISPLAY": ":own"})
+        self.assertEqual(done.returncode, 3, done.stderr)
+        own, *displays = done.stdout.split()
+        self.assertEqual(own, ":own")
+        numbers = {int(display[1:]) for display in displays}
+        self.assertEqual(len(numbers), 2)
+        self.assertGreaterEqual(min(numbers), 10)
 
 
 class MissingLibraries(ProgramTest):

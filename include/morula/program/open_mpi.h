@@ -16,6 +16,10 @@ namespace Morula
    * semaphore locked, and all later runs on that machine would wait for it for
    * ever.
    *
+   * Its library hwloc does not look for graphics cards on X servers. It would
+   * ask the displays 0 to 9, and a server that ends meanwhile ends the program
+   * ("XIO: fatal IO error").
+   *
    * A single rank that no launcher has started gets no daemon, which only new
    * processes would need, no directories for messages, and no search for
    * networks. That is half of the time to start (doc/performance.md, The start

@@ -8,6 +8,11 @@ import sys
 
 VARIABLE = "MORULA_VIRTUAL_SCREEN"
 
+# Where a virtual screen may be. As it starts, Open MPI looks for graphics cards
+# on the displays 0 to 9, in mpiexec, too, and the server that ends just then
+# ends the program that looks.
+DISPLAYS = range(99, 199)
+
 
 def on_virtual_screen():
     """Whether this process draws on a screen of run_on_virtual_screen()."""
@@ -25,23 +30,25 @@ def run_on_virtual_screen(command):
     exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
     pictures everywhere."""
     require_virtual_screen()
-    # The server itself picks a display that nobody uses. It must not reset
-    # when its last client leaves: VTK comes and goes several times.
-    reading, writing = os.pipe()
-    with subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24",
-             "-nolisten", "tcp", "-noreset"],
-            pass_fds=[writing], stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
-        try:
-            os.close(writing)
-            with os.fdopen(reading) as pipe:
-                display = pipe.readline().strip()
-            if not display:
-                sys.exit("Drawing: Xvfb did not start.")
-            environment = {**os.environ, "DISPLAY": ":" + display,
-                           VARIABLE: display}
-            environment.pop("XAUTHORITY", None)
-            return subprocess.call(command, env=environment)
-        finally:
-            server.terminate()
+    for number in DISPLAYS:
+        reading, writing = os.pipe()
+        # The server must not reset when its last client leaves: VTK comes and
+        # goes several times.
+        with subprocess.Popen(
+                ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen",
+                 "0", "640x480x24", "-nolisten", "tcp", "-noreset"],
+                pass_fds=[writing], stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL) as server:
+            try:
+                os.close(writing)
+                with os.fdopen(reading) as pipe:
+                    is_ready = bool(pipe.readline().strip())
+                if is_ready:
+                    environment = {**os.environ, "DISPLAY": f":{number}",
+                                   VARIABLE: str(number)}
+                    environment.pop("XAUTHORITY", None)
+                    return subprocess.call(command, env=environment)
+            finally:
+                server.terminate()
+    sys.exit("Drawing: Xvfb did not start.")

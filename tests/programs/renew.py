@@ -21,7 +21,8 @@ MADE = "<!-- table made -->\n<!-- end -->\n"
 # Renews a page as the tools do; fails; writes where it stands.
 SCRIPTS = {
     "good": "#!/bin/sh\nsed -i s/old/new/ doc/$1.md\n",
-    "bad": "#!/bin/sh\necho the reason\nexit 3\n",
+    "bad": "#!/bin/sh\necho the reason\nexit 1\n",
+    "beyond": "#!/bin/sh\nsed -i s/old/beyond/ doc/$1.md\nexit 3\n",
 }
 
 
@@ -72,7 +73,7 @@ class Renew(ProgramTest):
         # what is put in afterwards has no place there
         self.assertIn(MADE, self.page("third"))
         report = (self.tree / "output/renew/report.txt").read_text()
-        for words in ("first: FAILED, contrib/bad ended with exit code 3",
+        for words in ("first: FAILED, contrib/bad ended with exit code 1",
                       "second: renewed", "third: FAILED", "no place"):
             self.assertIn(words, report)
         self.assertIn("the reason",
@@ -82,6 +83,15 @@ class Renew(ProgramTest):
         # again, with the one that works: one line of how, the new one
         self.assertEqual(self.renewal(pages).run(["second"]), 0)
         self.assertEqual(self.page("second").count("*Figures of"), 1)
+
+    def test_figures_beyond_their_limits_are_written(self):
+        pages = {"second": Page("second.md", (("contrib/beyond", "second"),),
+                                ())}
+        self.assertEqual(self.renewal(pages).run(["second"]), 0)
+        self.assertIn("\nbeyond\n", self.page("second"))
+        self.assertIn("*Figures of", self.page("second"))
+        self.assertIn("second: renewed, limits are not met: see ",
+                      (self.tree / "output/renew/report.txt").read_text())
 
     def test_short_runs_change_no_page(self):
         pages = self.pages()

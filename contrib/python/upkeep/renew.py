@@ -3,8 +3,9 @@
 """Renews the pages of doc/ whose tables and figures are measured, without
 anybody there: builds, calls the tools, and writes into each page with which
 commit and on which machine that was done. A page that fails does not keep the
-others from being renewed; output/renew/report.txt says at the end what became
-of each, output/renew/PAGE.log what its tools said.
+others from being renewed, and a page with figures beyond their limits says so
+itself; output/renew/report.txt says at the end what became of each,
+output/renew/PAGE.log what its tools said.
 
     contrib/renew                      all pages: some hours
     contrib/renew verification steps   these
@@ -29,7 +30,7 @@ from morula.command_line import like_ctrl_c
 from morula.execute import call, cores
 from morula.program import Program
 
-from tests.common.tables import renew
+from tests.common.tables import UNMET_LIMITS, renew
 
 from .measured import PAGES
 
@@ -84,13 +85,15 @@ class Renewal:
         page = self.pages[name]
         if self.short and not page.short:
             return "has no short runs"
-        log = self.output / f"{name}.log"
+        log, unmet = self.output / f"{name}.log", ""
         with log.open("w", encoding="utf-8") as stream:
             for words in self.commands(name):
                 self.say(f"{name}: {shlex.join(words)}")
                 code = call([self.tree / words[0], *words[1:]],
                             cwd=self.tree, stdout=stream, stderr=stream).code
-                if code:
+                if code == UNMET_LIMITS:
+                    unmet = f", limits are not met: see {log}"
+                elif code:
                     return (f"FAILED, {words[0]} ended with exit code {code}: "
                             f"see {log}")
         try:
@@ -100,7 +103,7 @@ class Renewal:
                 renew(self.tree / "doc" / page.file, {"made": f"*{made}*"})
         except (OSError, RuntimeError, ValueError) as error:
             return f"FAILED, {error}"
-        return "renewed" if not self.short else "its tools work"
+        return ("renewed" if not self.short else "its tools work") + unmet
 
     def _copy_tree(self):
         shutil.rmtree(self.tree, ignore_errors=True)

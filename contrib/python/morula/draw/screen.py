@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 
 VARIABLE = "MORULA_VIRTUAL_SCREEN"
 
@@ -25,30 +26,36 @@ def require_virtual_screen():
         sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
 
 
+@contextmanager
+def virtual_screen(number):
+    """An X server for a display; whether it runs, as another may have it."""
+    reading, writing = os.pipe()
+    # The server must not reset when its last client leaves: VTK comes and goes
+    # several times.
+    with subprocess.Popen(
+            ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
+             "640x480x24", "-nolisten", "tcp", "-noreset"],
+            pass_fds=[writing], stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
+        try:
+            os.close(writing)
+            with os.fdopen(reading) as pipe:
+                runs = bool(pipe.readline().strip())
+            yield runs
+        finally:
+            server.terminate()
+
+
 def run_on_virtual_screen(command):
     """Runs a command with a virtual screen as its display and returns its
     exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
     pictures everywhere."""
     require_virtual_screen()
     for number in DISPLAYS:
-        reading, writing = os.pipe()
-        # The server must not reset when its last client leaves: VTK comes and
-        # goes several times.
-        with subprocess.Popen(
-                ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen",
-                 "0", "640x480x24", "-nolisten", "tcp", "-noreset"],
-                pass_fds=[writing], stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL) as server:
-            try:
-                os.close(writing)
-                with os.fdopen(reading) as pipe:
-                    is_ready = bool(pipe.readline().strip())
-                if is_ready:
-                    environment = {**os.environ, "DISPLAY": f":{number}",
-                                   VARIABLE: str(number)}
-                    environment.pop("XAUTHORITY", None)
-                    return subprocess.call(command, env=environment)
-            finally:
-                server.terminate()
+        with virtual_screen(number) as runs:
+            if runs:
+                environment = {**os.environ, "DISPLAY": f":{number}",
+                               VARIABLE: str(number)}
+                environment.pop("XAUTHORITY", None)
+                return subprocess.call(command, env=environment)
     sys.exit("Drawing: Xvfb did not start.")

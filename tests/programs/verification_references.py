@@ -21,6 +21,7 @@ from tests.verification.finite_elements import Axis, Block
 from tests.verification.ladder import SCENES, Ladder, Measured, rungs
 from tests.verification.material import cauchy, lame
 from tests.verification.radial import GrowingBall, Layer
+from tests.verification.report import markdown
 
 VERIFICATION = Path(__file__).resolve().parents[1] / "verification"
 
@@ -199,6 +200,14 @@ class Judgement(unittest.TestCase):
                               ([0.1, float("nan")], 1)):
             found = Measured(ladder, [2, 1], {"e": errors}).shortcomings()
             self.assertEqual(len(found), wrong)
+
+    def test_the_page_says_what_is_not_met(self):
+        ladder = self.ladder(most={"e": 0.5})
+        for errors, told in (([0.5, 0.1], 0), ([0.1, 0.6], 1)):
+            page = markdown([Measured(ladder, [2, 1], {"e": errors})])
+            self.assertEqual(page.count("**Not met:** a: e is 0.6, at most "
+                                        "0.5 is allowed"), told)
+            self.assertEqual(page.count("Not met"), told)
 
     def test_a_ladder_asserts_something(self):
         with self.assertRaises(ValueError):

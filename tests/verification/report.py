@@ -58,7 +58,8 @@ def summary(measured, name):
 
 
 def markdown(ladders):
-    """A table with a row for each ladder of a case."""
+    """A table with a row for each ladder of a case, and below it what is not
+    as the ladders assert."""
     others = [name for measured in ladders for name in measured.errors
               if name not in ("displacement", "stress")]
     names = ["displacement", "stress", *dict.fromkeys(others)]
@@ -72,4 +73,7 @@ def markdown(ladders):
         cells += [summary(measured, name) if name in measured.errors else ""
                   for name in names]
         rows.append(cells)
-    return tables.markdown(["ladder", "varied", "fixed", *names], rows)
+    table = tables.markdown(["ladder", "varied", "fixed", *names], rows)
+    unmet = [f"- **Not met:** {text}" for measured in ladders
+             for text in measured.shortcomings()]
+    return "\n".join([table, "", *unmet] if unmet else [table])

@@ -50,7 +50,7 @@ PAGES = {
         reproduction),
     "showcase": Page(
         "showcase.md",
-        (("contrib/showcase", "--document", *BUILT),),
+        (("contrib/showcase", "--jobs", "2", "--document", *BUILT),),
         (("contrib/showcase", *BUILT, "-s", "Tissue/Cell spacing=30",
           "-s", "Grid/Spacing=80", "-s", "Time/End time=1",
           "WM983b, 2500 cells"),)),

@@ -289,8 +289,8 @@ namespace Morula
           << " GB of " << available / 1e9 << " GB\n  time: about "
           << duration_text(size.seconds) << " (" << size.seconds << " s) of "
           << "one core for " << size.steps << " steps, without output; a "
-          << "rough estimate, from runs on the processor of "
-          << "doc/performance.md\n";
+          << "rough estimate, from runs on an AMD EPYC with AVX-512 "
+          << "(doc/performance.md)\n";
     }
 
     template <int dim>

@@ -79,7 +79,7 @@ def phases(runner):
              for plain, _ in rounds]
     rows = [("phase", "plain kernel, s", "s", "of a plain assembly")]
     fast = rounds[0][1]
-    iterations, steps = fast.calls["tangent"], len(fast.rows) - 1
+    iterations, steps = fast.total("newton_iterations"), len(fast.rows) - 1
 
     def line(text, names, n):
         times = [[run.time(*names) / n for run in runs]

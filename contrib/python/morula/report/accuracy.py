@@ -107,7 +107,7 @@ def on_fixed(run):
                      "the mean energy was too high by nearly 0.4 % for each "
                      "µm of h: 19 % at h = 50 µm. Method = consistent "
                      "(Nitsche form = unsymmetric with Nitsche penalty = 20) "
-                     "took five sixths of that away for a tenth more time.")
+                     "took five sixths of that away for a fifth more time.")
 
 
 def on_steps(run):

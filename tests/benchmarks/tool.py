@@ -4,23 +4,24 @@
 
     contrib/benchmark                    everything: about 20 minutes
     contrib/benchmark kernels phases     these tables
-    contrib/benchmark --document         renews the tables of
-                                         doc/performance.md
+    contrib/benchmark --document         writes the tables of this version,
+                                         doc/measured
 
 Nothing else should run on the machine meanwhile. The yardstick for arithmetic
 is the matrix product of OpenBLAS, taken from the distribution's package into
 the output directory, not installed.
 """
 import argparse
-import os
 import subprocess
 from pathlib import Path
 
-from upkeep.renew import processor
+from morula.tables import markdown
+from upkeep.made import made_with
+from upkeep.version_data import store
 
 from tests.benchmarks import measure
 from tests.benchmarks.runs import Bench
-from tests.common.tables import aligned, markdown, renew
+from tests.common.tables import aligned
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,7 +48,7 @@ def main():
     parser.add_argument("tables", nargs="*", metavar="table",
                         help="of " + ", ".join(TABLES) + "; default: all")
     parser.add_argument("--document", action="store_true",
-                        help="renew these tables in doc/performance.md")
+                        help="write these tables into doc/measured")
     parser.add_argument("--largest", type=int, default=1000000,
                         help="most cells in the table of sizes")
     parser.add_argument("--built", action="store_true",
@@ -74,7 +75,6 @@ def main():
         header, *rows = getattr(measure, name)(*arguments.get(name, (runner,)))
         print("\n".join([name, *aligned(header, rows), ""]), flush=True)
         if options.document:
-            renew(ROOT / "doc/performance.md", {
-                name: f"*{processor()}, {os.cpu_count()} cores.*\n\n"
-                      + markdown(header, rows)})
+            store("performance", {name: markdown(header, rows)},
+                  made_with(ROOT), ROOT)
     return 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Tables in the terminal and in the documentation."""
+"""Tables in the terminal, and exit codes of tools that measure."""
 import math
 import re
 
@@ -9,19 +9,22 @@ import re
 UNMET_LIMITS = 3
 
 
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
 def number(value):
     """Two digits in Markdown: 3.1·10⁻³; zero and ordinary numbers plain."""
     if value == 0 or 0.01 <= abs(value) < 1000 or not math.isfinite(value):
         return f"{value:.2g}"
-    digits, power = f"{value:.1e}".split("e")
-    superscript = str(int(power)).translate(
-        str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{digits}·10{superscript}"
+    return with_powers(f"{value:.1e}")
 
 
-def markdown(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+def with_powers(text):
+    """A text whose numbers like 3.1e-03 are written as 3.1·10⁻³, and 1e-3 as
+    10⁻³."""
+    return re.sub(r"\b(\d(?:\.\d+)?)e([-+]\d+)\b", lambda match: (
+        match[1] + "·" if match[1] != "1" else "") + "10"
+        + str(int(match[2])).translate(SUPERSCRIPTS), text)
 
 
 def aligned(header, rows):
@@ -30,18 +33,3 @@ def aligned(header, rows):
               for i in range(len(header))]
     return ["  ".join(word.rjust(width) for word, width in zip(row, widths))
             for row in [header, *rows]]
-
-
-def renew(document, tables):
-    """Writes tables (name -> Markdown) between their markers in a document:
-    <!-- table NAME --> and <!-- end -->."""
-    text = document.read_text()
-    for name, table in tables.items():
-        begin, end = f"<!-- table {name} -->\n", "<!-- end -->"
-        pattern = re.escape(begin) + ".*?" + re.escape(end)
-        if not re.search(pattern, text, re.DOTALL):
-            raise RuntimeError(f"{document} has no place for the table of "
-                               f"{name}: {begin.strip()} ... {end}")
-        new = begin + table + "\n" + end
-        text = re.sub(pattern, lambda _: new, text, flags=re.DOTALL)
-    document.write_text(text)

@@ -8,6 +8,8 @@ anyhow is checked by engine.py: see tests/README.md.
 """
 from dataclasses import dataclass, field
 
+from tests.common.tables import with_powers
+
 
 @dataclass(frozen=True)
 class Trial:
@@ -68,6 +70,7 @@ class Finding:
     at_most, at_least, equals = (value, tolerance): at least one of them.
     error: shown in the column "error" of the row of a trial (its name or its
     row's; default: all rows).
+    says: the sentence in which the page states the limit; see Limit.
     """
 
     text: str
@@ -77,6 +80,7 @@ class Finding:
     equals: tuple = None
     error: bool = False
     trial: str = None
+    says: str = None
 
     def __post_init__(self):
         self.value = float(self.value)
@@ -104,6 +108,31 @@ class Finding:
         if self.equals is not None:
             words.append("{:.6g} ± {:.2g}".format(*self.equals))
         return ", ".join(words)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit that a page states: the sentence is written by the case, and the
+    case must find a figure that keeps it whenever it is judged.
+
+    says: with the places {at_most:g}, {at_least:g}, {right:g}, {tolerance:g}.
+    """
+
+    says: str
+    at_most: float = None
+    at_least: float = None
+    equals: tuple = None
+
+    def sentence(self):
+        right, tolerance = self.equals or (None, None)
+        return with_powers(self.says.format(
+            at_most=self.at_most, at_least=self.at_least, right=right,
+            tolerance=tolerance))
+
+    def found(self, text, value, **more):
+        """The Finding of a figure that must keep this limit."""
+        return Finding(text, value, self.at_most, self.at_least, self.equals,
+                       says=self.sentence(), **more)
 
 
 @dataclass
@@ -139,7 +168,8 @@ class Case:
     """A hard case. breaks, cure: for the documentation, a phrase each.
 
     judge(runs) yields the Findings; runs: trial name -> TrialRun, of the trials
-    that were run, full_only ones only at full size.
+    that were run, full_only ones only at full size. limits: those that the page
+    states (a list of sentences), each the Limit of at least one finding.
     """
 
     title: str
@@ -147,6 +177,16 @@ class Case:
     cure: str
     trials: list
     judge: object
+    limits: tuple = ()
+
+    def sentences(self):
+        """What the case asserts, for its page."""
+        return [limit.sentence() for limit in self.limits]
+
+    def unfounded(self, findings):
+        """The sentences that no finding stands for."""
+        founded = {finding.says for finding in findings}
+        return [text for text in self.sentences() if text not in founded]
 
     def __post_init__(self):
         names = [trial.name for trial in self.trials]

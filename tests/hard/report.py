@@ -4,7 +4,8 @@
 import math
 import re
 
-from tests.common import tables
+from morula import tables
+
 from tests.common.tables import aligned, number
 
 HEADER = ["trial", "outcome", "steps", "Newton/step", "linear/Newton",

@@ -4,8 +4,8 @@
 
     contrib/hard-cases                     every case, at the size of ctest
     contrib/hard-cases cuts                these cases
-    contrib/hard-cases --document          renews the tables of
-                                           doc/hard-cases.md
+    contrib/hard-cases --document          writes the tables of this version,
+                                           doc/measured
     contrib/hard-cases cuts --full         the full size of a case
     contrib/hard-cases --build build-debug with another build
     contrib/hard-cases --list              the cases
@@ -19,7 +19,10 @@ import importlib
 import traceback
 from pathlib import Path
 
-from tests.common.tables import UNMET_LIMITS, renew
+from upkeep.made import made_with
+from upkeep.version_data import store
+
+from tests.common.tables import UNMET_LIMITS
 from tests.hard.execution import Execution
 from tests.hard.report import markdown, print_case
 
@@ -35,8 +38,8 @@ def arguments(names):
                         help="the full sizes, and trials that take long")
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--document", action="store_true",
-                        help="renew the tables of these cases in\n"
-                        "doc/hard-cases.md")
+                        help="write the tables of these cases into\n"
+                        "doc/measured")
     parser.add_argument("--build", type=Path, default=ROOT / "build",
                         help="build directory of the executable")
     parser.add_argument("--morula", type=Path, help="the executable")
@@ -68,6 +71,8 @@ def try_case(name, case, execution):
         wrong.append("the case cannot be judged:\n" + traceback.format_exc())
     if not findings:
         wrong.append("the case finds nothing")
+    wrong += [f"nothing is found for '{text}'"
+              for text in case.unfounded(findings)]
     print_case(runs, findings)
     return runs, findings, wrong
 
@@ -89,13 +94,13 @@ def main():
         limits += [f"{name}, {finding.text}: {finding.value:.6g}, not "
                    f"{finding.limits()}"
                    for finding in findings if not finding.holds()]
-        if not wrong:  # the page says what is not met
+        if not wrong:  # the table says what is not met
             tables[name] = markdown(runs, findings, options.full)
     if options.list:
         return 0
     unmet = failures + limits
     print("\n".join(["FAILED:", *unmet] if unmet else ["passed"]))
     if options.document:
-        renew(ROOT / "doc/hard-cases.md", tables)
-        print("written:", ROOT / "doc/hard-cases.md")
+        print("written:", store("hard-cases", tables,
+                                made_with(ROOT, options.morula), ROOT))
     return 1 if failures else UNMET_LIMITS if limits else 0

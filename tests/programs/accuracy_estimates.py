@@ -319,19 +319,6 @@ class Words(unittest.TestCase):
                      "  set D = 2, \\\n 3\n  end\n  set E =\nend\nset A = 4\n")
         self.assertEqual(keys, {"A": "4", "B/C/D": "2,  3", "B/E": ""})
 
-    def test_document(self):
-        text = "a\n<!-- x: begin -->\nold\n<!-- x: end -->\nb\n"
-        new = documentation.with_part(text, "x", "new")
-        self.assertIn("-->\n\nnew\n\n<!--", new)
-        self.assertNotIn("old", new)
-        self.assertEqual(documentation.with_part(new, "x", "new"), new)
-        with self.assertRaises(LookupError):
-            documentation.with_part(text, "y", "new")
-        for name in documentation.SCENES:
-            there = documentation.DOCUMENT.read_text(encoding="utf-8")
-            self.assertIn("right", documentation.with_part(there, name,
-                                                           "right"))
-
 
 if __name__ == "__main__":
     main()

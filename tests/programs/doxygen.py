@@ -27,7 +27,8 @@ class Doxygen(ProgramTest):
         for name in ("contrib", "doc", "include"):
             shutil.copytree(ROOT / name, root / name)
         (root / "tests").mkdir()
-        for name in ("README.md", "CONTRIBUTING.md", "tests/README.md"):
+        for name in ("README.md", "CONTRIBUTING.md", "tests/README.md",
+                     "CMakeLists.txt"):
             shutil.copy(ROOT / name, root / name)
         return root
 

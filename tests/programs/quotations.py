@@ -19,7 +19,8 @@ BLOCK = re.compile(r"^```\w*\n.*?^```$", re.M | re.S)
 
 def pages():
     return [ROOT / "README.md", ROOT / "CONTRIBUTING.md",
-            *sorted((ROOT / "doc").rglob("*.md"))]
+            *sorted(page for page in (ROOT / "doc").rglob("*.md")
+                    if page.parent != ROOT / "doc/notes")]
 
 
 def parts(quotation):

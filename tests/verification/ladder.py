@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy
 
+from tests.common.tables import with_powers
+
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "prm/verification"
 
@@ -51,6 +53,16 @@ class Ladder:
         if not self.least_orders and not self.most:
             raise ValueError(f"the ladder {self.name} asserts nothing")
 
+    def sentence(self):
+        """What the ladder asserts, for its page."""
+        words = [f"{name} falls with order {order:g} or more"
+                 for name, order in self.least_orders.items()]
+        words += [f"{name} is at most {with_powers(f'{most:g}')}"
+                  for name, most in self.most.items()]
+        size = self.varied.split(" [")[0]
+        return (f"`{self.name}`, {size} varied, {self.fixed}: the error of "
+                + ", of ".join(words) + ".")
+
     def wanted(self, full):
         """The rungs to run, from the coarsest to the finest."""
         rungs = [rung for rung in self.rungs if full or not rung.full_only]
@@ -69,6 +81,11 @@ class Case:
     reference: str
     ladders: list
     errors: object
+
+    def sentences(self):
+        """What the case asserts in ctest, for its page."""
+        return [ladder.sentence() for ladder in self.ladders
+                if not ladder.full_only]
 
 
 @dataclass

@@ -3,7 +3,8 @@
 """Tables of errors and orders, for the terminal and for the documentation."""
 import numpy
 
-from tests.common import tables
+from morula import tables
+
 from tests.common.tables import aligned, number
 
 

@@ -5,7 +5,7 @@
     contrib/verify                       every case, the ladders of ctest
     contrib/verify vortex patch          these cases
     contrib/verify --plot                and draw errors-h.png, ...
-    contrib/verify --full --document     all rungs; renews doc/verification.md
+    contrib/verify --full --document     all rungs; writes doc/measured
     contrib/verify --list                the cases
 
 Prints errors and orders, and ends with exit code 3 if one is not what the case
@@ -15,7 +15,10 @@ import argparse
 import importlib
 from pathlib import Path
 
-from tests.common.tables import UNMET_LIMITS, renew
+from upkeep.made import made_with
+from upkeep.version_data import store
+
+from tests.common.tables import UNMET_LIMITS
 from tests.verification.execution import RunFailed, measure
 from tests.verification.plots import draw, draw_vortex
 from tests.verification.report import markdown, print_ladder
@@ -35,7 +38,7 @@ def arguments(names):
                         help="draw the errors into the output directory")
     parser.add_argument("--document", action="store_true",
                         help="draw them into doc/images/verification, and\n"
-                        "renew the tables of doc/verification.md; all cases,\n"
+                        "write the tables into doc/measured; all cases,\n"
                         "with --full")
     parser.add_argument("--morula", type=Path, default=ROOT / "build/morula",
                         help="the executable")
@@ -68,14 +71,15 @@ def measure_case(name, case, options):
 
 
 def write_document(measured, options):
-    """Figures and tables of doc/verification.md."""
+    """Figures and tables for doc/verification.md."""
     images = ROOT / "doc/images/verification"
     files = draw(measured, images)
     files.append(draw_vortex(options.morula, options.output / "picture",
                              images / "vortex.png"))
-    renew(ROOT / "doc/verification.md",
-          {name: markdown(ladders) for name, ladders in measured.items()})
-    print("written:", *files, ROOT / "doc/verification.md", sep="\n  ")
+    files.append(store("verification", {
+        name: markdown(ladders) for name, ladders in measured.items()},
+        made_with(ROOT, options.morula), ROOT))
+    print("written:", *files, sep="\n  ")
 
 
 def verify():

@@ -12,6 +12,7 @@ numbers that the paper states beside ours.
 """
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -19,6 +20,8 @@ from pathlib import Path
 from morula.command_line import like_ctrl_c
 from morula.draw.screen import require_virtual_screen, run_on_virtual_screen
 from reproduction import catalogue
+from upkeep.made import made_with
+from upkeep.version_data import store
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -45,6 +48,9 @@ def arguments():
                         "is a quick trial")
     parser.add_argument("--no-videos", action="store_true",
                         help="leave out the videos")
+    parser.add_argument("--document", action="store_true",
+                        help="write the numbers into doc/measured, the "
+                        "figures into\ndoc/images/paper")
     parser.add_argument("--fresh", action="store_true",
                         help="run again what has been run already")
     parser.add_argument("--morula", type=Path, metavar="FILE",
@@ -102,6 +108,16 @@ def draw(options, panels):
         *panels])
 
 
+def document(options, morula):
+    """Stores the numbers of this version and its figures."""
+    found = (options.output / "table.md").read_text(encoding="utf-8")
+    store("reproduction", {"numbers": found[found.index("## Numbers"):]},
+          made_with(ROOT, morula), ROOT)
+    for figure in options.output.glob("fig-[1234]*.png"):
+        if (ROOT / "doc/images/paper" / figure.name).is_file():
+            shutil.copy(figure, ROOT / "doc/images/paper")
+
+
 def main():
     options = arguments()
     if options.list:
@@ -124,6 +140,8 @@ def reproduce(options):
     write_table(options.output)
     say(f"reproduce: {options.output / 'table.md'}")
     code = draw(options, panels)
+    if options.document and not failed:
+        document(options, morula)
     left = [panel for panel in options.panels if panel not in panels]
     if failed:
         say(f"reproduce: FAILED: the runs {', '.join(failed)}; therefore not "

@@ -4,7 +4,8 @@
 
     contrib/accuracy-ladders                    all three scenes
     contrib/accuracy-ladders graded-sphere      this one
-    contrib/accuracy-ladders --document         and renews tables and figures
+    contrib/accuracy-ladders --document         and writes the tables of
+                                                this version and figures
     contrib/accuracy-ladders --short            few and coarse runs, for a test
     contrib/accuracy-ladders --list             the commands
 
@@ -22,9 +23,10 @@ from morula.accuracy.tool import main as accuracy
 from morula.refusal import Refused
 
 from . import graded_sphere
+from .made import made_with
+from .version_data import store
 
 ROOT = Path(__file__).resolve().parents[3]
-DOCUMENT = ROOT / "doc/accuracy-and-cost.md"
 IMAGES = ROOT / "doc/images/accuracy"
 
 NEWTON = "Solver/Newton tolerance=1e-2,1e-4,1e-6,1e-8,1e-10"
@@ -145,8 +147,8 @@ SCENES = {"half-fixed-sphere": HALF_FIXED,
 
 
 def measure(name, options):
-    """Runs the ladders of a scene and renews its part of the document;
-    returns the exit code."""
+    """Runs the ladders of a scene and, if wanted, stores what they have
+    measured; returns the exit code."""
     words = command(name, options)
     for option in ("jobs", "repeat"):
         if getattr(options, option):
@@ -163,7 +165,7 @@ def measure(name, options):
         here.append("--again")
     code = accuracy([*words, *here])
     if code == 0 and options.document:
-        document(name, typed, output)
+        document(name, typed, output, options.morula)
     return code
 
 
@@ -202,8 +204,8 @@ def as_typed(words, options):
             .replace(f"{ROOT}/", "") for word in words]
 
 
-def document(name, words, output):
-    """Puts tables and figures into their places in the document."""
+def document(name, words, output, morula):
+    """Stores the tables of a scene and puts its figures into their place."""
     IMAGES.mkdir(parents=True, exist_ok=True)
     for figure in SCENES[name].figures:
         shutil.copy(output / f"{figure}.png", IMAGES / f"{name}-{figure}.png")
@@ -212,9 +214,8 @@ def document(name, words, output):
     if SCENES[name] is OFFSETS:
         sections = [s for s in sections if s.startswith("Scatter")]
     tables = "".join(f"#### {section}" for section in sections)
-    text = f"```\n{wrapped(words)}\n```\n\n{tables}"
-    DOCUMENT.write_text(with_part(
-        DOCUMENT.read_text(encoding="utf-8"), name, text), encoding="utf-8")
+    store("accuracy-and-cost", {name: f"```\n{wrapped(words)}\n```\n\n{tables}"},
+          made_with(ROOT, morula), ROOT)
 
 
 def wrapped(words):
@@ -228,16 +229,6 @@ def wrapped(words):
     return " \\\n".join(lines)
 
 
-def with_part(text, name, part):
-    """The text with what is between the marks of a name replaced."""
-    begin, end = (f"<!-- {name}: {word} -->" for word in ("begin", "end"))
-    if text.count(begin) != 1 or text.count(end) != 1:
-        raise LookupError(f"{DOCUMENT} needs the line '{begin}' and after it "
-                          f"'{end}', once each")
-    before, rest = text.split(begin)
-    return f"{before}{begin}\n\n{part.strip()}\n\n{end}{rest.split(end)[1]}"
-
-
 STOPPED = 130  # exit code of contrib/accuracy after Ctrl-C
 
 
@@ -247,7 +238,7 @@ def arguments():
     parser.add_argument("scenes", nargs="*", metavar="scene",
                         help="default: all; " + ", ".join(SCENES))
     parser.add_argument("--document", action="store_true",
-                        help="write tables and figures into doc/")
+                        help="write tables (doc/measured) and figures")
     parser.add_argument("--short", action="store_true",
                         help="few rungs, few seeds, large cells")
     parser.add_argument("--list", action="store_true",

@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Renews the pages of doc/ whose tables and figures are measured, without
-anybody there: builds, calls the tools, and writes into each page with which
-commit and on which machine that was done. A page that fails does not keep the
-others from being renewed, and a page with figures beyond their limits says so
-itself; output/renew/report.txt says at the end what became of each,
-output/renew/PAGE.log what its tools said.
+"""Measures the tables and figures of doc/ anew, without anybody there: builds,
+and calls the tools, which write the data of this version, doc/measured/VERSION,
+and pictures. Done for a version, not for a change. A page that fails does not
+keep the others from being measured, and a table with figures beyond their
+limits says so itself; output/renew/report.txt says at the end what became of
+each, output/renew/PAGE.log what its tools said.
 
     contrib/renew                      all pages: some hours
     contrib/renew verification steps   these
     contrib/renew --short              a few small runs through the tools of
                                        each, in minutes, in a copy of the tree
-                                       below output/renew: no page changes
+                                       below output/renew: nothing changes
     contrib/renew --list               the pages and their commands
-
-Look at what has changed (git diff doc) before it is committed: the text around
-the tables is nobody's but yours.
+    contrib/renew --show hard-cases    prints the tables of this version
+    contrib/renew --limits             writes into the pages, without any run,
+                                       the limits that the cases assert
 """
 import argparse
-import datetime
 import shlex
 import shutil
 import subprocess
@@ -27,21 +26,20 @@ import time
 from pathlib import Path
 
 from morula.command_line import like_ctrl_c
-from morula.execute import call, cores
-from morula.program import Program
+from morula.execute import call
 
-from tests.common.tables import UNMET_LIMITS, renew
+from tests.common.tables import UNMET_LIMITS
 
+from . import limits
+from .made import made_with
 from .measured import PAGES
+from .version_data import data_file, markdown, read
 
 ROOT = Path(__file__).resolve().parents[3]
 
 # What a scratch copy of the tree holds: all that the tools read or write. The
 # build directory is the tree's own.
-COPIED = ("contrib", "doc", "include", "prm", "source", "tests")
-
-# What the figures of a page depend on, for git.
-MEASURED = ("CMakeLists.txt", "contrib", "include", "prm", "source", "tests")
+COPIED = ("CMakeLists.txt", "contrib", "doc", "include", "prm", "source", "tests")
 
 
 class Renewal:
@@ -64,7 +62,7 @@ class Renewal:
         failed = []
         for name in names:
             start = time.monotonic()
-            outcome = self._page(name, made)
+            outcome = self._page(name)
             minutes = (time.monotonic() - start) / 60
             self.report.append(f"{name}: {outcome}, {minutes:.1f} min")
             self.say(self.report[-1])
@@ -80,7 +78,7 @@ class Renewal:
     def commands(self, name):
         return self.pages[name].short if self.short else self.pages[name].full
 
-    def _page(self, name, made):
+    def _page(self, name):
         """Renews a page; what became of it, in words."""
         page = self.pages[name]
         if self.short and not page.short:
@@ -96,52 +94,22 @@ class Renewal:
                 elif code:
                     return (f"FAILED, {words[0]} ended with exit code {code}: "
                             f"see {log}")
-        try:
-            if page.after:
-                page.after(self.tree, renew)
-            if name != "parameters":  # has no figures
-                renew(self.tree / "doc" / page.file, {"made": f"*{made}*"})
-        except (OSError, RuntimeError, ValueError) as error:
-            return f"FAILED, {error}"
         return ("renewed" if not self.short else "its tools work") + unmet
 
     def _copy_tree(self):
         shutil.rmtree(self.tree, ignore_errors=True)
-        for name in COPIED:
-            shutil.copytree(self.root / name, self.tree / name,
-                            symlinks=True)
+        copy_tree(self.root, self.tree)
         (self.tree / "build").symlink_to(self.root / "build")
 
 
-def made_with(root):
-    """With what the figures of a page are made, in a sentence."""
-    program = Program(root / "build/morula")
-    today = datetime.date.today().isoformat()
-    return (f"Figures of {today}: {commit(root)}, {program.version}, "
-            f"{processor()}, {cores()} cores.")
-
-
-def commit(root):
-    """The commit of a tree, and whether what is measured differs from it."""
-    try:
-        short = git(root, "rev-parse", "--short", "HEAD")
-        changed = git(root, "status", "--porcelain", "--", *MEASURED)
-    except (OSError, subprocess.CalledProcessError):
-        return "unknown commit"
-    return f"commit {short}" + (" with changes" if changed else "")
-
-
-def git(root, *words):
-    return subprocess.run(["git", "-C", root, *words], check=True, text=True,
-                          stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL).stdout.strip()
-
-
-def processor():
-    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-        if line.startswith("model name"):
-            return line.split(":")[1].strip()
-    return "unknown processor"
+def copy_tree(root, target):
+    """Copies what the tools read or write."""
+    target.mkdir(parents=True)
+    for name in COPIED:
+        if (root / name).is_dir():
+            shutil.copytree(root / name, target / name, symlinks=True)
+        elif (root / name).is_file():
+            shutil.copy(root / name, target / name)
 
 
 def arguments():
@@ -153,6 +121,10 @@ def arguments():
                         help="try the tools with small runs; needs a build")
     parser.add_argument("--list", action="store_true",
                         help="print the pages and their commands")
+    parser.add_argument("--show", action="store_true",
+                        help="print the tables of this version")
+    parser.add_argument("--limits", action="store_true",
+                        help="only write the limits that are asserted")
     options = parser.parse_args()
     unknown = [name for name in options.pages if name not in PAGES]
     if unknown:
@@ -169,6 +141,14 @@ def listing(options):
             print(f"doc/{page.file} ({name})")
             for words in page.short if options.short else page.full:
                 print("    " + shlex.join(words))
+
+
+def show(options):
+    for name in options.pages or PAGES:
+        file = data_file(name)
+        for table, data in (read(file)["tables"] if file.is_file()
+                            else {}).items():
+            print(f"# {name}: {table}\n\n{markdown(data)}\n")
 
 
 def renew_pages(options):
@@ -192,4 +172,9 @@ def renew_pages(options):
 
 def main():
     options = arguments()
-    return listing(options) if options.list else renew_pages(options)
+    if options.list or options.show:
+        return listing(options) if options.list else show(options)
+    if options.limits:
+        print("written:", *limits.write_all(ROOT), sep="\n  ")
+        return 0
+    return renew_pages(options)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Runs step programs as their pages say, and brings the pages up to date:
-tables in doc/steps, pictures in doc/images/steps.
+"""Runs step programs as their pages say, and writes what these show: the
+tables of this version (doc/measured), pictures in doc/images/steps.
 
     contrib/step-pages          all of them, in some four minutes of one core
     contrib/step-pages 2 7      those of steps 2 and 7
@@ -14,11 +14,13 @@ import sys
 from pathlib import Path
 
 from morula.execute import call, overrides
+from morula.tables import markdown
 from upkeep import step_plots as plots
+from upkeep.made import made_with
 from upkeep.step_tables import tables
+from upkeep.version_data import store
 
 from tests.common.results import read_csv
-from tests.common.tables import markdown, renew
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -39,7 +41,7 @@ def run(number, directory=None, **keys):
     lines = [line for line in text.splitlines()
              if line and not re.match(r"step \d|Finished|Warning: |  ", line)]
     if lines:
-        page(number, directory.name, "```\n" + "\n".join(lines) + "\n```")
+        keep(directory.name, "```\n" + "\n".join(lines) + "\n```")
     return tables(text)
 
 
@@ -52,9 +54,9 @@ def said(words):
     return ended.stdout
 
 
-def page(number, name, table):
-    """Writes a table into the page of a step."""
-    renew(ROOT / f"doc/steps/step-{number}.md", {name: table})
+def keep(name, table):
+    """Stores a table of this version."""
+    store("steps", {name: table}, made_with(ROOT), ROOT)
 
 
 def render(directory, name, *options):
@@ -109,7 +111,7 @@ def step_7():
                 Proliferation__Cell_cycle__Division_axis=rule)
             runs[f"{law}, {rule}"] = read_csv(directory / "statistics.csv")
     last = [(name, rows[-1]) for name, rows in runs.items()]
-    page(7, "runs", markdown(
+    keep("step-7-runs", markdown(
         ["growth law, division rule", "cells", "mean energy, kPa",
          "smallest $J_e$", "largest $J_e$", "largest width, µm"],
         [[name, f"{row['cells']:.0f}", f"{row['mean_energy_density']:.4f}",
@@ -117,11 +119,6 @@ def step_7():
           f"{row['max_elastic_volume_ratio']:.3f}",
           f"{row['ymax'] - row['ymin']:.1f}"] for name, row in last]))
     run(7)
-    text = said([ROOT / "build/step-7", ROOT / "prm/step-7.prm", "--explain"])
-    lines = [line for line in text.splitlines()
-             if line.startswith(("  growth ", "  division "))
-             and " on " in line]
-    page(7, "explain", "```\n" + "\n".join(lines) + "\n```")
     plots.step_7(runs, PICTURES / "step-7.png")
     render(OUTPUT / "step-7", "step-7-tissue.png", "--field",
            "elastic_volume_ratio", "--range", "0.7,1.3")

@@ -7,9 +7,18 @@ import numpy
 from scipy.spatial import cKDTree
 
 from tests.common.results import positions
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 LENGTH = 10.0  # of a founder, µm
+
+PLACES = Limit("Daughters stand where formula (6.5) over all pairs of cells "
+               "puts them, to {at_most:g} µm.", at_most=1e-5)
+WALL = Limit("No daughter is farther behind a held wall than {at_most:g} "
+             "cell lengths.", at_most=6e-4)
+SURFACE = Limit("None is farther beyond the surface than {at_most:g} cell "
+                "lengths.", at_most=0.5)
+NEAREST = Limit("No two cells are nearer than {at_least:g} cell lengths.",
+                at_least=2.5e-4)
 
 
 def points_file(points):
@@ -71,8 +80,8 @@ def judge_any(name, run, founders):
     yield Finding(f"{name}: initial volume lost", V0.sum() - founders
                   * LENGTH**3, equals=(0, 0))
     nearest = cKDTree(positions(cells)).query(positions(cells), k=2)[0][:, 1]
-    yield Finding(f"{name}: nearest two cells [lengths]",
-                  nearest.min() / LENGTH, at_least=2.5e-4)
+    yield NEAREST.found(f"{name}: nearest two cells [lengths]",
+                        nearest.min() / LENGTH)
     divisions = run.results.statistics()["dividing"]
     yield Finding(f"{name}: cells at the end", len(cells),
                   equals=(founders + divisions.sum(), 0))
@@ -90,8 +99,8 @@ def judge_uniform(name, run):
     expected = numpy.array([stretched - distances[:, :1] * axis,
                             stretched + distances[:, 1:] * axis])
     error = numpy.abs(daughters.transpose(1, 0, 2) - expected)
-    yield Finding(f"{name}: places of daughters against all pairs [µm]",
-                  error.max(), at_most=1e-5, error=True, trial=name)
+    yield PLACES.found(f"{name}: places of daughters against all pairs [µm]",
+                       error.max(), error=True, trial=name)
     same = numpy.abs(distances[:, 0] - distances[:, 1]) < 1e-9
     off_centre = daughters[same].mean(axis=1) - stretched[same]
     yield Finding(f"{name}: daughters' middle from the mother, equal walls "
@@ -114,16 +123,16 @@ def judge(runs):
     r = daughters.reshape(-1, 3) - daughters.reshape(-1, 3).mean(axis=0)
     r[:, 0] /= 1.5
     beyond = numpy.linalg.norm(r, axis=1).max() - 32.0
-    yield Finding("surface: farthest daughter beyond the surface [lengths]",
-                  beyond / LENGTH, at_most=0.5)
+    yield SURFACE.found("surface: farthest daughter beyond the surface "
+                        "[lengths]", beyond / LENGTH)
 
     # On walls: on the right side, up to 5e-4 lengths (doc/theory.md, 6.5).
     for name in ("wall", "wall-close", "corner", "enclosed"):
         _, daughters = families(runs[name])
         depth = daughters[..., 2 if name.startswith("wall") else slice(None)]
-        yield Finding(f"{name}: farthest daughter behind a wall [lengths]",
-                      max(0.0, -depth.min()) / LENGTH, at_most=6e-4,
-                      error=True, trial=name)
+        yield WALL.found(f"{name}: farthest daughter behind a wall [lengths]",
+                         max(0.0, -depth.min()) / LENGTH, error=True,
+                         trial=name)
         if name == "enclosed":
             yield Finding("enclosed: likewise, opposite walls [lengths]",
                           max(0.0, depth.max() - 40) / LENGTH, at_most=6e-4)
@@ -154,7 +163,7 @@ CASE = Case(
            "the tissue, or coincide",
     cure="walls by distance, capped at a cell's length; Dirichlet points as "
          "local half-spaces; a least distance",
-    judge=judge,
+    judge=judge, limits=(PLACES, WALL, SURFACE, NEAREST),
     trials=[
         # three rounds: 64, 128, 256, 512 cells
         Trial("all-at-once", "division.prm", keys={"Time/End time": "2.75"},

@@ -4,11 +4,21 @@
 generations, and steps far too long or too short."""
 import numpy
 
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 E, NU = 1.0, 0.4
 LAMBDA = E * NU / ((1 + NU) * (1 - 2 * NU))
 MU = E / (2 * (1 + NU))
+
+DIVISIONS = Limit("Division loses no initial volume: after twelve "
+                  "generations the difference is {at_most:g}.", at_most=0)
+GROWN = Limit("Their grown volume is right to {at_most:g} of it.",
+              at_most=1e-7)
+STEPS = Limit("Very short steps, and one long step, end where usual ones do, "
+              "to {at_most:g} of volume, energy and height.", at_most=0.02)
+CLAMP = Limit("Held points stay within {at_most:g} grid spacings of their "
+              "places when tissue grows to three times its width or withers.",
+              at_most=0.1)
 
 
 def energy(stretches):
@@ -75,8 +85,8 @@ def half_fixed(runs):
         surface = results.last_surface()
         fixed = surface[surface["condition"] == 1]
         gap = max(numpy.abs(fixed[x] - fixed[x.upper()]).max() for x in "xyz")
-        yield Finding(f"{name}: largest gap of a fixed point / h",
-                      gap / results.number("Grid/Spacing"), at_most=0.1)
+        yield CLAMP.found(f"{name}: largest gap of a fixed point / h",
+                          gap / results.number("Grid/Spacing"))
 
 
 def generations(runs):
@@ -86,14 +96,14 @@ def generations(runs):
         cells = run.results.last_cells()
         yield Finding(f"{name}: cells for each founder",
                       last["cells"] / first["cells"], equals=(2**n, 0))
-        yield Finding(f"{name}: V⁰ of a cell against its founder's [relative]",
-                      numpy.abs(cells["initial_volume"] * 2**n / 100 - 1).max(),
-                      at_most=0)
+        yield DIVISIONS.found(
+            f"{name}: V⁰ of a cell against its founder's [relative]",
+            numpy.abs(cells["initial_volume"] * 2**n / 100 - 1).max())
         growth = 2**(n - 1) * 1.75  # a quarter of a cycle after the division
-        yield Finding(f"{name}: grown volume [relative]",
-                      relative(last["grown_volume"],
-                               first["total_volume"] * growth), at_most=1e-7,
-                      error=True, trial=name)
+        yield GROWN.found(f"{name}: grown volume [relative]",
+                          relative(last["grown_volume"],
+                                   first["total_volume"] * growth),
+                          error=True, trial=name)
     last = runs["thread"].results.statistics()[-1]
     yield Finding("thread: total volume against the grown one [relative]",
                   relative(last["total_volume"], last["grown_volume"]),
@@ -116,9 +126,10 @@ def steps(runs):
                         ("short-steps", "usual-steps", "one-step"))
     for quantity in ("total_volume", "mean_energy_density", "ymax"):
         for name, last in (("short-steps", fine), ("one-step", one)):
-            yield Finding(f"{name}: {quantity} against usual steps [relative]",
-                          relative(last[quantity], usual[quantity]),
-                          at_most=0.02, error=quantity == "ymax", trial=name)
+            yield STEPS.found(
+                f"{name}: {quantity} against usual steps [relative]",
+                relative(last[quantity], usual[quantity]),
+                error=quantity == "ymax", trial=name)
     surfaces = {name: runs[name].results.last_surface()
                 for name in ("short-steps", "usual-steps")}
     gaps = {}
@@ -151,7 +162,7 @@ CASE = Case(
     cure="a first tangent at the old growth, a line search on the energy, "
          "shifts where the curvature is negative, a grid without a rim, held "
          "positions instead of increments",
-    judge=judge,
+    judge=judge, limits=(DIVISIONS, GROWN, STEPS, CLAMP),
     trials=[
         Trial("growth", "large-growth.prm", keys=EACH, quick=SMALL),
         Trial("withering", "large-growth.prm", keys={**EACH, **WITHER},

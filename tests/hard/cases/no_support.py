@@ -6,10 +6,20 @@ import math
 import numpy
 
 from tests.common.results import initial_positions, positions, read_csv
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 ANGLES = 0.5, 1.0  # of the turned layouts, radians
 SHIFT = 40.0, -60.0  # µm, whole grid cells
+
+STAYS = Limit("In a step, a free body as a whole moves by less than "
+              "{at_most:g} µm, and turns by less than that at its rim.",
+              at_most=1e-7)
+FRAME = Limit("Moved by whole grid cells, or solved directly, its cells are "
+              "within {at_most:g} µm of where they were.", at_most=1e-5)
+GRID = Limit("With grid lines elsewhere, or turned, they are within "
+             "{at_most:g} µm.", at_most=0.05)
+FRAGMENT = Limit("A fragment that breaks off grows without stress: its mean "
+                 "$J_e$ is {right:g} ± {tolerance:g}.", equals=(1, 2e-3))
 
 
 def layout(angle=0.0, shift=(0.0, 0.0)):
@@ -79,25 +89,24 @@ def judge_body(runs):
             if name.startswith("body")}
     for name in ("body", "body-offset", "body-turned-0"):
         mean, rotation = drift(body[name])
-        yield Finding(f"{name}: mean displacement of a step [µm]", mean,
-                      at_most=1e-7)
-        yield Finding(f"{name}: mean rotation of a step times radius [µm]",
-                      rotation, at_most=1e-7)
+        yield STAYS.found(f"{name}: mean displacement of a step [µm]", mean)
+        yield STAYS.found(f"{name}: mean rotation of a step times radius [µm]",
+                          rotation)
     base = body["body"].last_cells()
     x, J = positions(base)[:, :2], base["elastic_volume_ratio"]
     energy = body["body"].statistics()["mean_energy_density"][-1]
     for name, shift, angle, far, J_far in (
-            ("body-direct", (0, 0), 0, 1e-5, 1e-7),
-            ("body-points", (0, 0), 0, 1e-5, 1e-7),
-            ("body-shifted", SHIFT, 0, 1e-5, 1e-7),
-            ("body-offset", (0, 0), 0, 0.05, 5e-3),
-            ("body-turned-0", (0, 0), ANGLES[0], 0.05, 5e-3),
-            ("body-turned-1", (0, 0), ANGLES[1], 0.05, 5e-3)):
+            ("body-direct", (0, 0), 0, FRAME, 1e-7),
+            ("body-points", (0, 0), 0, FRAME, 1e-7),
+            ("body-shifted", SHIFT, 0, FRAME, 1e-7),
+            ("body-offset", (0, 0), 0, GRID, 5e-3),
+            ("body-turned-0", (0, 0), ANGLES[0], GRID, 5e-3),
+            ("body-turned-1", (0, 0), ANGLES[1], GRID, 5e-3)):
         cells = body[name].last_cells()
         back = (positions(cells)[:, :2] - shift) @ turn(angle)
-        yield Finding(f"{name}: cells [µm]",
-                      numpy.linalg.norm(back - x, axis=1).max(), at_most=far,
-                      error=True, trial=name)
+        yield far.found(f"{name}: cells [µm]",
+                        numpy.linalg.norm(back - x, axis=1).max(),
+                        error=True, trial=name)
         yield Finding(f"{name}: J_e, root mean square", numpy.sqrt(numpy.mean(
             (cells["elastic_volume_ratio"] - J)**2)), at_most=J_far)
         other = body[name].statistics()["mean_energy_density"][-1]
@@ -146,9 +155,8 @@ def judge_fragment(runs):
     yield Finding("breaking-off: drift of the fragment in a step [µm]",
                   max(fragment), at_most=1e-7, error=True, trial="breaking-off")
     inside = numpy.flatnonzero(numpy.abs(last["X"]) < 25)
-    yield Finding("breaking-off: J_e of the grown fragment, its mean",
-                  last["elastic_volume_ratio"][inside].mean(),
-                  equals=(1, 2e-3))
+    yield FRAGMENT.found("breaking-off: J_e of the grown fragment, its mean",
+                         last["elastic_volume_ratio"][inside].mean())
 
 
 def judge_pushed(runs):
@@ -182,7 +190,7 @@ CASE = Case(
            "the body goes is up to rounding",
     cure="unsupported rigid motions of each piece are found, kept out of the "
          "linear solver, and taken out of every step",
-    judge=judge,
+    judge=judge, limits=(STAYS, FRAME, GRID, FRAGMENT),
     trials=[
         Trial("body", "free-body.prm", ranks=(1, 2), agreement=1e-5),
         Trial("body-direct", "free-body.prm",

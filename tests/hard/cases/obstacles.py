@@ -9,7 +9,7 @@ kappa = alpha E/h, per area at the beginning of the step.
 import numpy
 from scipy.optimize import fsolve
 
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 EDGE = 120.0  # µm
 UNTIL = 2.5  # days; beyond, the lattice of cells loses its symmetry
@@ -17,6 +17,10 @@ UNTIL = 2.5  # days; beyond, the lattice of cells loses its symmetry
 # From day 5.33 on the ceiling is two grid spacings below the floor, and each point
 # deeper than one in one of them. A step that begins then is not done.
 LAST = 5.5  # days, a multiple of the step
+
+VOLUME = Limit("Down to the stretches that the case follows, the volume is "
+               "that of the room and of walls that yield, to {at_most:g} of "
+               "it.", at_most=1e-3)
 
 
 def stretches(results):
@@ -48,9 +52,10 @@ def judge(runs):
     run = runs["swallowed"]
     f = stretches(run.results)
     volumes = run.results.statistics()["total_volume"][:len(f)]
-    yield Finding(f"volume over the exact one up to t = {UNTIL:g} days",
-                  numpy.max(numpy.abs(volumes / (EDGE**2 * f.prod(axis=1)) - 1)),
-                  at_most=1e-3, error=True, trial="swallowed")
+    yield VOLUME.found(
+        f"volume over the exact one up to t = {UNTIL:g} days",
+        numpy.max(numpy.abs(volumes / (EDGE**2 * f.prod(axis=1)) - 1)),
+        error=True, trial="swallowed")
     yield Finding(f"volume at t = {UNTIL:g} days over that at first",
                   volumes[-1] / EDGE**2, at_most=0.4)
     yield Finding("time of the last good state [day]",
@@ -64,7 +69,7 @@ CASE = Case(
            "through the walls",
     cure="a step at whose beginning the surface is deeper than a grid spacing in an "
          "obstacle is not done",
-    judge=judge,
+    judge=judge, limits=(VOLUME,),
     trials=[
         Trial("swallowed", "swallowed.prm", exit=2,
               message="um deep in the obstacle '(room|ceiling)', more than a grid"),

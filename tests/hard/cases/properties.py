@@ -10,7 +10,7 @@ import numpy
 from scipy.spatial import cKDTree
 
 from tests.common.results import initial_positions, positions, read_csv
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 from tests.hard.random_scenes import (AlignedScene, LatticeScene, PointsScene,
                                       quarter_turns_and_mirrors, rotation)
 
@@ -92,6 +92,15 @@ POINTS = Family("points", lambda seed, refinement=1:
 LATTICES = (BOXES, BOXES_3D, ROUND, ROUND_3D, ALIGNED, ALIGNED_3D, PROJECTED)
 FAMILIES = (*LATTICES, POINTS)
 
+RENUMBERED = Limit("Cells in another order end within {at_most:g} µm of the "
+                   "same places.", at_most=1e-7)
+TURNED = Limit("Cells turned by any angle end within {at_most:g} grid "
+               "spacings of theirs, turned.", at_most=0.002)
+FINER = Limit("Half the spacing of grid and cells leaves at most {at_most:g} "
+              "of that.", at_most=0.4)
+CONSERVED = Limit("Division neither loses nor wins initial volume, to "
+                  "{at_most:g} of it.", at_most=2e-9)
+
 
 def apart(one, other, Q):
     """The largest distance in µm between the cells of a run and those of
@@ -162,8 +171,8 @@ def judge_volumes(runs):
         yield Finding(f"{family.name}: volume of cells against the volume inside "
                       "the surface, over L_p/R", max(errors),
                       at_most=0.002 if family in (BOXES, BOXES_3D) else 0.05)
-    yield Finding("initial volume lost or won by division, relative",
-                  conserved, at_most=2e-9)
+    yield CONSERVED.found("initial volume lost or won by division, relative",
+                          conserved)
     yield Finding("divisions in these scenes", divisions, at_least=100)
 
 
@@ -188,14 +197,15 @@ def judge_points(runs):
                 for name in ("fine", "fine-any-angle")]
         coarse.append(apart(run, other, Q) / h)
         ratios.append(apart(*fine, Q) / h / coarse[-1])
-    yield Finding("points turned by any angle: cells apart / h", max(coarse),
-                  at_most=0.002, error=True, trial="points, any-angle")
-    yield Finding("the same with half the L_p and h, relative to that, median",
-                  numpy.median(ratios), at_most=0.4)
+    yield TURNED.found("points turned by any angle: cells apart / h",
+                       max(coarse), error=True, trial="points, any-angle")
+    yield FINER.found("the same with half the L_p and h, relative to that, "
+                      "median", numpy.median(ratios))
     renumbered = [apart(run, other, numpy.eye(2))
                   for _, run, other in POINTS.of(runs, "renumbered")]
-    yield Finding("points renumbered: cells apart, µm", max(renumbered),
-                  at_most=1e-7, error=True, trial="points, renumbered")
+    yield RENUMBERED.found("points renumbered: cells apart, µm",
+                           max(renumbered), error=True,
+                           trial="points, renumbered")
 
 
 CASE = Case(
@@ -204,5 +214,5 @@ CASE = Case(
     cure="nothing depends on the order of cells; of equally good extension "
          "blocks the fullest are taken, and where choices are equal in all, as "
          "on the sides of a grid line, their mean",
-    judge=judge,
+    judge=judge, limits=(RENUMBERED, TURNED, FINER, CONSERVED),
     trials=[trial for family in FAMILIES for trial in family.trials()])

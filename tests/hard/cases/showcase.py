@@ -4,9 +4,16 @@
 import numpy
 
 from tests.common.results import positions, read_csv, stresses
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 RATE = 0.3748  # 1/day: the root of 2 exp(-r) / (1 + r) = 1
+
+VOLUME = Limit("The volume inside the surface is that of the cells to "
+               "{at_most:g} of it, at all times.", at_most=0.06)
+VIRIAL = Limit("The virial of the free ball vanishes to {at_most:g} of the "
+               "sum of its magnitudes.", at_most=3e-3)
+RELAXED = Limit("Where cells change places, no $J_e$ falls below "
+                "{at_least:g}.", at_least=0.5)
 
 
 def enclosed(surface):
@@ -37,13 +44,13 @@ def judge(runs):
     files = zip(results.outputs("cells"), results.outputs("surface"))
     worst = max(abs(enclosed(read_csv(s)) / read_csv(c)["volume"].sum() - 1)
                 for c, s in files)
-    yield Finding("volume inside the surface against that of the cells, "
-                  "largest relative difference", worst, at_most=0.06,
-                  error=True, trial="ball")
+    yield VOLUME.found("volume inside the surface against that of the cells, "
+                       "largest relative difference", worst, error=True,
+                       trial="ball")
 
     trace = cells["volume"] * numpy.trace(stresses(cells), axis1=1, axis2=2)
-    yield Finding("virial: sum of W tr tau over that of its magnitudes",
-                  abs(trace.sum()) / numpy.abs(trace).sum(), at_most=3e-3)
+    yield VIRIAL.found("virial: sum of W tr tau over that of its magnitudes",
+                       abs(trace.sum()) / numpy.abs(trace).sum())
     yield Finding("smallest J_e", rows["min_elastic_volume_ratio"].min(),
                   at_least=1e-3)
 
@@ -59,8 +66,8 @@ def judge(runs):
                   numpy.abs(numpy.diff(surface["id"]) - 1).max(), at_most=0)
 
     rows = runs["relaxing-ball"].results.statistics()
-    yield Finding("relaxing: smallest J_e",
-                  rows["min_elastic_volume_ratio"].min(), at_least=0.5)
+    yield RELAXED.found("relaxing: smallest J_e",
+                        rows["min_elastic_volume_ratio"].min())
     yield Finding("relaxing: mean energy at the end [kPa]",
                   rows["mean_energy_density"][-1], at_most=3e-3)
 
@@ -71,7 +78,7 @@ CASE = Case(
            "farther apart than the grid's lines",
     cure="one quadratic field for a small piece; the surface refined as it "
          "stretches",
-    judge=judge,
+    judge=judge, limits=(VOLUME, VIRIAL, RELAXED),
     trials=[
         Trial("ball", "from-27-cells.prm",
               quick={"Time/Stop at cells": "1000"}),

@@ -4,7 +4,7 @@
 import numpy
 
 from tests.common.results import initial_positions, positions
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 SHAPES = {"1 cell": "10, 10, 10", "2 cells": "20, 10, 10",
           "8 cells": "20, 20, 20", "27 cells": "30, 30, 30",
@@ -16,6 +16,16 @@ SHAPES = {"1 cell": "10, 10, 10", "2 cells": "20, 10, 10",
 OFFSETS = {"on a line": "0, 0, 0", "anyhow": "3, 14, 22",
            "between": "25, 25, 25"}
 STRIP_OFFSETS = ("0, 0", "10, 20", "7, 13", "0, 31")
+
+EXACT = Limit("Small and thin pieces that grow evenly by half keep their "
+              "exact shape to {at_most:g} µm, wherever the grid's lines lie.",
+              at_most=1e-5)
+ARC = Limit("The strip that bends is off its exact arc by at most "
+            "{at_most:g} µm.", at_most=0.3)
+APART = Limit("A body moves by less than {at_most:g} µm when another one "
+              "grows behind an empty layer of grid cells.", at_most=1e-9)
+STUCK = Limit("Bodies in touching grid cells pull each other: the other one "
+              "moves by more than {at_least:g} µm.", at_least=0.1)
 
 
 def free_growth(points, theta, centre):
@@ -35,8 +45,8 @@ def judge_pieces(runs):
             surface.append(free_growth(results.last_surface(), 1.5, centre))
         # Nothing holds a row of single cells against turning about its line.
         row = shape == "rod of 1 x 1 cells"
-        yield Finding(f"{shape}: cells are off by [µm]", max(cells),
-                      at_most=1e-5, error=True, trial=shape)
+        yield EXACT.found(f"{shape}: cells are off by [µm]", max(cells),
+                          error=True, trial=shape)
         yield Finding(f"{shape}: the surface is off by [µm]", max(surface),
                       at_most=1e-4 if row else 1e-5, error=True, trial=shape)
 
@@ -62,8 +72,8 @@ def judge_strips(runs):
         x, exact = aligned(positions(cells)[:, :2],
                            arc(initial_positions(cells)[:, :2], 0.004))
         errors.append(numpy.linalg.norm(x - exact, axis=1).max())
-    yield Finding("the strip is off the arc by [µm]", max(errors),
-                  at_most=0.3, error=True, trial="thin strip that bends")
+    yield ARC.found("the strip is off the arc by [µm]", max(errors),
+                    error=True, trial="thin strip that bends")
 
 
 def block(first, last):
@@ -99,13 +109,13 @@ def judge_bodies(runs):
         yield Finding(f"gap of {name} µm: the growing body is off by [µm]",
                       free_growth(cells[left], 1.1, centre), at_most=1e-5,
                       error=True, trial="two bodies")
-        yield Finding(f"gap of {name} µm: the other one moves by [µm]",
-                      free_growth(cells[~left], 1.0, centre), at_most=1e-9)
+        yield APART.found(f"gap of {name} µm: the other one moves by [µm]",
+                          free_growth(cells[~left], 1.0, centre))
     cells = runs["gap of 20"].results.last_cells()
     left = cells["X"] < 0
-    yield Finding("gap of 20 µm: the other one is pulled along by [µm]",
-                  free_growth(cells[~left], 1.0, 0), at_least=0.1,
-                  error=True, trial="two bodies in touching grid cells")
+    yield STUCK.found("gap of 20 µm: the other one is pulled along by [µm]",
+                      free_growth(cells[~left], 1.0, 0), error=True,
+                      trial="two bodies in touching grid cells")
     cells = runs["chain"].results.last_cells()
     head = cells["X"] < -80
     centre = initial_positions(cells)[head].mean(axis=0)
@@ -167,7 +177,7 @@ CASE = Case(
     cure="inner grid cells on one side of thin tissue, one polynomial for a "
          "small piece, two or three points a direction in single layers, one copy of a "
          "spline for each part",
-    judge=judge,
+    judge=judge, limits=(EXACT, ARC, APART, STUCK),
     trials=[Trial(f"{shape}, {place}", "small-and-thin.prm", row=shape,
                   keys={"Tissue/Size": size, "Grid/Offset": offset})
             for shape, size in SHAPES.items()

@@ -2,12 +2,18 @@
 # Copyright (C) 2026 by the Morula authors
 """Tolerances at the limit of rounding, and expressions that lose their value in
 mid-run."""
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 
 # No number between t = 0.9 and 1.6; but at 0 and at End time, where scenes are
 # checked before they run.
 LOST = "sqrt((t - 0.9) * (t - 1.6))"
 CONDITIONS = "Boundary conditions/"
+
+TIGHT = Limit("A tolerance that rounding does not allow is met as far as it "
+              "does: no step takes more than {at_most:g} Newton iterations.",
+              at_most=10)
+LEFT = Limit("What it leaves of the residual is at most {at_most:g}.",
+             at_most=1e-9)
 
 
 def without_value(name, key, text, **more):
@@ -24,10 +30,10 @@ def judge(runs):
     yield Finding("tight: apex against a tolerance of 1e-6 [µm]",
                   abs(tight["zmax"][-1] - loose["zmax"][-1]),
                   at_most=1e-3, error=True, trial="tight")
-    yield Finding("tight: largest residual of a step",
-                  tight["residual"][1:].max(), at_most=1e-9)
-    yield Finding("tight: most iterations of a step",
-                  tight["newton_iterations"][1:].max(), at_most=10)
+    yield LEFT.found("tight: largest residual of a step",
+                     tight["residual"][1:].max())
+    yield TIGHT.found("tight: most iterations of a step",
+                      tight["newton_iterations"][1:].max())
     for name, run in runs.items():
         if name.startswith("lost"):
             yield Finding(f"{name}: time of the last good state [day]",
@@ -41,7 +47,7 @@ CASE = Case(
            "tissue in one iteration",
     cure="the rounding error of the forces is computed and ends the "
          "iteration; expressions are checked wherever they are evaluated",
-    judge=judge,
+    judge=judge, limits=(TIGHT, LEFT),
     trials=[
         Trial("tight", "solver.prm", ranks=(1, 2)),
         Trial("loose", "solver.prm", keys={"Solver/Newton tolerance": "1e-6"}),

@@ -4,7 +4,7 @@
 import numpy
 from scipy.optimize import brentq
 
-from tests.hard.case import Case, Finding, Trial
+from tests.hard.case import Case, Finding, Limit, Trial
 from tests.verification import inclusion
 from tests.verification.cook import REFERENCE
 from tests.verification.material import lame
@@ -17,6 +17,19 @@ COARSE = {"Grid/Spacing": "8", "Tissue/Cell spacing": "2",
 # of the projected form, and what the pointwise one must miss at least.
 LARGEST_ERROR = {False: 0.015, True: 0.01}
 LEAST_LOCKING = {False: -0.12, True: -0.04}
+
+VOLUME = Limit("Projected, Cook's membrane keeps its volume to {tolerance:g} "
+               "of it.", equals=(0, 3e-4))
+CONFINED = Limit("The energy of a nearly incompressible sphere that is held "
+                 "all around is right to {tolerance:g} of it.",
+                 equals=(0, 0.005))
+SQUEEZED = Limit("That of a disc whose core grows is right to {tolerance:g}.",
+                 equals=(0, 0.05))
+HALVED = Limit("With the grid spacing halved, the error of a disc with a "
+               "core that is a thousand times stiffer falls to {at_most:g} "
+               "of it or less.", at_most=0.5)
+ITERATIONS = Limit("A thousandfold contrast takes at most {at_most:g} Newton "
+                   "iterations a step.", at_most=12)
 
 
 def last(run, column):
@@ -52,17 +65,17 @@ def panel(runs):
             if form == "projected":
                 ratio = (last(run, "total_volume")
                          / run.results.statistics()["total_volume"][0])
-                yield Finding(f"volume, nu = {nu}", ratio / volume - 1,
-                              equals=(0, 3e-4), trial=name)
+                yield VOLUME.found(f"volume, nu = {nu}", ratio / volume - 1,
+                                   trial=name)
 
 
 def confined(run):
     theta, constants = 1.1, lame(1, run.results.number(
         "Material/Poisson's ratio"))
     exact = energy_density(constants, -3 * numpy.log(theta), 3 / theta**2)
-    yield Finding("energy, confined sphere",
-                  last(run, "mean_energy_density") / exact - 1,
-                  equals=(0, 0.005), error=True, trial="confined")
+    yield CONFINED.found("energy, confined sphere",
+                         last(run, "mean_energy_density") / exact - 1,
+                         error=True, trial="confined")
     statistics = run.results.statistics()["total_volume"]
     yield Finding("volume, confined sphere", statistics[-1] / statistics[0] - 1,
                   equals=(0, 5e-4), trial="confined")
@@ -78,10 +91,10 @@ def squeezed(run):
     along, across, growth = ball.stretches(R)
     energy = energy_density(constants, numpy.log(along * across / growth**2),
                             (along**2 + across**2) / growth**2 + 1)
-    yield Finding("energy, squeezed core",
-                  last(run, "mean_energy_density")
-                  / numpy.average(energy, weights=R) - 1,
-                  equals=(0, 0.05), error=True, trial="squeezed")
+    yield SQUEEZED.found("energy, squeezed core",
+                         last(run, "mean_energy_density")
+                         / numpy.average(energy, weights=R) - 1,
+                         error=True, trial="squeezed")
     volume = numpy.pi * (radius * across[-1])**2
     yield Finding("volume, squeezed core",
                   last(run, "total_volume") / volume - 1,
@@ -96,8 +109,8 @@ def stiff_core(coarse, fine):
         yield Finding(f"energy, {run.trial.name}", error, at_least=-0.02,
                       at_most=0.4, error=True, trial=run.trial.name)
     # The strain jumps at the core's surface, the splines are smooth: order 1.
-    yield Finding("energy, stiff core: error with h halved over that before",
-                  errors[1] / errors[0], at_most=0.5)
+    yield HALVED.found("energy, stiff core: error with h halved over that "
+                       "before", errors[1] / errors[0])
 
 
 def bar(run):
@@ -129,8 +142,8 @@ def judge(runs):
     for name in ("stiff-core", "soft-and-stiff", "confined"):
         yield Finding(f"tangents a step, {name}",
                       runs[name].figures.tangents, at_most=5, trial=name)
-        yield Finding(f"Newton iterations a step, {name}",
-                      runs[name].figures.newton, at_most=12, trial=name)
+        yield ITERATIONS.found(f"Newton iterations a step, {name}",
+                               runs[name].figures.newton, trial=name)
 
 
 CASE = Case(
@@ -139,7 +152,7 @@ CASE = Case(
     breaks="where every cell keeps its own volume, a grid cell's splines have "
            "more constraints than they can keep, and the tissue locks",
     cure="one mean volume change a grid cell (`Volumetric strain = projected`)",
-    judge=judge,
+    judge=judge, limits=(VOLUME, CONFINED, SQUEEZED, HALVED, ITERATIONS),
     trials=[
         *[Trial(f"cook-{form}-{nu}", "cook.prm", quick=COARSE,
                 keys={"Material/Poisson's ratio": nu,

@@ -12,6 +12,7 @@ from pathlib import Path
 from upkeep.manual.coverage import undocumented
 from upkeep.manual.header import comments_linked
 from upkeep.manual.markdown import PICTURES, ROOT, Page, pages
+from upkeep.version_data import shown
 
 MATHJAX = Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax
 
@@ -36,7 +37,7 @@ def convert(sources, output):
         if path.suffix == ".h":
             text = comments_linked(text)
         else:
-            text = Page(name, output).converted(text)
+            text = Page(name, output).converted(shown(text, path.parent))
         (sources / name).parent.mkdir(parents=True, exist_ok=True)
         (sources / name).write_text(text, encoding="utf-8")
 

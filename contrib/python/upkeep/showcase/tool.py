@@ -8,7 +8,8 @@
     contrib/showcase --fit                 fits the equations to the data anew
 
 Runs are kept below output/showcase and not repeated by the same build. With
---document, the tables and pictures of doc/showcase.md are written anew.
+--document, the tables of this version (doc/measured) and the pictures of
+doc/showcase.md are written anew.
 """
 import argparse
 from dataclasses import dataclass
@@ -21,8 +22,12 @@ from morula.program import Program
 from morula.refusal import Refused
 from morula.run import Run
 from morula.scene import Scene
+from morula.tables import markdown
 
-from tests.common.tables import aligned, markdown, renew
+from upkeep.made import made_with
+from upkeep.version_data import store
+
+from tests.common.tables import aligned
 
 from . import cortex, cut, figure, organoid, plate, pressure
 from .spheroids import ROOT, SCENE, all_series, fit, radii_of_run
@@ -119,8 +124,8 @@ def run(subject, chosen, options):
     rows = [subject.row(*pair) for pair in done]
     print(*aligned(subject.header, rows), sep="\n")
     if options.document:
-        renew(ROOT / "doc/showcase.md",
-              {subject.name: markdown(subject.header, rows)})
+        store("showcase", {subject.name: markdown(subject.header, rows)},
+              made_with(ROOT, options.morula), ROOT)
         subject.draw(done, ROOT / f"doc/images/showcase/{subject.name}.png")
     return all(record.finished for record in records)
 
@@ -142,7 +147,7 @@ def parser():
     result.add_argument("-s", dest="overrides", action="append", default=[],
                         metavar="KEY=VALUE", help="another value of a key")
     result.add_argument("--document", action="store_true",
-                        help="write the page's table and pictures anew")
+                        help="write tables and pictures of this version")
     return result
 
 

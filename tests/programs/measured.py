@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Measured tables are data of this version, and pages show them all; limits in
+pages are those that the cases assert."""
+import re
+
+from program import TESTS, ProgramTest, main
+from upkeep import limits
+from upkeep.version_data import (LINK, data_file, markdown, parts, read, shown,
+                                 store, version)
+
+from tests.hard.case import Case, Limit
+
+ROOT = TESTS.parent
+DATA = sorted((ROOT / "doc/measured").glob("*/*.json"))
+
+TABLE = """*Full size.*
+
+| trial | Σ\\|·\\| |
+| --- | ---: |
+| a | 1.2 |
+| b |  |
+
+```
+contrib/x
+    | no table |
+```
+
+- one
+- two"""
+PARTS = [{"text": ["*Full size.*"]},
+         {"header": ["trial", "Σ|·|"], "rows": [["a", "1.2"], ["b", ""]]},
+         {"code": ["contrib/x", "    | no table |"]},
+         {"text": ["- one", "- two"]}]
+
+
+def pages():
+    """Those that are not frozen."""
+    return [page for page in (ROOT / "doc").rglob("*.md")
+            if page.parent != ROOT / "doc/notes"]
+
+
+class Measured(ProgramTest):
+    def test_parts_of_a_table(self):
+        self.assertEqual(parts(TABLE), PARTS)
+        back = markdown({"made": "today", "parts": PARTS})
+        self.assertEqual(back.replace("| --- | --- |", "| --- | ---: |"),
+                         TABLE + "\n\n*today*")
+
+    def test_store(self):
+        """Other tables of the page stay; rows are lines of the file."""
+        project = "project(Morula VERSION 3.2.1 LANGUAGES CXX)\n"
+        (self.work / "CMakeLists.txt").write_text(project)
+        store("a", {"one": TABLE, "two": "text"}, "then", self.work)
+        file = store("a", {"two": TABLE}, "now", self.work)
+        self.assertEqual(file, self.work / "doc/measured/3.2.1/a.json")
+        self.assertEqual(read(file), {
+            "page": "doc/a.md", "version": "3.2.1",
+            "tables": {"one": {"made": "then", "parts": PARTS},
+                       "two": {"made": "now", "parts": PARTS}}})
+        self.assertEqual(file.read_text().count('["a", "1.2"]'), 2)
+        text = "a\n\n[Measured: two](measured/3.2.1/a.json)\n\nb"
+        self.assertIn("| a | 1.2 |", shown(text, self.work / "doc"))
+
+    def test_every_table_has_its_place(self):
+        """Once, in a page; and no page names one that is not there."""
+        named = []
+        for page in pages():
+            for name, link in LINK.findall(page.read_text()):
+                file = (page.parent / link).resolve()
+                self.assertIn(file, DATA, page)
+                self.assertEqual(file.parent.name, version(), page)
+                named.append((file, name))
+            self.assertEqual(len(LINK.findall(page.read_text())),
+                             page.read_text().count("[Measured: "), page)
+        there = [(file, name) for file in DATA
+                 if file.parent.name == version()
+                 for name in read(file)["tables"]]
+        self.assertGreater(len(there), 30)
+        self.assertEqual(sorted(named), sorted(there))
+
+    def test_data_say_how_they_were_made(self):
+        for file in DATA:
+            data = read(file)
+            self.assertEqual(data["version"], file.parent.name, file)
+            self.assertTrue((ROOT / data["page"]).is_file(), file)
+            for name, table in data["tables"].items():
+                with self.subTest(file=file.name, table=name):
+                    self.assertRegex(table["made"],
+                                     r"^\d{4}-\d\d-\d\d: .*commit .*cores$")
+                    self.assertTrue(table["parts"])
+                    for part in table["parts"]:
+                        for row in part.get("rows", ()):
+                            self.assertEqual(len(row), len(part["header"]))
+
+    def test_shown_by_the_command(self):
+        text = self.run_words([ROOT / "contrib/renew", "--show",
+                               "verification"]).stdout
+        for name in read(data_file("verification"))["tables"]:
+            self.assertIn(f"# verification: {name}\n", text)
+
+
+class Limits(ProgramTest):
+    def test_pages_have_the_limits_of_the_cases(self):
+        """`contrib/renew --limits` writes them."""
+        for page, text, wanted in limits.pages(ROOT):
+            self.assertEqual(text, wanted, f"{page}: contrib/renew --limits")
+            self.assertGreater(len(limits.PLACE.findall(text)), 5)
+
+    def test_sentences_name_their_limit(self):
+        for folder in limits.CASES.values():
+            for case, lines in limits.sentences(folder, ROOT).items():
+                for line in lines:
+                    self.assertRegex(line, r"\d.*\.$", case)
+
+    def test_a_limit_that_nothing_is_found_for(self):
+        limit = Limit("The condition varies by less than a factor {at_most:g}.",
+                      at_most=3)
+        case = Case("a", "b", "c", [], None, (limit,))
+        said = "The condition varies by less than a factor 3."
+        self.assertEqual(case.sentences(), [said])
+        self.assertEqual(case.unfounded([]), [said])
+        found = limit.found("condition", 2)
+        self.assertEqual(case.unfounded([found]), [])
+        self.assertTrue(found.holds())
+        self.assertFalse(limit.found("condition", 4).holds())
+
+    def test_places(self):
+        page = "x\n<!-- limits a -->\nold\n<!-- end -->\ny\n"
+        new = limits.page_with(page, {"a": ["One.", "Two."], "b": []})
+        self.assertEqual(re.sub("- One.\n- Two.", "old", new), page)
+        for stated in ({"a": ["One."], "b": ["Two."]}, {"b": ["Two."]}):
+            self.assertRaises(LookupError, limits.page_with, page, stated)
+
+
+if __name__ == "__main__":
+    main()

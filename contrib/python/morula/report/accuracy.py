@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """How far the results of a run can be trusted: what its numbers say, and what
-doc/accuracy-and-cost.md has measured for such a resolution."""
+doc/accuracy-and-cost.md says of such a resolution."""
 import math
 
 import numpy as np
@@ -67,8 +67,7 @@ def on_resolution(run):
                      "(doc/hard-cases.md).")
     elif least < FEWEST:
         yield True, (f"{there}. Fewer than three roughen the surface and "
-                     "spoil the energy; one run in eight of a proliferating "
-                     "tissue with 2.5 has failed.")
+                     "spoil the energy, and runs may fail.")
     elif least <= BEST[1]:
         yield False, (f"{there}; four to seven are best for a tissue that is "
                       "free or smooth.")
@@ -102,12 +101,11 @@ def on_fixed(run):
                   f"an energy belongs to its h, here {h:g} µm.")
     form = run.keys.get("Boundary conditions/Nitsche form", "symmetric")
     if form == "symmetric":
-        yield True, ("On the half-fixed sphere of radius 250 µm with the "
-                     "symmetric form of Nitsche's method, which this run has, "
-                     "the mean energy was too high by nearly 0.4 % for each "
-                     "µm of h: 19 % at h = 50 µm. Method = consistent "
+        yield True, ("This run has the symmetric form of Nitsche's method, "
+                     "with which the mean energy of a half-held sphere is far "
+                     "too high (doc/accuracy-and-cost.md). Method = consistent "
                      "(Nitsche form = unsymmetric with Nitsche penalty = 20) "
-                     "took five sixths of that away for a fifth more time.")
+                     "takes away most of that for little time.")
 
 
 def on_steps(run):

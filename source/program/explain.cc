@@ -4,6 +4,7 @@
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
 #include <morula/program/explain_cells.h>
+#include <morula/program/explain_folds.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/free_growth.h>
 #include <morula/scene/seeded_tissue.h>
@@ -302,8 +303,11 @@ namespace Morula
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
         Simulation<dim>(scene, comm, tissue).n_unknowns();
-      const std::optional<double> growth =
+      const std::optional<FreeGrowth> free =
         free_growth(scene, tissue.founders, tissue.surface, comm);
+      std::optional<double> growth; // where the estimate does not know it
+      if (free && !free->known_before)
+        growth = free->mean;
       const SizeEstimate size =
         estimated_size(scene, tissue.founders, comm, n_unknowns, growth);
       const double available = physical_memory(comm);
@@ -328,6 +332,7 @@ namespace Morula
                     tissue.n_proliferating);
       print_types(text, scene, n_of_types);
       print_cell_expressions(text, scene);
+      print_folds(text, scene, free);
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Morula
 {
@@ -22,15 +23,19 @@ namespace Morula
 
 
   template <int dim>
-  std::optional<double>
+  std::optional<FreeGrowth>
   free_growth(const Scene               &scene,
               const Founders<dim>       &founders,
               const SurfacePatches<dim> &surface,
               const MPI_Comm             comm)
   {
-    if (!scene.has_growth() ||
-        effects_of<dim>(scene).development.law->is_known_before())
+    if (!scene.has_growth())
       return {};
+    FreeGrowth growth;
+    growth.known_before =
+      effects_of<dim>(scene).development.law->is_known_before();
+    growth.least = std::numeric_limits<double>::infinity();
+    growth.most  = 0.;
     const FirstCells<dim> cells(scene, founders, surface, comm);
     const double          end = scene.time.end_time;
     const unsigned int    n_steps =
@@ -53,16 +58,21 @@ namespace Morula
           {}
         ++n;
         sum += ratio;
+        growth.least = std::min(growth.least, ratio);
+        growth.most  = std::max(growth.most, ratio);
       }
-    return Utilities::MPI::sum(sum, comm) / Utilities::MPI::sum(n, comm);
+    growth.mean = Utilities::MPI::sum(sum, comm) / Utilities::MPI::sum(n, comm);
+    growth.least = Utilities::MPI::min(growth.least, comm);
+    growth.most  = Utilities::MPI::max(growth.most, comm);
+    return growth;
   }
 
 
-#define INSTANTIATE(dim)                                                  \
-  template std::optional<double> free_growth(const Scene &,               \
-                                             const Founders<dim> &,       \
-                                             const SurfacePatches<dim> &, \
-                                             const MPI_Comm);
+#define INSTANTIATE(dim)                                                      \
+  template std::optional<FreeGrowth> free_growth(const Scene &,               \
+                                                 const Founders<dim> &,       \
+                                                 const SurfacePatches<dim> &, \
+                                                 const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

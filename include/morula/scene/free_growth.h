@@ -13,16 +13,23 @@
 
 namespace Morula
 {
+  /** By which factors growth makes the volumes of founders larger. */
+  struct FreeGrowth
+  {
+    double mean = 1., least = 1., most = 1.;
+    /** Whether place and time alone tell growth, so that GrowthLaw's
+     *  expected_volume_ratio() has it, too. */
+    bool known_before = true;
+  };
+
   /**
-   * By which factor a growth law that depends on the cells' state makes the
-   * founders larger until End time, on average, if nothing presses them: each
-   * grows free of stress where it stands, of the type that it has, in the
-   * fields of t = 0. Nothing for other laws, which GrowthLaw's
-   * expected_volume_ratio() tells of. Where there are many founders, only some
-   * are asked. Collective.
+   * By which factors a growth law makes the founders larger until End time, if
+   * nothing presses them: each grows free of stress where it stands, of the
+   * type that it has, in the fields of t = 0. Nothing without a law. Where
+   * there are many founders, only some are asked. Collective.
    */
   template <int dim>
-  std::optional<double>
+  std::optional<FreeGrowth>
   free_growth(const Scene               &scene,
               const Founders<dim>       &founders,
               const SurfacePatches<dim> &surface,

@@ -246,14 +246,31 @@ namespace Morula
   Extremes<dim>
   MomentumBalance<dim>::extremes(const Evaluation &evaluation) const
   {
-    const Extreme J =
-      best_of_ranks(evaluation.smallest_J, std::less<double>(), comm);
+    const Extreme J = smallest_J(evaluation);
     const Extreme gap =
       best_of_ranks(evaluation.largest_gap, std::greater<double>(), comm);
     return {J.value,
             from_space<dim>(J.place),
             gap.value,
             from_space<dim>(gap.place)};
+  }
+
+  template <int dim>
+  Equilibrium::Extreme
+  MomentumBalance<dim>::smallest_J(const Evaluation &evaluation) const
+  {
+    return best_of_ranks(evaluation.smallest_J, std::less<double>(), comm);
+  }
+
+  template <int dim>
+  bool
+  MomentumBalance<dim>::is_far_from(const Vector &begin, const Vector &u) const
+  {
+    constexpr double least_J = 0.3;
+    Vector           moved(u), R(u);
+    moved -= begin;
+    return moved.linfty_norm() > space.box().spacing() ||
+           smallest_J(residual(u, R)).value < least_J;
   }
 
   template <int dim>

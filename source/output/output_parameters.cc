@@ -33,6 +33,11 @@ namespace Morula
         "Whether condition.csv is to hold the extreme eigenvalues "
         "of each step's first tangent, scaled to a unit "
         "diagonal. Takes longer than the step itself.")
+    , newton_trace("Output/Newton trace",
+                   false,
+                   "Whether newton.csv is to hold all states of Newton's "
+                   "method: energy, residual, motion, curvature, smallest J "
+                   "and where. Shows why a step takes long, or fails.")
   {
     using Words = std::vector<std::string>;
     formats.require(
@@ -56,7 +61,11 @@ namespace Morula
   KeyList
   OutputParameters::list()
   {
-    return {&interval, &formats, &snapshot_interval, &condition_estimate};
+    return {&interval,
+            &formats,
+            &snapshot_interval,
+            &condition_estimate,
+            &newton_trace};
   }
 
 

@@ -15,9 +15,6 @@ namespace Morula
     /** Of the lumen's volume. Solver/Newton tolerance limits it as well. */
     constexpr double volume_tolerance = 1e-8;
 
-    /** Equilibria of a step with different pressures in the lumen. */
-    constexpr unsigned int max_equilibria = 20;
-
     /** Compression modulus of the content whose pressure is being found, over
      *  Young's modulus of the tissue: doc/theory.md (4.8j). */
     constexpr double relative_modulus = 100.;
@@ -74,44 +71,63 @@ namespace Morula
 
 
   template <int dim>
-  LumenEquilibrium
-  keep_lumen_volume(const Lumen<dim>                               &lumen,
-                    const Tissue<dim>                              &tissue,
-                    const SplineSpace<dim>                         &space,
-                    const std::function<Equilibrium::Evaluation()> &solve,
-                    MomentumBalance<dim>                           &balance,
-                    EnclosedContent                                &content,
-                    const Equilibrium::Vector                      &u,
-                    TimerOutput                                    &timer)
+  LumenPressure<dim>::LumenPressure(const Lumen<dim>           &lumen,
+                                    const Tissue<dim>          &tissue,
+                                    const SplineSpace<dim>     &space,
+                                    const MomentumBalance<dim> &balance,
+                                    EnclosedContent            &content,
+                                    TimerOutput                &timer)
+    : lumen(lumen)
+    , tissue(tissue)
+    , space(space)
+    , balance(balance)
+    , content(content)
+    , timer(timer)
+    , wanted(content.target)
+  {}
+
+
+  template <int dim>
+  bool
+  LumenPressure<dim>::renew(const Equilibrium::Vector &u)
   {
-    const MPI_Comm comm   = tissue.communicator();
-    const double   wanted = content.target;
-    double         error  = 0.;
-    for (unsigned int i = 0; i < max_equilibria; ++i)
-      {
-        const Equilibrium::Evaluation evaluation = solve();
-        const TimerOutput::Scope      section(timer, "lumen");
-        const double                  V        = balance.enclosed_volume(u);
-        const double                  pressure = content.pressure(V);
-        if (!lumen.keeps_volume())
-          return {evaluation, pressure};
-        const DisplacementField<dim> displacement(space, u, comm);
-        const double                 after =
-          enclosed_volume(lumen_patches(lumen, tissue, &displacement), comm);
-        error = after / wanted - 1.;
-        if (std::abs(error) <= volume_tolerance)
-          return {evaluation, pressure};
-        // The pressure moves on, and the volume of the step, by which the
-        // energy counts, is corrected by what that of the moved points has
-        // more: doc/theory.md (4.8j).
-        content.pressure_at_target = pressure;
-        content.target             = wanted - (after - V);
-        balance.use_growth_at_end();
-      }
+    const TimerOutput::Scope section(timer, "lumen");
+    const MPI_Comm           comm = tissue.communicator();
+    const double             V    = balance.enclosed_volume(u);
+    pressure_                     = content.pressure(V);
+    if (!lumen.keeps_volume())
+      return false;
+    const DisplacementField<dim> displacement(space, u, comm);
+    const double                 after =
+      enclosed_volume(lumen_patches(lumen, tissue, &displacement), comm);
+    error = after / wanted - 1.;
+    if (std::abs(error) <= volume_tolerance)
+      return false;
+    // The pressure moves on, and the volume of the step, by which the energy
+    // counts, is corrected by what that of the moved points has more:
+    // doc/theory.md (4.8j).
+    content.pressure_at_target = pressure_;
+    content.target             = wanted - (after - V);
+    return true;
+  }
+
+
+  template <int dim>
+  std::string
+  LumenPressure<dim>::unfinished() const
+  {
     std::ostringstream text;
     text << "the lumen does not get its volume: it still differs by " << error
          << " times " << wanted << (dim == 3 ? " um^3" : " um^2");
-    throw StepFailed(text.str());
+    return text.str();
+  }
+
+
+  template <int dim>
+  double
+  LumenPressure<dim>::pressure() const
+  {
+    return pressure_;
   }
 
 
@@ -122,20 +138,12 @@ namespace Morula
      const TissueModel<dim> &,                                                 \
      const Tissue<dim> &,                                                      \
      const std::optional<LumenMemory> &);                                      \
-  template EnclosedContent  lumen_content(const Lumen<dim> &,                  \
-                                          const LumenMemory &,                 \
-                                          const double,                        \
-                                          const double,                        \
-                                          const double);                       \
-  template LumenEquilibrium keep_lumen_volume(                                 \
-    const Lumen<dim> &,                                                        \
-    const Tissue<dim> &,                                                       \
-    const SplineSpace<dim> &,                                                  \
-    const std::function<Equilibrium::Evaluation()> &,                          \
-    MomentumBalance<dim> &,                                                    \
-    EnclosedContent &,                                                         \
-    const Equilibrium::Vector &,                                               \
-    TimerOutput &);
+  template EnclosedContent lumen_content(const Lumen<dim> &,                   \
+                                         const LumenMemory &,                  \
+                                         const double,                         \
+                                         const double,                         \
+                                         const double);                        \
+  template class LumenPressure<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -79,6 +79,8 @@ namespace Morula
         tables.push_back({"events", event_columns(contents)});
       if (scene.output.condition_estimate)
         tables.push_back({"condition", condition_columns(), true});
+      if (scene.output.newton_trace)
+        tables.push_back({"newton", newton_columns(), true});
       return tables;
     }
 
@@ -277,6 +279,14 @@ namespace Morula
                            const ConditionEstimate &estimate)
   {
     tables.at("condition").append(condition_row(step, time, estimate));
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::newton(const unsigned int                  step,
+                        const std::vector<NewtonIteration> &trace)
+  {
+    tables.at("newton").append(newton_rows(step, trace));
   }
 
   template <int dim>

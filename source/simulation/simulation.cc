@@ -18,14 +18,24 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** A step that is plainly too long is halved so often before a proximal
+     * path is tried. An eighth of it hardly is too long any more: then
+     * something jumps. */
+    constexpr unsigned int most_plain_halves = 3;
+  } // namespace
+
+
   template <int dim>
   void
   Simulation<dim>::step()
   {
-    row           = StatisticsRow();
-    newton_report = NewtonReport();
-    births        = {};
-    events        = {};
+    row                       = StatisticsRow();
+    newton_report             = NewtonReport();
+    newton_report.wants_trace = model.scene.output.newton_trace;
+    births                    = {};
+    events                    = {};
     ++run_state.n_steps;
     fields.begin_step();
 
@@ -84,12 +94,17 @@ namespace Morula
         while (true)
           try
             {
+              newton_report.first_residual = newton_report.curvature = 0.;
               return try_step(equilibrium);
             }
           catch (const StepFailed &failure)
             {
+              if (row.rejected_steps == 0)
+                first_attempt = {time_steps.next() - time_steps.time(),
+                                 newton_report.first_residual};
               ++row.rejected_steps;
               ++run_state.n_rejected;
+              ++newton_report.place.attempt;
               if (!time_steps.reject())
                 give_up_step(failure.what());
             }
@@ -117,10 +132,15 @@ namespace Morula
           typical_stiffness =
             model.typical_stiffness(tissue, growth_of_step, comm);
       }
-    return equilibrium.solve(
-      {t, t_next, growth_of_step, typical_stiffness, run_state.lumen},
-      newton_report,
-      condition);
+    return equilibrium.solve({t,
+                              t_next,
+                              growth_of_step,
+                              typical_stiffness,
+                              run_state.lumen,
+                              time_steps.can_halve() &&
+                                time_steps.state().level < most_plain_halves},
+                             newton_report,
+                             condition);
   }
 
   template <int dim>

@@ -67,7 +67,14 @@ namespace Morula
     describe_state();
     row.newton_iterations = newton_report.newton_iterations;
     row.linear_iterations = newton_report.linear_iterations;
+    row.turns             = newton_report.turns;
+    row.proximal_paths    = newton_report.proximal_paths;
     row.residual          = newton_report.residual;
+    if (row.proximal_paths > 0 && !told_of_path)
+      {
+        told_of_path = true;
+        files->message(path_message(time_steps.time()));
+      }
     if (row.lengths.n_too_long == 0 || warned_of_long_cells)
       return;
     warned_of_long_cells = true;
@@ -83,6 +90,8 @@ namespace Morula
     if (condition)
       files->condition(run_state.n_steps, row.time - row.dt, *condition);
     condition.reset(); // one row a step, also where the run ends here
+    if (model.scene.output.newton_trace)
+      files->newton(run_state.n_steps, newton_report.trace);
   }
 
   template <int dim>

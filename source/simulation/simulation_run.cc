@@ -6,6 +6,7 @@
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
+#include <morula/simulation/tissue_tables.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -238,6 +239,8 @@ namespace Morula
     // Behind the snapshot, as the step is repeated when the run is resumed.
     if (condition)
       files->condition(run_state.n_steps + 1, time_steps.time(), *condition);
+    if (model.scene.output.newton_trace)
+      files->newton(run_state.n_steps + 1, newton_report.trace);
     files->write_timings(timer);
     throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
   }
@@ -258,6 +261,40 @@ namespace Morula
   }
 
   template <int dim>
+  FailedStep
+  Simulation<dim>::failed_step() const
+  {
+    StatisticsRow before;
+    set_state(model, tissue, time_steps.time(), before);
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    const double                   dt = time_steps.next() - time_steps.time();
+    FailedStep                     step;
+    step.first_force = first_attempt.force;
+    step.last_force  = newton_report.first_residual;
+    step.part        = dt / first_attempt.dt;
+    step.energy      = newton_report.failed_at.energy;
+    step.smallest_J  = newton_report.failed_at.smallest_J.value;
+    step.curvature   = newton_report.curvature;
+    step.min_J       = before.tissue.min_elastic_volume_ratio;
+    step.max_J       = before.tissue.max_elastic_volume_ratio;
+    if (conditions.has_dirichlet())
+      {
+        step.symmetric = conditions.nitsche().form() == NitscheForm::symmetric;
+        step.unsymmetric =
+          conditions.nitsche().form() == NitscheForm::unsymmetric;
+      }
+    step.pointwise =
+      model.material.volumetric_form() == VolumetricStrain::pointwise;
+    step.loaded = conditions.has(SurfaceCondition::loaded) ||
+                  !model.forces.empty() || run_state.lumen;
+    step.friction = friction_against(step.curvature,
+                                     typical_stiffness,
+                                     model.scene.grid.spacing,
+                                     first_attempt.dt);
+    return step;
+  }
+
+  template <int dim>
   void
   Simulation<dim>::give_up_step(const std::string &reason)
   {
@@ -265,8 +302,8 @@ namespace Morula
     text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()
          << " day (Time/Smallest step = " << model.scene.time.smallest_step
-         << "): " << reason
-         << ". Resuming may go on with a smaller Time/Smallest step or other "
+         << "): " << reason << '.' << diagnosis(failed_step())
+         << " Resuming may go on with a smaller Time/Smallest step or other "
             "Solver keys; if it does not, start anew with a larger "
             "Grid/Spacing, with smaller loads or less growth";
     if (model.boundary_conditions.has_dirichlet())

@@ -10,11 +10,29 @@
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/step_points.h>
+#include <morula/solver/proximal_path.h>
 
 #include <utility>
 
 namespace Morula
 {
+  namespace
+  {
+    /** Makes the extremes of the states from number @p begin on those of all
+     *  ranks. Collective. */
+    template <int dim>
+    void
+    share_extremes(const MomentumBalance<dim> &balance,
+                   const std::size_t           begin,
+                   NewtonReport               &report)
+    {
+      for (std::size_t i = begin; i < report.trace.size(); ++i)
+        report.trace[i].evaluation.smallest_J =
+          balance.smallest_J(report.trace[i].evaluation);
+    }
+  } // namespace
+
+
   template <int dim>
   StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim> &model,
                                         const Tissue<dim>      &tissue,
@@ -71,46 +89,75 @@ namespace Morula
     const LinearProblem linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
-    Solution   solution{start(attempt).value_or(balance.rest()), attempt.lumen};
-    const auto solve = [&]() {
-      return Morula::solve(balance,
-                           linear,
-                           balance.scales(stiffness),
-                           model.scene.solver,
-                           timer,
-                           solution.u,
-                           report);
-    };
+    Solution solution{start(attempt).value_or(balance.rest()), attempt.lumen};
+    std::optional<LumenPressure<dim>> pressure;
+    std::vector<TurnParticipant *>    participants;
+    if (lumen)
+      participants.push_back(
+        &pressure.emplace(*model.boundary_conditions.lumen(),
+                          tissue,
+                          space,
+                          balance,
+                          lumen->content,
+                          timer));
     Equilibrium::Evaluation evaluation;
+    const std::size_t       n_traced = report.trace.size();
     try
       {
-        if (lumen)
-          {
-            const LumenEquilibrium found =
-              keep_lumen_volume(*model.boundary_conditions.lumen(),
-                                tissue,
-                                space,
-                                solve,
-                                balance,
-                                lumen->content,
-                                solution.u,
-                                timer);
-            evaluation               = found.evaluation;
-            solution.lumen->pressure = found.pressure;
-          }
-        else
-          evaluation = solve();
+        evaluation = balance_in_turns(
+          balance,
+          participants,
+          [&]() { return find(attempt, balance, linear, solution.u, report); },
+          solution.u,
+          report);
+        share_extremes(balance, n_traced, report);
       }
     catch (const StepFailed &failure)
       {
+        share_extremes(balance, n_traced, report);
+        Equilibrium::Vector R(solution.u);
+        report.failed_at            = balance.residual(solution.u, R);
+        report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
         throw StepFailed(failure.what() +
                          (". " + balance.describe(solution.u)));
       }
+    if (pressure)
+      solution.lumen->pressure = pressure->pressure();
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
                 space.box().spacing());
     return solution;
+  }
+
+
+  // A step that is plainly too long is halved: that is cheaper than a path, and
+  // as good. All other failures have a path to their equilibrium, as the energy
+  // has a lowest value; half the step would begin with as much unbalanced force
+  // where the last state is about to fold, or where something jumps.
+  template <int dim>
+  Equilibrium::Evaluation
+  StepEquilibrium<dim>::find(const Attempt        &attempt,
+                             MomentumBalance<dim> &balance,
+                             const LinearProblem  &linear,
+                             Equilibrium::Vector  &u,
+                             NewtonReport         &report) const
+  {
+    const Equilibrium::Vector begin(u);
+    const NewtonScales scales = balance.scales(attempt.typical_stiffness);
+    try
+      {
+        return Morula::solve(
+          balance, linear, scales, model.scene.solver, timer, u, report);
+      }
+    catch (const StepFailed &)
+      {
+        if (attempt.halve_first && balance.is_far_from(begin, u))
+          throw;
+        u = begin;
+        return follow_proximal_path(
+          balance, linear, scales, model.scene.solver, timer, u, report);
+      }
   }
 
 

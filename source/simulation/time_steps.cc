@@ -95,11 +95,17 @@ namespace Morula
   }
 
   bool
+  TimeSteps::can_halve() const
+  {
+    return 0.5 * (next() - time()) >=
+             parameters.smallest_step * (1. - time_slack) &&
+           state_.level < 30;
+  }
+
+  bool
   TimeSteps::reject()
   {
-    if (0.5 * (next() - time()) <
-          parameters.smallest_step * (1. - time_slack) ||
-        state_.level >= 30)
+    if (!can_halve())
       return false;
     state_.part *= 2;
     ++state_.level;

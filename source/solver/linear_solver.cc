@@ -62,9 +62,9 @@ namespace Morula
   {}
 
   double
-  LinearSolver::largest_shift() const
+  LinearSolver::curvature() const
   {
-    return largest_shift_;
+    return curvature_;
   }
 
   bool
@@ -82,6 +82,7 @@ namespace Morula
                       const bool                  as_before,
                       const Equilibrium::RankOne *rank_one)
   {
+    curvature_ = 0.;
     if (!as_before)
       direct.forget();
     if (!is_direct && !prepared)
@@ -124,7 +125,10 @@ namespace Morula
                                unsigned int               &iterations,
                                const Equilibrium::RankOne *rank_one)
   {
-    direct.solve(K, x, b, iterations, largest_shift_, rank_one);
+    double shift = 0.;
+    direct.solve(K, x, b, iterations, shift, rank_one);
+    if (direct.has_shifted())
+      curvature_ = std::min(curvature_, -shift);
     has_shifted_ = has_shifted_ || direct.has_shifted();
   }
 
@@ -153,10 +157,11 @@ namespace Morula
           factorisation != nullptr ?
             iterate(*factorisation) :
             iterate(Jacobi(diagonal_magnitude(K, b), shift));
-        largest_shift_ = std::max(largest_shift_, shift);
-        has_shifted_   = has_shifted_ || shift > 0.;
+        has_shifted_ = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)
           return;
+        if (outcome == CgOutcome::negative_curvature)
+          curvature_ = std::min(curvature_, -needed);
         if (outcome == CgOutcome::negative_curvature)
           shift = std::max({Shifts::least,
                             Shifts::curvature_factor * needed,

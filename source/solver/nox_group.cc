@@ -4,21 +4,12 @@
 #include <morula/solver/nox_group.h>
 #include <morula/solver/null_space.h>
 
-#include <NOX_Solver_Generic.H>
 #include <Teuchos_ParameterList.hpp>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 
 namespace Morula
 {
-  namespace
-  {
-    /** A sum's rounding error, relative to the sum of its magnitudes. */
-    constexpr double rounding_error =
-      10. * std::numeric_limits<double>::epsilon();
-  } // namespace
-
   double
   rounding_of_residual(const Equilibrium &problem, const Equilibrium::Vector &u)
   {
@@ -65,7 +56,7 @@ namespace Morula
     K                 = other.K;
     has_residual      = other.has_residual;
     has_direction     = other.has_direction;
-    shortened         = other.shortened;
+    part              = other.part;
     return *this;
   }
 
@@ -82,7 +73,7 @@ namespace Morula
                      const double                 step)
   {
     u.update(1., group.getX(), step, d, 0.);
-    shortened = step < 1.;
+    part = step;
     invalidate();
   }
 
@@ -118,7 +109,7 @@ namespace Morula
     if (K == nullptr)
       K = &tangents.at(u.values,
                        getNormF(),
-                       !shortened && !linear_solver.has_shifted());
+                       part == 1. && !linear_solver.has_shifted());
     return Ok;
   }
 
@@ -145,7 +136,8 @@ namespace Morula
                         report.linear_iterations,
                         tangents.kept(),
                         problem.rank_one());
-    has_direction = true;
+    report.curvature = std::min(report.curvature, linear_solver.curvature());
+    has_direction    = true;
     return Ok;
   }
 
@@ -255,53 +247,15 @@ namespace Morula
     return tangents.kept();
   }
 
-  EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem,
-                                     const bool         has_energy)
-    : problem(problem)
-    , has_energy(has_energy)
-  {}
-
-  bool
-  EnergyLineSearch::compute(NOX::Abstract::Group        &group,
-                            double                      &step,
-                            const NOX::Abstract::Vector &direction,
-                            const NOX::Solver::Generic  &solver)
+  double
+  NoxGroup::part_taken() const
   {
-    constexpr double       armijo         = 1e-4;
-    constexpr unsigned int max_reductions = 30;
-    const auto            &old_group =
-      dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
-    auto &new_group = dynamic_cast<NoxGroup &>(group);
+    return part;
+  }
 
-    const bool   is_kept = old_group.has_kept_tangent();
-    const double slope   = direction.innerProduct(old_group.getF());
-    const auto  &before  = old_group.evaluation();
-    const double slack   = rounding_error * before.energy_magnitude;
-    step                 = 1.;
-    for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
-      {
-        new_group.computeX(old_group, direction, step);
-        new_group.computeF();
-        const double energy = new_group.evaluation().energy;
-        const double norm   = new_group.getNormF();
-        const bool falls = norm <= (1. - armijo * step) * old_group.getNormF();
-        if (std::isfinite(energy) &&
-            (!is_kept || norm <= old_group.getNormF()) &&
-            (has_energy ?
-               energy <= before.energy + armijo * step * slope + slack :
-               falls ||
-                 norm <=
-                   rounding_of_residual(problem, values_of(new_group.getX()))))
-          return true;
-        if (is_kept)
-          {
-            step = 0.;
-            new_group.computeX(old_group, direction, step);
-            new_group.computeF();
-            return true;
-          }
-      }
-    step = 0.; // any other length NOX would take for a recovery step
-    return false;
+  double
+  NoxGroup::curvature() const
+  {
+    return linear_solver.curvature();
   }
 } // namespace Morula

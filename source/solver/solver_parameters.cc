@@ -12,6 +12,13 @@ namespace Morula
                        "step's first, and estimated error of its "
                        "displacements, relative to Grid/Spacing; 0 < tolerance "
                        "< 1.")
+    , newton_iterations(
+        "Solver/Newton iterations",
+        400,
+        "Iterations after which an attempt at a step is given up; > 0. It is "
+        "given up before if 20 iterations have brought neither a lower energy "
+        "nor a smaller residual. Steps of folding tissue may need 150.",
+        {1})
     , linear_tolerance(
         "Solver/Linear tolerance",
         0.,
@@ -52,6 +59,7 @@ namespace Morula
   SolverParameters::list()
   {
     return {&newton_tolerance,
+            &newton_iterations,
             &linear_tolerance,
             &linear_solver,
             &kernel,

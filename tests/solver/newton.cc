@@ -309,6 +309,118 @@ TEST(Newton, GoesDownFromAHill)
 }
 
 
+// A narrow curved valley, as a soft fold along a stiff path is: the iterations
+// go along it by small steps if the energy must fall in each of them (79), and
+// they are many more than the thirty of a plain step.
+TEST(Newton, GoesOnAlongACurvedValley)
+{
+  ChainProblem     problem(n);
+  constexpr double stiff = 1e4;
+  const auto pair = [](const unsigned int i, const std::vector<double> &u) {
+    return std::make_pair(u[i - i % 2] - 1.2, u[i - i % 2 + 1] + 1.);
+  };
+  problem.energy = [&](const std::vector<double> &u) {
+    double sum = 0.;
+    for (unsigned int i = 0; i < n; i += 2)
+      {
+        const auto [x, y] = pair(i, u);
+        sum += stiff * std::pow(y - x * x, 2) + std::pow(1. - x, 2);
+      }
+    return sum;
+  };
+  problem.force = [&](const unsigned int i, const std::vector<double> &u) {
+    const auto [x, y]   = pair(i, u);
+    const double across = 2. * stiff * (y - x * x);
+    return i % 2 == 1 ? across : -2. * x * across - 2. * (1. - x);
+  };
+  problem.stiffness = [&](const unsigned int         i,
+                          const unsigned int         j,
+                          const std::vector<double> &u) {
+    const auto [x, y] = pair(i, u);
+    if (i / 2 != j / 2)
+      return 0.;
+    if (i != j)
+      return -4. * stiff * x;
+    return i % 2 == 1 ? 2. * stiff : 12. * stiff * x * x - 4. * stiff * y + 2.;
+  };
+  problem.linear.costly = false;
+  const Result result   = solved(problem, 1e-10, "direct");
+  EXPECT_GT(result.report.newton_iterations, 30u);
+  EXPECT_LT(result.report.newton_iterations, 65u);
+  for (unsigned int i = 0; i < n; ++i)
+    EXPECT_NEAR(result.u[i], i % 2 == 0 ? 2.2 : 0., 1e-8);
+}
+
+
+// The energy's rounding hides that nothing gets better.
+TEST(Newton, EndsWithoutProgress)
+{
+  ChainProblem problem  = alike([](double) { return 1e14; },
+                               [](double) { return 1.; },
+                               [](double) { return 1.; });
+  problem.linear.costly = false;
+  try
+    {
+      solved(problem, 1e-6);
+      FAIL();
+    }
+  catch (const StepFailed &failure)
+    {
+      EXPECT_NE(std::string(failure.what()).find("20 iterations"),
+                std::string::npos);
+    }
+  EXPECT_EQ(problem.tangents.size(), 20u);
+}
+
+
+TEST(Newton, EndsAtTheLimitOfIterations)
+{
+  // The energy falls for ever.
+  ChainProblem problem  = alike([](double u) { return -u; },
+                               [](double) { return -1.; },
+                               [](double) { return 1.; });
+  problem.linear.costly = false;
+  QuietTimer       timer;
+  SolverParameters parameters;
+  parameters.newton_iterations = 37;
+  Equilibrium::Vector u        = problem.zero();
+  NewtonReport        report;
+  EXPECT_THROW(
+    solve(
+      problem, problem.linear, problem.scales, parameters, timer, u, report),
+    StepFailed);
+  EXPECT_EQ(report.newton_iterations, 37u);
+}
+
+
+TEST(Newton, NotesItsStatesDown)
+{
+  ChainProblem problem =
+    alike([](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
+          [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
+          [](double u) { return 12. * u * u - 4.; });
+  QuietTimer          timer;
+  SolverParameters    parameters;
+  Equilibrium::Vector u = problem.zero();
+  NewtonReport        report;
+  report.wants_trace = true;
+  solve(problem, problem.linear, problem.scales, parameters, timer, u, report);
+  const auto &trace = report.trace;
+  ASSERT_EQ(trace.size(), report.newton_iterations + 1);
+  EXPECT_NEAR(trace[0].evaluation.energy, n, 1e-12);
+  EXPECT_NEAR(trace[0].residual, 0.1 * std::sqrt(n), 1e-12);
+  // On the hill all directions have the diagonal's own curvature.
+  EXPECT_NEAR(trace[1].curvature, -1., 1e-9);
+  EXPECT_GT(trace[1].motion, 0.);
+  for (std::size_t k = 1; k < trace.size(); ++k)
+    {
+      EXPECT_EQ(trace[k].iteration, k);
+      EXPECT_GT(trace[k].part, 0.);
+    }
+  EXPECT_EQ(trace.back().curvature, 0.);
+}
+
+
 TEST(Newton, FailsWithoutASolution)
 {
   // The energy has no minimum.

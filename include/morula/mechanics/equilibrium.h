@@ -73,6 +73,12 @@ namespace Morula
       return residual(u, R);
     }
 
+    /** From now on all tangents are taken at the growth at t + dt: the step has
+     *  been solved once, with something else held fixed. */
+    virtual void
+    use_growth_at_end()
+    {}
+
     /** A part σ b bᵀ of a tangent, σ >= 0, which would fill a sparse matrix. */
     struct RankOne
     {

@@ -69,9 +69,19 @@ namespace Morula
                            Vector       &R,
                            double       &magnitude) const override;
 
+    /** The smallest J_e of an evaluation over all ranks. Collective. */
+    Extreme
+    smallest_J(const Evaluation &evaluation) const;
+
     /** The extremes of an evaluation over all ranks. Collective. */
     Extremes<dim>
     extremes(const Evaluation &evaluation) const;
+
+    /** Whether the state @p u is so far from the @p begin of the step that the
+     *  step is plainly too long: it moves the tissue by more than a grid
+     * spacing, or squeezes some of it below 0.3 of its volume. Collective. */
+    bool
+    is_far_from(const Vector &begin, const Vector &u) const;
 
     /** Describes the state u to the user if Newton's method fails there:
      *  extreme values and their places. Collective. */
@@ -90,10 +100,8 @@ namespace Morula
     double
     enclosed_volume(const Vector &u) const;
 
-    /** From now on all tangents are taken at the growth at t + dt: the step has
-     *  been solved once, with another content of the enclosure. */
     void
-    use_growth_at_end();
+    use_growth_at_end() override;
 
     /**
      * What a linear solver should know of the tangents. Collective.

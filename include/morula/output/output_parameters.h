@@ -18,6 +18,7 @@ namespace Morula
     Key<std::vector<std::string>> formats;
     Key<double>                   snapshot_interval; // day
     Key<bool>                     condition_estimate;
+    Key<bool>                     newton_trace;
 
     using Keys::list;
     KeyList

@@ -56,8 +56,10 @@ namespace Morula
     unsigned int  newton_iterations  = 0; // including rejected attempts
     unsigned int  linear_iterations  = 0; // including rejected attempts
     unsigned int  rejected_steps     = 0;
-    double        residual           = 0.; // relative to the step's first
-    double        wall_seconds       = 0.; // since the start, across resumes
+    unsigned int  turns          = 0; // equilibria, including rejected attempts
+    unsigned int  proximal_paths = 0; // likewise
+    double        residual       = 0.; // relative to the step's first
+    double        wall_seconds   = 0.; // since the start, across resumes
     CellLengths   lengths;
     /** By the types' names; empty without types. */
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};

@@ -8,11 +8,12 @@
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/output/statistics.h>
 #include <morula/simulation/tissue_model.h>
+#include <morula/solver/turns.h>
 
 #include <deal.II/base/timer.h>
 
-#include <functional>
 #include <optional>
+#include <string>
 
 namespace Morula
 {
@@ -48,30 +49,44 @@ namespace Morula
                 const double       volume,
                 const double       typical_stiffness);
 
-  /** An equilibrium with the lumen's pressure. */
-  struct LumenEquilibrium
-  {
-    Equilibrium::Evaluation evaluation;
-    double                  pressure; // kPa
-  };
-
   /**
-   * Solves a step again with other pressures until the lumen has its volume. If
-   * a gas fills it, once is enough: doc/theory.md (4.8j). Collective.
-   * @param solve   finds the displacement @p u that balances @p content
-   * @param content of the lumen; the pressure that is sought is changed
-   * @throws StepFailed if it does not get its volume
+   * Seeks the pressure of a lumen that keeps its volume, turn by turn. If a gas
+   * fills it, one turn is enough: doc/theory.md (4.8j). Keeps references to all
+   * that it is given.
    */
   template <int dim>
-  LumenEquilibrium
-  keep_lumen_volume(const Lumen<dim>                               &lumen,
-                    const Tissue<dim>                              &tissue,
-                    const SplineSpace<dim>                         &space,
-                    const std::function<Equilibrium::Evaluation()> &solve,
-                    MomentumBalance<dim>                           &balance,
-                    EnclosedContent                                &content,
-                    const Equilibrium::Vector                      &u,
-                    TimerOutput                                    &timer);
+  class LumenPressure : public TurnParticipant
+  {
+  public:
+    /** @param content of the lumen in @p balance; its pressure is changed */
+    LumenPressure(const Lumen<dim>           &lumen,
+                  const Tissue<dim>          &tissue,
+                  const SplineSpace<dim>     &space,
+                  const MomentumBalance<dim> &balance,
+                  EnclosedContent            &content,
+                  TimerOutput                &timer);
+
+    bool
+    renew(const Equilibrium::Vector &u) override;
+
+    std::string
+    unfinished() const override;
+
+    /** At the last equilibrium, kPa. */
+    double
+    pressure() const;
+
+  private:
+    const Lumen<dim>           &lumen;
+    const Tissue<dim>          &tissue;
+    const SplineSpace<dim>     &space;
+    const MomentumBalance<dim> &balance;
+    EnclosedContent            &content;
+    TimerOutput                &timer;
+    const double                wanted; // volume, µm^dim
+    double                      pressure_ = 0.;
+    double                      error     = 0.; // of the volume, relative
+  };
 } // namespace Morula
 
 #endif

@@ -11,6 +11,7 @@
 #include <morula/output/events.h>
 #include <morula/output/lineage.h>
 #include <morula/output/matrix_condition.h>
+#include <morula/output/newton_trace.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
 #include <morula/output/snapshot.h>
@@ -64,6 +65,10 @@ namespace Morula
     condition(const unsigned int       step,
               const double             time,
               const ConditionEstimate &estimate);
+
+    /** Appends to newton.csv. Only if the scene asks for the file. */
+    void
+    newton(const unsigned int step, const std::vector<NewtonIteration> &trace);
 
     /** Whether the scene asks for cells and surface in any format. */
     bool

@@ -5,6 +5,7 @@
 #define morula_simulation_simulation_h
 
 #include <morula/scene/seeded_tissue.h>
+#include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
 #include <morula/simulation/piece_warnings.h>
 #include <morula/simulation/run_files.h>
@@ -137,6 +138,9 @@ namespace Morula
     give_up(const std::string &reason);
     [[noreturn]] void
     give_up_step(const std::string &reason);
+    /** What is known of the step that has failed. Collective. */
+    FailedStep
+    failed_step() const;
 
     const TissueModel<dim> model;
     const MPI_Comm         comm;
@@ -155,11 +159,18 @@ namespace Morula
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it
+    /** The step's first attempt, if that has failed. */
+    struct
+    {
+      double dt;    // day
+      double force; // |R| where it began, kPa µm^(dim-1)
+    } first_attempt = {0., 0.};
 
     PieceWarnings<dim>    pieces;
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
+    bool told_of_path         = false; // once a run
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

@@ -34,6 +34,9 @@ namespace Morula
       double                        typical_stiffness; // kPa
       /** Before the step; nothing without a lumen. */
       std::optional<LumenMemory> lumen;
+      /** Whether half the step is to be tried, before a proximal path, where
+       * the step is plainly too long. */
+      bool halve_first = true;
     };
 
     /** What was found for a step. */
@@ -74,6 +77,13 @@ namespace Morula
             const MaterialPoints<dim>        &points,
             NewtonReport                     &report,
             std::optional<ConditionEstimate> &condition) const;
+    /** Newton's method from u on, and a proximal path where it fails. */
+    Equilibrium::Evaluation
+    find(const Attempt        &attempt,
+         MomentumBalance<dim> &balance,
+         const LinearProblem  &linear,
+         Equilibrium::Vector  &u,
+         NewtonReport         &report) const;
     /** The lumen at the beginning of the step, if there is one. */
     std::optional<Enclosure<dim>>
     lumen_of(const Attempt &attempt) const;

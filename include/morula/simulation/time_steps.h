@@ -52,6 +52,10 @@ namespace Morula
     void
     accept();
 
+    /** Whether half the next step is at least Smallest step. */
+    bool
+    can_halve() const;
+
     /**
      * Records that the step has failed. The next one is half as long.
      * @return whether the next step is at least Smallest step

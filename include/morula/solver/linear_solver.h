@@ -60,9 +60,10 @@ namespace Morula
           const bool                  as_before = false,
           const Equilibrium::RankOne *rank_one  = nullptr);
 
-    /** The largest σ that was needed; 0 where no tangent was indefinite. */
+    /** The most negative p·Kp / p·|diag K|p that the last solve met; 0: it met
+     *  none. Of a direct solver, which sees no curvature, minus σ. */
     double
-    largest_shift() const;
+    curvature() const;
 
     /** Whether any tangent was indefinite, so that a diagonal has been raised.
      */
@@ -100,9 +101,9 @@ namespace Morula
     Preconditioner             preconditioner;
     DirectSolver               direct;
     std::optional<HaloProduct> product; // of the last matrix
-    double                     largest_shift_ = 0.;
-    bool                       has_shifted_   = false;
-    bool                       prepared       = false; // one was asked for
+    double                     curvature_   = 0.;
+    bool                       has_shifted_ = false;
+    bool                       prepared     = false; // one was asked for
   };
 } // namespace Morula
 

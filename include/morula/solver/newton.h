@@ -9,15 +9,57 @@
 
 #include <deal.II/base/timer.h>
 
+#include <vector>
+
 namespace Morula
 {
+  /** Where in a step a solve stands. */
+  struct NewtonPlace
+  {
+    unsigned int attempt   = 1;
+    unsigned int turn      = 1;  // of the attempt
+    double       proximity = 0.; // c of the proximal path (5.7); 0 outside
+  };
+
+  /** A state that Newton's method has accepted. */
+  struct NewtonIteration
+  {
+    NewtonPlace  place;
+    unsigned int iteration = 0; // 0: where the solve started
+    /** Energy; the extremes are those of this rank's points. */
+    Equilibrium::Evaluation evaluation;
+    double                  residual = 0.; // |R|, kPa µm^(dim-1)
+    /** ω, the part of the direction that the line search has taken. */
+    double part = 0.;
+    /** The largest change of a coefficient by this iteration, µm. */
+    double motion = 0.;
+    /** p·Kp / p·|diag K|p along the direction p of most negative curvature that
+     *  the linear solver met; 0: it met none. */
+    double curvature = 0.;
+  };
+
   /** Work done, and where it ended. Counts add up over several solves. */
   struct NewtonReport
   {
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
+    unsigned int turns             = 0; // equilibria with frozen quantities
+    unsigned int proximal_paths    = 0; // that were needed
     /** |R| relative to the first residual of the last solve. */
     double residual = 0.;
+    /** |R| where the first solve has begun since this was 0, kPa µm^(dim-1). */
+    double first_residual = 0.;
+    /** The most negative curvature since this was 0, as in the trace. */
+    double curvature = 0.;
+    /** Where an attempt has failed, with the extremes of all ranks. */
+    Equilibrium::Evaluation failed_at;
+
+    /** Of the present solve. */
+    NewtonPlace place;
+
+    /** Whether states are to be noted down, and those of all solves. */
+    bool                         wants_trace = false;
+    std::vector<NewtonIteration> trace;
   };
 
   /**
@@ -25,13 +67,16 @@ namespace Morula
    * NOX; doc/theory.md, section 5):
    * - the first tangent is taken at the growth of the step's beginning; a
    *   costly one is kept while the residual falls fivefold;
-   * - symmetric tangents: backtracking on the energy with Armijo's rule, which
-   *   rejects inversion (infinite energy) and tolerates rounding; others:
-   *   backtracking on |R|;
+   * - symmetric tangents: backtracking on the energy with Armijo's rule against
+   *   the largest of the last ten energies, which rejects inversion (infinite
+   *   energy) and tolerates rounding; others: backtracking on |R|;
    * - linear systems are solved to Eisenstat and Walker's forcing terms;
    * - converged where |R| <= max(tol max(|R_0|, small force), rounding), and
    *   what is left to move, estimated from the last iteration, is below tol
-   *   times the typical length: doc/theory.md (5.3).
+   *   times the typical length: doc/theory.md (5.3);
+   * - it goes on while it gets on: it fails once twenty iterations have brought
+   *   neither a new lowest energy nor a new lowest residual, or at
+   *   Solver/Newton iterations.
    *
    * @param linear_problem what is known of the problem's tangents
    * @param scales what small forces and lengths are compared with

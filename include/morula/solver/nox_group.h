@@ -11,7 +11,8 @@
 #include <morula/solver/tangents.h>
 
 #include <NOX_Abstract_Group.H>
-#include <NOX_LineSearch_Generic.H>
+
+#include <limits>
 
 namespace Morula
 {
@@ -90,6 +91,15 @@ namespace Morula
     bool
     has_kept_tangent() const;
 
+    /** The part of the last direction that has led here. */
+    double
+    part_taken() const;
+
+    /** The most negative curvature that the linear solver has met, as in
+     *  NewtonIteration. */
+    double
+    curvature() const;
+
   private:
     void
     invalidate();
@@ -103,31 +113,12 @@ namespace Morula
     Equilibrium::Evaluation    evaluation_;
     const Equilibrium::Matrix *K            = nullptr;
     bool                       has_residual = false, has_direction = false;
-    bool                       shortened = false; // by the line search
+    double                     part = 1.; // of the direction that led here
   };
 
-  /**
-   * Backtracking on the energy with Armijo's rule and slack for rounding,
-   * doc/theory.md (5.2); for problems without energy, on |R|. Inversion counts
-   * as infinite energy. The direction of a kept tangent is taken as a whole, if
-   * it makes |R| smaller as well, or not at all: then the next iteration has a
-   * tangent of its own.
-   */
-  class EnergyLineSearch : public NOX::LineSearch::Generic
-  {
-  public:
-    EnergyLineSearch(const Equilibrium &problem, const bool has_energy);
-
-    bool
-    compute(NOX::Abstract::Group        &group,
-            double                      &step,
-            const NOX::Abstract::Vector &direction,
-            const NOX::Solver::Generic  &solver) override;
-
-  private:
-    const Equilibrium &problem;
-    const bool         has_energy;
-  };
+  /** A sum's rounding error, relative to the sum of its magnitudes. */
+  constexpr double rounding_error =
+    10. * std::numeric_limits<double>::epsilon();
 
   /** Size of the residual that rounding alone can cause, r_0 in doc/theory.md
    *  (5.3). Collective. */

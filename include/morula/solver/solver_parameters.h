@@ -13,11 +13,12 @@ namespace Morula
   {
     SolverParameters();
 
-    Key<double>      newton_tolerance;
-    Key<double>      linear_tolerance;
-    Key<std::string> linear_solver;
-    Key<std::string> kernel;
-    Key<double>      largest_gap; // grid spacings; 0: any
+    Key<double>       newton_tolerance;
+    Key<unsigned int> newton_iterations;
+    Key<double>       linear_tolerance;
+    Key<std::string>  linear_solver;
+    Key<std::string>  kernel;
+    Key<double>       largest_gap; // grid spacings; 0: any
 
     using Keys::list;
     KeyList

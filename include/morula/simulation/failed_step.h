@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_failed_step_h
+#define morula_simulation_failed_step_h
+
+#include <string>
+
+namespace Morula
+{
+  /** What is known of a step that no attempt has solved. */
+  struct FailedStep
+  {
+    /** |R| where the first and the last attempt began, kPa µm^(dim-1), and the
+     *  length of the last in that of the first. */
+    double first_force = 0., last_force = 0., part = 1.;
+    /** Energy where the last attempt has ended, kPa µm^dim. */
+    double energy = 0.;
+    /** The smallest J_e there, held points among them. */
+    double smallest_J = 1.;
+    /** p·Kp / p·|diag K|p of the most negative curvature; 0: there was none. */
+    double curvature = 0.;
+    /** Smallest and largest J_e of the cells before the step. */
+    double min_J = 1., max_J = 1.;
+
+    /** Whether points are held by Nitsche's symmetric or unsymmetric form; with
+     *  other forms both are false. */
+    bool symmetric = false, unsymmetric = false;
+    /** Whether ln J_e is that of each point, not of the grid cell. */
+    bool pointwise = false;
+    /** Whether surface loads or forces act. */
+    bool loaded = false;
+    /** A coefficient of friction with which a fold would take this step,
+     *  kPa day/µm². */
+    double friction = 0.;
+  };
+
+  /**
+   * Says what the failure of a step is, and what helps, in whole sentences:
+   * something jumps in time; a held point is crushed; volumes do not match
+   * inside grid cells; a form that sees no curvature; the tissue folds. Empty
+   * if it is none of them. Not collective.
+   */
+  std::string
+  diagnosis(const FailedStep &step);
+
+  /** What a run says once of a step that ended at @p t (day), and whose
+   *  equilibrium was found along a proximal path. */
+  std::string
+  path_message(const double t);
+
+  /** The friction (kPa day/µm²) that outweighs the @p curvature (relative to
+   * the diagonal, < 0) of tissue of stiffness @p E (kPa) on a grid of spacing
+   * @p h (µm) in a step of @p dt (day): doc/theory.md (5.8). */
+  double
+  friction_against(const double curvature,
+                   const double E,
+                   const double h,
+                   const double dt);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_solver_proximal_path_h
+#define morula_solver_proximal_path_h
+
+#include <morula/solver/newton.h>
+
+namespace Morula
+{
+  /**
+   * A problem with a friction that exists only inside a step,
+   * R(u) + c D (u - u_k), where D is the magnitude of the diagonal of its first
+   * tangent: doc/theory.md (5.7). With an energy Π it has the energy
+   * Π + c/2 (u - u_k)·D (u - u_k).
+   */
+  class ProximalEquilibrium : public Equilibrium
+  {
+  public:
+    /** @param problem kept as a reference */
+    explicit ProximalEquilibrium(Equilibrium &problem);
+
+    /** Sets the centre u_k (µm) and c. */
+    void
+    set(const Vector &centre, const double proximity);
+
+    Evaluation
+    residual(const Vector &u, Vector &R) const override;
+    double
+    residual_magnitude(const Vector &u) const override;
+    const Matrix &
+    tangent(const Vector &u, const GrowthAt growth) override;
+    void
+    use_growth_at_end() override;
+    const RankOne *
+    rank_one() const override;
+
+  private:
+    Equilibrium &problem;
+    Vector       centre;    // u_k
+    Vector       diagonal;  // D; empty before the first tangent
+    double       proximity; // c
+    Matrix       sum;       // K + c D
+  };
+
+  /**
+   * Finds an equilibrium where Newton's method alone does not: a sequence of
+   * equilibria u_k of the proximal problem, each from the one before, while c
+   * falls to 0, so that its end is a true equilibrium. It goes down in energy
+   * from its start, as tissue with a friction would: doc/theory.md (5.7). A
+   * last resort, as it takes many iterations. Collective.
+   * @param u      in: where to start from; out: the increment, or where the
+   * path has ended
+   * @param report in/out: the work is added
+   * @throws StepFailed on all ranks together
+   */
+  Equilibrium::Evaluation
+  follow_proximal_path(Equilibrium            &problem,
+                       const LinearProblem    &linear_problem,
+                       const NewtonScales     &scales,
+                       const SolverParameters &parameters,
+                       TimerOutput            &timer,
+                       Equilibrium::Vector    &u,
+                       NewtonReport           &report);
+} // namespace Morula
+
+#endif

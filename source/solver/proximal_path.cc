@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/solver/null_space.h>
+#include <morula/solver/preconditioner.h>
+#include <morula/solver/proximal_path.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Morula
+{
+  namespace
+  {
+    /** c of the first part: a fold's curvature is of this size, so that the
+     *  first part is stable and still long. */
+    constexpr double first_proximity = 1e-3;
+    /** Below it a part can hardly be told from the equilibrium itself. */
+    constexpr double least_proximity = 1e-6;
+    /** Above it a part hardly moves: the path is stuck. */
+    constexpr double most_proximity = 10.;
+    /** A part that needs more iterations is too long. */
+    constexpr unsigned int iterations_of_part = 30;
+    /** One that needs as few or fewer may be followed by a longer one. */
+    constexpr unsigned int few_iterations = 10;
+  } // namespace
+
+
+  ProximalEquilibrium::ProximalEquilibrium(Equilibrium &problem)
+    : problem(problem)
+    , proximity(0.)
+  {}
+
+
+  void
+  ProximalEquilibrium::set(const Vector &centre, const double proximity)
+  {
+    this->centre    = centre;
+    this->proximity = proximity;
+  }
+
+
+  Equilibrium::Evaluation
+  ProximalEquilibrium::residual(const Vector &u, Vector &R) const
+  {
+    Evaluation evaluation = problem.residual(u, R);
+    // Before the first tangent nothing has moved from the centre.
+    if (!std::isfinite(evaluation.energy) || diagonal.size() == 0)
+      return evaluation;
+    Vector moved(u), force(u);
+    moved -= centre;
+    force = moved;
+    force.scale(diagonal);
+    force *= proximity;
+    const double energy = 0.5 * (moved * force);
+    evaluation.energy += energy;
+    evaluation.energy_magnitude += energy;
+    R += force;
+    return evaluation;
+  }
+
+
+  double
+  ProximalEquilibrium::residual_magnitude(const Vector &u) const
+  {
+    return problem.residual_magnitude(u);
+  }
+
+
+  const Equilibrium::Matrix &
+  ProximalEquilibrium::tangent(const Vector &u, const GrowthAt growth)
+  {
+    const Matrix &K = problem.tangent(u, growth);
+    if (diagonal.size() == 0)
+      diagonal = diagonal_magnitude(K, u);
+    if (proximity == 0.)
+      return K;
+    sum.copy_from(K);
+    for (const auto row : K.locally_owned_range_indices())
+      sum.add(row, row, proximity * diagonal(row));
+    sum.compress(VectorOperation::add);
+    return sum;
+  }
+
+
+  void
+  ProximalEquilibrium::use_growth_at_end()
+  {
+    problem.use_growth_at_end();
+  }
+
+
+  const Equilibrium::RankOne *
+  ProximalEquilibrium::rank_one() const
+  {
+    return problem.rank_one();
+  }
+
+
+  // Each part starts where the last one has ended, and is as long as Newton's
+  // method can do it at ease: c falls after a part of few iterations, and rises
+  // where one fails, which is then tried again. Once c is so small that it no
+  // longer counts, the equilibrium itself is solved for; where that fails,
+  // parts go on from there. The parts need not be solved more accurately than
+  // the step itself.
+  Equilibrium::Evaluation
+  follow_proximal_path(Equilibrium            &problem,
+                       const LinearProblem    &linear_problem,
+                       const NewtonScales     &scales,
+                       const SolverParameters &parameters,
+                       TimerOutput            &timer,
+                       Equilibrium::Vector    &u,
+                       NewtonReport           &report)
+  {
+    ++report.proximal_paths;
+    Equilibrium::Vector R(u);
+    if (!std::isfinite(problem.residual(u, R).energy))
+      throw StepFailed("there is no state to start a proximal path from");
+    remove_parts(R, linear_problem.null_space);
+    NewtonScales of_parts    = scales;
+    of_parts.small_force     = std::max(scales.small_force, R.l2_norm());
+    SolverParameters limited = parameters;
+    limited.newton_iterations =
+      std::min<unsigned int>(iterations_of_part, parameters.newton_iterations);
+
+    ProximalEquilibrium nearby(problem);
+    Equilibrium::Vector centre(u);
+    double              c     = first_proximity;
+    const unsigned int  begun = report.newton_iterations;
+    while (true)
+      try
+        {
+          const unsigned int before = report.newton_iterations;
+          nearby.set(centre, c);
+          report.place.proximity = c;
+          const Equilibrium::Evaluation evaluation =
+            solve(nearby, linear_problem, of_parts, limited, timer, u, report);
+          centre = u;
+          nearby.use_growth_at_end();
+          if (c == 0.)
+            {
+              report.place.proximity = 0.;
+              return evaluation;
+            }
+          if (report.newton_iterations - before <= few_iterations)
+            c *= 0.25;
+          if (c < least_proximity)
+            c = 0.;
+        }
+      catch (const StepFailed &failure)
+        {
+          c = c == 0. ? 4. * least_proximity : 4. * c;
+          if (c > most_proximity ||
+              report.newton_iterations - begun > parameters.newton_iterations)
+            {
+              report.place.proximity = 0.;
+              throw StepFailed(failure.what() +
+                               std::string("; this was on a proximal path"));
+            }
+          u = centre;
+        }
+  }
+} // namespace Morula

@@ -22,7 +22,6 @@ from morula.prm import parse
 from morula.refusal import Refused
 from morula.scene import normal
 from program import main
-from upkeep import accuracy as documentation
 
 ROOT = Path(__file__).resolve().parents[2]
 SPACE = {"Dimension": "3"}  # keys of a scene

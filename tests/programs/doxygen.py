@@ -42,6 +42,9 @@ class Doxygen(ProgramTest):
         n = (ROOT / "doc/theory.md").read_text().count("```math")
         self.assertEqual(len(re.findall(r"\\tag\{", theory)), n)
         self.assertNotIn("```", theory)
+        cases = (output / "doc-hard-cases.html").read_text()
+        self.assertRegex(cases, r"disc, no extension\s*</td>")  # is measured
+        self.assertNotIn("[Measured:", cases)
         self.assertIn('href="doc-theory.html#doc-theory-equation-4-2">(4.2)<',
                       (output / "classMorula_1_1Nitsche.html").read_text())
 

@@ -34,6 +34,14 @@ PARTS = [{"text": ["*Full size.*"]},
          {"code": ["contrib/x", "    | no table |"]},
          {"text": ["- one", "- two"]}]
 
+MEASUREMENT = (
+    r"\b(EPYC|Xeon|[Mm]edians? of)\b",
+    r"\d (ms|s|seconds|GiB) (of|on|instead|for|a|per)\b",
+    r"\d(\.\d+)? times (as fast|faster|as long as)\b",
+    r"\d\s%\s(too|faster|slower|off|low|high|less|more time)\b",
+    r"\d\s(Newton|linear)\s+iterations\b",
+    r"\b\d[\d.,·]* instead of \d")
+
 
 def pages():
     """Those that are not frozen."""
@@ -99,6 +107,19 @@ class Measured(ProgramTest):
                                "verification"]).stdout
         for name in read(data_file("verification"))["tables"]:
             self.assertIn(f"# verification: {name}\n", text)
+
+
+class Prose(ProgramTest):
+    def test_no_page_tells_of_a_measurement(self):
+        """Words that come with measured numbers: a machine, a time, how much
+        faster, how far off. A limit that a test asserts stands in a list."""
+        for page in [ROOT / "README.md", *pages()]:
+            if page.parent.name == "changes" or page.name == "parameters.md":
+                continue
+            text = limits.PLACE.sub("", page.read_text())
+            for pattern in MEASUREMENT:
+                found = re.search(pattern, text)
+                self.assertIsNone(found, page)
 
 
 class Limits(ProgramTest):

@@ -4,7 +4,6 @@
 """contrib/renew: that a page that fails does not keep the others from being
 measured, that short runs change nothing, and with what figures are made.
 """
-import shutil
 from pathlib import Path
 
 from program import TESTS, ProgramTest, main

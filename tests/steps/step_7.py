@@ -4,6 +4,7 @@
 # ranks: 1 2
 """Step 7: an added law and an added rule, by closed forms and by the contract."""
 import math
+import re
 
 import numpy
 from steps import ROOT, StepTest, main, overrides, read_csv
@@ -109,6 +110,9 @@ class Step7(StepTest):
         text = self.step("--explain")
         self.assertIn("crowding limited, Rate = 0.1, Crowding = 0.2", text)
         self.assertIn("axis = long axis, Least elongation = 1.02", text)
+        page = (ROOT / "doc/steps/step-7.md").read_text()
+        for line in re.findall(r"^  (?:growth|division) .* on .*$", page, re.M):
+            self.assertIn(line, text)
         for key, value in ((LAW + "Crowding", "0"), (LAW + "Crowding", "1"),
                            (LAW + "Rate", "1 +"),
                            (RULE[:-13] + "Long axis/Least elongation", "0.5"),

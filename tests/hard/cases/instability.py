@@ -13,12 +13,13 @@ COARSE_ROD = {"Tissue/Cell spacing": "5", "Grid/Spacing": "20"}
 NO_FORCE = {"Body force/Force density": "0; 0; 0"}
 
 FILM = Limit("The critical strain of a buckling rod and of a stiff film on a "
-             "soft base is that of theory to {tolerance:g} of it.",
+             "soft base agrees with theory to {tolerance:g} of it.",
              equals=(1, 0.03))
-RING = Limit("That of a stiff ring around a core is to {tolerance:g}.",
+RING = Limit("That of a stiff ring around a core agrees to {tolerance:g}.",
              equals=(1, 0.05))
-BEYOND = Limit("Beyond it the square of the rod's deflection grows as theory "
-               "says, to {tolerance:g}.", equals=(1, 0.15))
+BEYOND = Limit("Beyond it the square of a rod's deflection rises with growth "
+               "as theory says, to {tolerance:g} of the slope.",
+               equals=(1, 0.15))
 FLAT = Limit("Before creases are possible, waves of the compressed layer are "
              "less than {at_most:g} µm deep.", at_most=0.5)
 

@@ -39,11 +39,11 @@ namespace Morula
       {"newton_iterations", number(newton_iterations)},
       {"linear_iterations", number(linear_iterations)},
       {"rejected_steps", number(rejected_steps)},
-      {"turns", number(turns)},
-      {"proximal_paths", number(proximal_paths)},
       {"residual", residual},
       {"wall_seconds", wall_seconds},
-      {"min_cells_per_spacing", lengths.min_cells_per_spacing}};
+      {"min_cells_per_spacing", lengths.min_cells_per_spacing},
+      {"turns", number(turns)},
+      {"proximal_paths", number(proximal_paths)}};
     for (const auto &[name, n] : cells_of_types)
       list.emplace_back("cells_" + name, number(n));
     if (death)

@@ -21,7 +21,7 @@ namespace
     "max_elastic_volume_ratio,dividing,held_at_checkpoint,xmin,xmax,ymin,ymax,"
     "zmin,zmax,active_grid_cells,inner_splines,outer_splines,unknowns,"
     "newton_iterations,linear_iterations,rejected_steps,residual,"
-    "wall_seconds,min_cells_per_spacing\n";
+    "wall_seconds,min_cells_per_spacing,turns,proximal_paths\n";
 
   /** A row whose every column can be told from the others. */
   StatisticsRow
@@ -53,6 +53,8 @@ namespace
     row.residual                        = 27e-10;
     row.wall_seconds                    = 28;
     row.lengths.min_cells_per_spacing   = 29;
+    row.turns                           = 30;
+    row.proximal_paths                  = 31;
     return row;
   }
 
@@ -61,7 +63,7 @@ namespace
   {
     return std::to_string(step) +
            ",0.25,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,"
-           "25,26,2.7e-09,28,29\n";
+           "25,26,2.7e-09,28,29,30,31\n";
   }
 
   void

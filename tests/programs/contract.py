@@ -23,7 +23,7 @@ COLUMNS = {
         "held_at_checkpoint,xmin,xmax,ymin,ymax,zmin,zmax,active_grid_cells,"
         "inner_splines,outer_splines,unknowns,newton_iterations,"
         "linear_iterations,rejected_steps,residual,wall_seconds,"
-        "min_cells_per_spacing",
+        "min_cells_per_spacing,turns,proximal_paths",
     "cells-0000.csv":
         "time,id,parent,generation,phase,x,y,z,X,Y,Z,initial_volume,volume,"
         "growth_volume_ratio,elastic_volume_ratio,energy_density,sigma_xx,"
@@ -32,6 +32,8 @@ COLUMNS = {
     "lineage.csv": "id,parent,generation,birth_time,x,y,z",
     "timings.csv": "section,calls,wall_seconds,share",
     "condition.csv": "step,time,unknowns,smallest,largest,condition",
+    "newton.csv": "step,attempt,turn,proximity,iteration,energy,residual,part,"
+                  "motion,curvature,smallest_J,x,y,z",
 }
 ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv",
           "lineage.csv", "snapshot.h5"}
@@ -71,6 +73,7 @@ DEFAULTS = {
     "Solver/Newton tolerance": "1e-6", "Solver/Linear solver": "automatic",
     "Output/Interval": "0.25", "Output/Formats": "vtu",
     "Output/Snapshot interval": "0", "Output/Condition estimate": "false",
+    "Output/Newton trace": "false", "Solver/Newton iterations": "400",
 }
 
 
@@ -293,6 +296,26 @@ class Contract(ProgramTest):
         self.execute(CUBE)  # which replaces that run
         self.assertNotIn("condition.csv", self.files())
         self.assertNotIn("condition estimate", self.rows_of_timings())
+
+    def test_newton_trace(self):
+        """Every state of every solve; on request only."""
+        self.execute(CUBE, *overrides({"Output/Newton trace": "true"}))
+        rows = read_csv(self.work / "output/newton.csv")
+        self.assertEqual(",".join(rows.dtype.names), COLUMNS["newton.csv"])
+        steps = read_csv(self.work / "output/statistics.csv")
+        for step, taken, part in zip(steps["step"], steps["newton_iterations"],
+                                     steps["residual"]):
+            of_step = rows[rows["step"] == step]
+            self.assertEqual(list(of_step["iteration"]),
+                             list(range(int(taken) + 1)) if step > 0 else [])
+            if step > 0:
+                self.assertAlmostEqual(
+                    of_step["residual"][-1] / of_step["residual"][0] / part, 1,
+                    places=6)
+        self.assertTrue((rows["smallest_J"] > 0).all())
+        self.assertTrue((rows["proximity"] == 0).all())
+        self.execute(CUBE)  # which replaces that run
+        self.assertNotIn("newton.csv", self.files())
 
     def test_condition_of_a_failing_step(self):
         """Its row stands there, and is written anew when resumed."""

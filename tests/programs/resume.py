@@ -80,6 +80,12 @@ class Resume(ProgramTest):
         steps = list(read_csv(resumed / "condition.csv")["step"])
         self.assertEqual(steps, [5, 6, 7, 8])
 
+    def test_newton_trace(self):
+        """newton.csv goes on, too."""
+        self.assert_same_run(*self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}),
+            *overrides({"Output/Newton trace": "true"})))
+
     def test_timings(self):
         """They count on. A snapshot leaves its own writing out: deal.II sums
         up no timer with an open section."""

@@ -31,7 +31,8 @@ def statistics_of(keys):
 EFFORT = (
     "step", "time", "dt", "active_grid_cells", "inner_splines",
     "outer_splines", "unknowns", "newton_iterations", "linear_iterations",
-    "rejected_steps", "residual", "wall_seconds", "min_cells_per_spacing")
+    "rejected_steps", "residual", "wall_seconds", "min_cells_per_spacing",
+    "turns", "proximal_paths")
 
 _POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
            "Z": LENGTH, "radius": LENGTH}

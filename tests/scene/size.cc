@@ -148,10 +148,14 @@ TEST(SceneSize, LetsCellsGrowFreely)
       settings.push_back(setting);
     const Scene scene = Scene::read(empty.path, settings);
     const auto  founders = seed_founders<3>(scene.tissue, MPI_COMM_WORLD);
-    const auto  free = free_growth(scene,
-                                  founders,
-                                  seed_surface<3>(scene.tissue, MPI_COMM_WORLD),
-                                  MPI_COMM_WORLD);
+    const auto  found =
+      free_growth(scene,
+                  founders,
+                  seed_surface<3>(scene.tissue, MPI_COMM_WORLD),
+                  MPI_COMM_WORLD);
+    std::optional<double> free;
+    if (found && !found->known_before)
+      free = found->mean;
     if (free)
       {
         const auto without = estimated_size(scene, founders, MPI_COMM_WORLD);
@@ -189,6 +193,30 @@ TEST(SceneSize, LetsCellsGrowFreely)
                      "Contraction/Direction=1; 0; 0"}),
               std::pow(1.4, 3),
               1e-9);
+}
+
+
+TEST(SceneSize, KnowsHowUnequallyCellsGrow)
+{
+  const TemporaryFile empty(".prm", "");
+  const Scene         scene = Scene::read(empty.path,
+                                          {"Tissue/Shape=box",
+                                           "Tissue/Size=100, 100, 100",
+                                           "Time/End time=2",
+                                           "Growth/Law=rate",
+                                           "Growth/Rate/Rate=0.5*(X > 0)"});
+  const auto          growth =
+    free_growth(scene,
+                seed_founders<3>(scene.tissue, MPI_COMM_WORLD),
+                seed_surface<3>(scene.tissue, MPI_COMM_WORLD),
+                MPI_COMM_WORLD);
+  ASSERT_TRUE(growth);
+  EXPECT_TRUE(growth->known_before);
+  EXPECT_NEAR(growth->least, 1., 1e-12);
+  EXPECT_NEAR(growth->most, std::exp(1.), 1e-9);
+  EXPECT_NEAR(growth->mean,
+              0.6 + 0.4 * std::exp(1.),
+              1e-9); // two layers of five
 }
 
 

@@ -118,7 +118,9 @@ TEST(ProximalPath, TheProblemIsTheDerivativeOfItsEnergy)
       const std::vector<double> column = problem.gathered(R_more);
       for (const auto i : problem.owned)
         if (i + 1 >= j && i <= j + 1)
-          EXPECT_NEAR(K.el(i, j), column[i] / (2. * eps), 1e-6);
+          {
+            EXPECT_NEAR(K.el(i, j), column[i] / (2. * eps), 1e-6);
+          }
     }
 }
 

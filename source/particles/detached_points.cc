@@ -54,32 +54,13 @@ namespace Morula
       return found;
     }
 
-    /**
-     * Numbers of the points that may be farther than @p reaches least reaches
-     * from all cells. Nearly all points have a cell near in their own grid
-     * cell, so that this is far cheaper than to find the nearest ones.
-     */
-    template <int dim>
-    std::vector<unsigned int>
-    far_away(const std::vector<Point<dim>> &points,
-             const Tissue<dim>             &tissue,
-             const double                   reaches)
-    {
-      const double near = reaches * least_reach * tissue.grid().box().spacing();
-      std::vector<unsigned int> found;
-      for (unsigned int p = 0; p < points.size(); ++p)
-        if (!has_cell_near(points[p], tissue, near))
-          found.push_back(p);
-      return found;
-    }
-
     /** A cell near a boundary point. */
     template <int dim>
     using NearCell = std::tuple<Point<dim>,     // where it is, µm
                                 Tensor<2, dim>, // F
                                 double>;        // its surface_reach(), µm
 
-    /** Points that may be farther away than @p reaches (far_away()), and the
+    /** Points that may be farther away than @p reaches, and the
      *  cells nearest to them. Collective. */
     template <int dim>
     std::pair<std::vector<unsigned int>, std::vector<NearCell<dim>>>
@@ -87,7 +68,8 @@ namespace Morula
                const Tissue<dim>             &tissue,
                const double                   reaches)
     {
-      const std::vector<unsigned int> far = far_away(points, tissue, reaches);
+      const std::vector<unsigned int> far = points_without_cell(
+        points, tissue, reaches * least_reach * tissue.grid().box().spacing());
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
         return {};
       std::vector<Point<dim>> queries;
@@ -137,6 +119,19 @@ namespace Morula
       return motion;
     }
   } // namespace
+
+  template <int dim>
+  std::vector<unsigned int>
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near)
+  {
+    std::vector<unsigned int> found;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (!has_cell_near(points[p], tissue, near))
+        found.push_back(p);
+    return found;
+  }
 
   template <int dim>
   double
@@ -215,6 +210,8 @@ namespace Morula
   }
 
 #define INSTANTIATE(dim)                                                         \
+  template std::vector<unsigned int> points_without_cell(                        \
+    const std::vector<Point<dim>> &, const Tissue<dim> &, const double);         \
   template double surface_reach(const CellView<dim, const double> &,             \
                                 const double);                                   \
   template std::vector<double>       attachment(const std::vector<Point<dim>> &, \

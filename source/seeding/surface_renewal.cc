@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/seeding/points_surface.h>
+#include <morula/seeding/filling.h>
 #include <morula/seeding/surface_renewal.h>
 
 #include <deal.II/base/mpi.h>
@@ -126,6 +126,18 @@ namespace Morula
       list.add(id, x, make_array_view(row));
     }
 
+    /** The area of patches that are as long as the mean cell, but not longer
+     *  than @p longest_edge (µm): that of t = 0, if the scene does not choose
+     *  another; µm^(dim-1). */
+    template <int dim>
+    double
+    area_of_cells(const PointList<dim> &volumes, const double longest_edge)
+    {
+      const double length =
+        AllCells<dim>(volumes.positions, volumes.numbers).length;
+      return std::pow(std::min(length, longest_edge), dim - 1);
+    }
+
     /** Positions and present volumes (µm^dim) of the cells of all ranks. */
     template <int dim>
     PointList<dim>
@@ -146,6 +158,7 @@ namespace Morula
                   const PointList<dim>       &former,
                   const PointList<dim>       &present,
                   const BoundaryColumns<dim> &columns,
+                  const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
                   const MPI_Comm              comm)
@@ -162,7 +175,11 @@ namespace Morula
     on_root(comm, [&]() {
       const FormerPoints<dim> like(all_former, columns);
       const FormerPoints<dim> kept(all_present, columns);
-      const double            wanted = like.wanted_area(longest_edge);
+      SurfaceWish             wanted = wish;
+      if (wanted.patch_area == 0.)
+        wanted.patch_area = columns.reference_area.exists() ?
+                              like.wanted_area(longest_edge) :
+                              area_of_cells(all, longest_edge);
       const auto patches = surface_around(all.positions, all.numbers, wanted);
       if (!patches)
         return;
@@ -176,7 +193,8 @@ namespace Morula
         {
           const Point<dim>     x = patches->positions[k];
           const Tensor<1, dim> n = patches->normals[k];
-          if (!is_beside_held(kept, x, n, std::pow(wanted, 1. / (dim - 1))))
+          if (!is_beside_held(
+                kept, x, n, std::pow(wanted.patch_area, 1. / (dim - 1))))
             add_patch(like, next_id + n_new++, x, patches->areas[k] * n, list);
         }
     });
@@ -192,6 +210,7 @@ namespace Morula
     const PointList<dim> &,                               \
     const PointList<dim> &,                               \
     const BoundaryColumns<dim> &,                         \
+    const SurfaceWish &,                                  \
     const double,                                         \
     types::particle_index &,                              \
     const MPI_Comm);

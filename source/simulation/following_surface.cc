@@ -3,6 +3,7 @@
 
 #include <morula/particles/even_fill.h>
 #include <morula/particles/surface_coarsening.h>
+#include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/seeding/surface_renewal.h>
 #include <morula/simulation/following_surface.h>
@@ -24,6 +25,25 @@ namespace Morula
     /** And |F|/√dim that a point may have come to since then: more is no motion
      *  of the tissue, but of a point that it has left behind. */
     constexpr double largest_stretch = 1.5;
+
+    /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
+     *  patches' vectors do not quite add up to nothing. */
+    constexpr double largest_opening = 0.02;
+
+    /** By how much the volume that the surface of flowing tissue encloses may
+     *  differ from the cells', relative to what it was at t = 0. */
+    constexpr double largest_misfit = 0.01;
+
+    /** Whether there are boundary points, and cells. Collective. */
+    template <int dim>
+    bool
+    has_surface(const Tissue<dim> &tissue)
+    {
+      const MPI_Comm comm = tissue.communicator();
+      return Utilities::MPI::logical_or(tissue.boundary_points().size() > 0,
+                                        comm) &&
+             Utilities::MPI::logical_or(tissue.cells().size() > 0, comm);
+    }
 
     /** Whether a boundary point has a larger |F|. Collective. */
     template <int dim>
@@ -49,14 +69,21 @@ namespace Morula
     , timer(timer)
     , comm(comm)
     , longest_edge(0.5 * model.scene.grid.spacing)
+    , flows(model.scene.material.relaxes())
   {}
 
 
   template <int dim>
-  void
+  std::optional<double>
   FollowingSurface<dim>::begin(Tissue<dim> &tissue)
   {
     refine(tissue, [](const Point<dim> &) { return false; });
+    if (!has_surface(tissue))
+      return {};
+    const SurfaceFit fit = surface_fit(tissue);
+    if (fit.opening > largest_opening || !(fit.enclosed > 0.))
+      return {};
+    return fit.share();
   }
 
 
@@ -70,11 +97,12 @@ namespace Morula
 
   template <int dim>
   void
-  FollowingSurface<dim>::follow(Tissue<dim>            &tissue,
-                                const SplineSpace<dim> &space,
-                                const PointList<dim>   &former,
-                                const double            t,
-                                const double            dt)
+  FollowingSurface<dim>::follow(Tissue<dim>                 &tissue,
+                                const SplineSpace<dim>      &space,
+                                const PointList<dim>        &former,
+                                const std::optional<double> &share,
+                                const double                 t,
+                                const double                 dt)
   {
     if (renews())
       {
@@ -92,9 +120,29 @@ namespace Morula
       }
     catch (const SurfaceTorn &)
       {
-        if (!renews() || !renew(tissue, former))
+        if (!renews() || !renew(tissue, former, SurfaceWish()))
           throw;
       }
+    if (flows && !renews() && share)
+      restore_fit(tissue, *share);
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::restore_fit(Tissue<dim> &tissue, const double share)
+  {
+    const SurfaceFit fit = surface_fit(tissue);
+    const auto       n =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
+    // What is smaller than half a grid spacing, or a cell, no spline sees.
+    const double length =
+      std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
+    if (fit.distance > length ||
+        std::abs(fit.share() / share - 1.) > largest_misfit)
+      renew(tissue,
+            tissue.boundary_points().copy(),
+            {0., length, share * fit.cells});
   }
 
 
@@ -121,14 +169,15 @@ namespace Morula
     const auto n_left =
       Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(), comm);
     if (is_due || n - n_left > largest_loss * n || is_stretched(tissue))
-      renew(tissue, former);
+      renew(tissue, former, SurfaceWish());
   }
 
 
   template <int dim>
   bool
   FollowingSurface<dim>::renew(Tissue<dim>          &tissue,
-                               const PointList<dim> &former)
+                               const PointList<dim> &former,
+                               const SurfaceWish    &wish)
   {
     const TimerOutput::Scope   section(timer, "surface renewal");
     const BoundaryPoints<dim> &points = tissue.boundary_points();
@@ -136,6 +185,7 @@ namespace Morula
                                       former,
                                       points.copy(),
                                       points.columns(),
+                                      wish,
                                       longest_edge,
                                       next_id,
                                       comm);

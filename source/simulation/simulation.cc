@@ -195,7 +195,12 @@ namespace Morula
   {
     try
       {
-        surface.follow(tissue, space, former, time_steps.time(), row.dt);
+        surface.follow(tissue,
+                       space,
+                       former,
+                       run_state.enclosed_share,
+                       time_steps.time(),
+                       row.dt);
       }
     catch (const SurfaceTorn &error)
       {

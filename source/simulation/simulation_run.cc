@@ -67,8 +67,8 @@ namespace Morula
     warnings                   = seeded.warnings;
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
-    surface.begin(tissue);
-    run_state.lumen   = lumen_at_start(model, tissue);
+    run_state.enclosed_share   = surface.begin(tissue);
+    run_state.lumen            = lumen_at_start(model, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }
 

@@ -12,6 +12,18 @@
 namespace Morula
 {
   /**
+   * Numbers of those of these points of this rank that have no cell of this
+   * rank within @p near (µm), which is at most a grid spacing. Other ranks may
+   * have one. Most boundary points have a cell near in their own grid cell, so
+   * that this is far cheaper than to find the nearest ones.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near);
+
+  /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present
    * width |F_e| (V⁰ det F_g)^(1/dim), at least h/4. No surface of a lattice of
    * cells lies farther from it: doc/theory.md (4.13). Boundary points farther

@@ -7,6 +7,7 @@
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/cells.h>
 #include <morula/particles/point_list.h>
+#include <morula/seeding/points_surface.h>
 
 #include <mpi.h>
 
@@ -26,7 +27,9 @@ namespace Morula
    * @param cells   in their places
    * @param former  this rank's points before the step lost any
    * @param present this rank's points now
-   * @param columns of the boundary points; the scene must coarsen the surface
+   * @param columns of the boundary points
+   * @param wish    how smooth it shall be, and what it shall enclose; without a
+   *        patch area that of wanted_area()
    * @param longest_edge of a patch, µm
    * @param next_id is raised by the number of new points
    * @return the points, all of them on rank 0; nothing if the cells have no
@@ -38,6 +41,7 @@ namespace Morula
                   const PointList<dim>       &former,
                   const PointList<dim>       &present,
                   const BoundaryColumns<dim> &columns,
+                  const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
                   const MPI_Comm              comm);

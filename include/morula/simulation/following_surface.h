@@ -4,9 +4,12 @@
 #ifndef morula_simulation_following_surface_h
 #define morula_simulation_following_surface_h
 
+#include <morula/seeding/points_surface.h>
 #include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/timer.h>
+
+#include <optional>
 
 namespace Morula
 {
@@ -25,8 +28,12 @@ namespace Morula
                      TimerOutput            &timer,
                      const MPI_Comm          comm);
 
-    /** Splits patches that are too long at the start of a run. Collective. */
-    void
+    /**
+     * Splits patches that are too long at the start of a run. Collective.
+     * @return the volume that the surface encloses over that of the cells;
+     *         nothing if it is not closed, or there is none
+     */
+    std::optional<double>
     begin(Tissue<dim> &tissue);
 
     /** A copy of the points, to be taken before a step loses any; empty if the
@@ -39,16 +46,19 @@ namespace Morula
      * points or stretched one too much; splits and merges patches. Collective.
      * @param space  of the step
      * @param former as from before_losses()
+     * @param share  of the cells' volume that the surface encloses, at t = 0;
+     *        nothing if it is not closed
      * @param t      end of the step, day
      * @param dt     its length, day
      * @throws SurfaceTorn on all ranks
      */
     void
-    follow(Tissue<dim>            &tissue,
-           const SplineSpace<dim> &space,
-           const PointList<dim>   &former,
-           const double            t,
-           const double            dt);
+    follow(Tissue<dim>                 &tissue,
+           const SplineSpace<dim>      &space,
+           const PointList<dim>        &former,
+           const std::optional<double> &share,
+           const double                 t,
+           const double                 dt);
 
   private:
     bool
@@ -58,10 +68,19 @@ namespace Morula
                  const PointList<dim> &former,
                  const double          t,
                  const double          dt);
+    /**
+     * Makes the surface of flowing tissue anew where it does not fit its cells
+     * any more: doc/theory.md (4.12f). Its points are carried along for as long
+     * as the tissue flows, and nothing brings them back. Collective.
+     */
+    void
+    restore_fit(Tissue<dim> &tissue, const double share);
     /** Makes the surface anew. @return whether that was possible. Collective.
      */
     bool
-    renew(Tissue<dim> &tissue, const PointList<dim> &former);
+    renew(Tissue<dim>          &tissue,
+          const PointList<dim> &former,
+          const SurfaceWish    &wish);
     void
     refine(Tissue<dim>                                   &tissue,
            const std::function<bool(const Point<dim> &)> &crowded);
@@ -71,6 +90,7 @@ namespace Morula
     TimerOutput            &timer;
     const MPI_Comm          comm;
     const double            longest_edge; // of a patch, µm
+    const bool              flows;        // whether shear relaxes
   };
 } // namespace Morula
 

@@ -74,7 +74,10 @@ namespace Morula
       sums[2] += tissue.cells().volume(p);
     Utilities::MPI::sum(sums, tissue.communicator(), sums);
 
-    SurfaceFit     fit;
+    SurfaceFit fit;
+    fit.cells = sums[2];
+    if (!(sums[0] > 0.) || !(sums[2] > 0.))
+      return fit;
     Tensor<1, dim> opening;
     fit.enclosed = sums[1];
     for (unsigned int d = 0; d < dim; ++d)
@@ -84,7 +87,6 @@ namespace Morula
         fit.enclosed -= opening[d] * sums[3 + dim + d] / sums[0];
       }
     fit.enclosed /= dim;
-    fit.cells    = sums[2];
     fit.opening  = opening.norm() / sums[0];
     fit.distance = largest_distance(tissue);
     return fit;

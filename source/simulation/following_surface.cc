@@ -5,6 +5,7 @@
 #include <morula/particles/surface_coarsening.h>
 #include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/surface_renewal.h>
 #include <morula/simulation/following_surface.h>
 
@@ -34,17 +35,6 @@ namespace Morula
      *  differ from the cells', relative to what it was at t = 0. */
     constexpr double largest_misfit = 0.01;
 
-    /** Whether there are boundary points, and cells. Collective. */
-    template <int dim>
-    bool
-    has_surface(const Tissue<dim> &tissue)
-    {
-      const MPI_Comm comm = tissue.communicator();
-      return Utilities::MPI::logical_or(tissue.boundary_points().size() > 0,
-                                        comm) &&
-             Utilities::MPI::logical_or(tissue.cells().size() > 0, comm);
-    }
-
     /** Whether a boundary point has a larger |F|. Collective. */
     template <int dim>
     bool
@@ -70,7 +60,16 @@ namespace Morula
     , comm(comm)
     , longest_edge(0.5 * model.scene.grid.spacing)
     , flows(model.scene.material.relaxes())
+    , exists_(has_surface<dim>(model.scene))
   {}
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::exists() const
+  {
+    return exists_;
+  }
 
 
   template <int dim>
@@ -78,12 +77,19 @@ namespace Morula
   FollowingSurface<dim>::begin(Tissue<dim> &tissue)
   {
     refine(tissue, [](const Point<dim> &) { return false; });
-    if (!has_surface(tissue))
-      return {};
     const SurfaceFit fit = surface_fit(tissue);
     if (fit.opening > largest_opening || !(fit.enclosed > 0.))
       return {};
     return fit.share();
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::is_cut(const std::uint64_t n_before,
+                                const std::uint64_t n_left) const
+  {
+    return !renews() && n_before - n_left > largest_loss * n_before;
   }
 
 
@@ -138,7 +144,7 @@ namespace Morula
     // What is smaller than half a grid spacing, or a cell, no spline sees.
     const double length =
       std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
-    if (fit.distance > length ||
+    if (!(fit.enclosed > 0.) || fit.distance > length ||
         std::abs(fit.share() / share - 1.) > largest_misfit)
       renew(tissue,
             tissue.boundary_points().copy(),

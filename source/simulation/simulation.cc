@@ -179,9 +179,17 @@ namespace Morula
       std::count_if(events.begin(), events.end(), [](const CellEvent &event) {
         return event.kind == CellEvent::Kind::death;
       });
+    const auto n_points = [&]() {
+      return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
+                                                comm);
+    };
+    const std::uint64_t          n_before = n_points();
     const std::vector<CellEvent> removals =
       remove_dead_cells(tissue, model.development, time_steps.time());
     events.insert(events.end(), removals.begin(), removals.end());
+    // The surface is open where it was cut, unless it is made anew.
+    if (surface.is_cut(n_before, n_points()))
+      run_state.enclosed_share.reset();
     row.death.emplace();
     row.death->deaths = Utilities::MPI::sum(n_deaths, comm);
     row.death->removed =

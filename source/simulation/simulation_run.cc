@@ -160,6 +160,7 @@ namespace Morula
       }
     resumed_from.reset();
     warned_of_long_cells = row.lengths.n_too_long > 0;
+    warned_of_misfit     = surface_misfits();
   }
 
   template <int dim>

@@ -21,7 +21,7 @@ namespace Morula
     /** |Σ a n|/Σ a: how far the surface is from being closed. */
     double opening = 0.;
 
-    /** The enclosed volume over that of the cells. */
+    /** The enclosed volume over that of the cells, of which there are some. */
     double
     share() const
     {
@@ -29,8 +29,8 @@ namespace Morula
     }
   };
 
-  /** How the surface of the tissue fits its cells. Collective; there must be
-   *  boundary points and cells. */
+  /** How the surface of the tissue fits its cells; without boundary points only
+   *  their volume. Collective. */
   template <int dim>
   SurfaceFit
   surface_fit(const Tissue<dim> &tissue);

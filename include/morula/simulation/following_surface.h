@@ -9,6 +9,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cstdint>
 #include <optional>
 
 namespace Morula
@@ -28,6 +29,10 @@ namespace Morula
                      TimerOutput            &timer,
                      const MPI_Comm          comm);
 
+    /** Whether the scene has boundary points. */
+    bool
+    exists() const;
+
     /**
      * Splits patches that are too long at the start of a run. Collective.
      * @return the volume that the surface encloses over that of the cells;
@@ -35,6 +40,11 @@ namespace Morula
      */
     std::optional<double>
     begin(Tissue<dim> &tissue);
+
+    /** Whether the surface stays open, as a step has lost so many points and
+     * the scene never renews it. @param n_before, n_left points of all ranks */
+    bool
+    is_cut(const std::uint64_t n_before, const std::uint64_t n_left) const;
 
     /** A copy of the points, to be taken before a step loses any; empty if the
      *  scene never renews the surface. */
@@ -91,6 +101,7 @@ namespace Morula
     const MPI_Comm          comm;
     const double            longest_edge; // of a patch, µm
     const bool              flows;        // whether shear relaxes
+    const bool              exists_;
   };
 } // namespace Morula
 

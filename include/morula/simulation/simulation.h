@@ -117,6 +117,10 @@ namespace Morula
     complete_row();
     void
     count(const SplineSpace<dim> &space);
+    /** Whether the surface encloses another part of the cells' volume than at
+     *  t = 0, by 5 % or more. */
+    bool
+    surface_misfits() const;
     void
     write_rows();
     void
@@ -160,6 +164,7 @@ namespace Morula
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
+    bool warned_of_misfit     = false; // likewise
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

@@ -209,6 +209,44 @@ namespace Morula
     return n;
   }
 
+  template <int dim>
+  std::uint64_t
+  pull_to_cells(Tissue<dim> &tissue, const double farthest)
+  {
+    const BoundaryPoints<dim>      &points    = tissue.boundary_points();
+    const Cells<dim>               &cells     = tissue.cells();
+    std::vector<Point<dim>>         positions = points.positions();
+    const std::vector<unsigned int> far =
+      points_without_cell(positions, tissue, farthest);
+    if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
+      return 0;
+    std::vector<Point<dim>> queries;
+    for (const unsigned int p : far)
+      queries.push_back(positions[p]);
+    const auto nearest = nearest_values(
+      queries,
+      cells,
+      [&cells](const unsigned int p) { return cells.position(p); },
+      Ties::lowest_id,
+      tissue.grid());
+    std::uint64_t n = 0;
+    for (std::size_t k = 0; k < far.size(); ++k)
+      {
+        const unsigned int   p        = far[k];
+        const Tensor<1, dim> way      = nearest[k] - positions[p];
+        const double         distance = way.norm();
+        if (distance <= farthest ||
+            points.condition(p) == SurfaceCondition::fixed)
+          continue;
+        ++n;
+        positions[p] += free_part(points[p], (1. - farthest / distance) * way);
+      }
+    n = Utilities::MPI::sum(n, tissue.communicator());
+    if (n > 0)
+      tissue.move(cells.positions(), positions);
+    return n;
+  }
+
 #define INSTANTIATE(dim)                                                         \
   template std::vector<unsigned int> points_without_cell(                        \
     const std::vector<Point<dim>> &, const Tissue<dim> &, const double);         \
@@ -217,7 +255,8 @@ namespace Morula
   template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
                                                 const Tissue<dim> &);            \
   template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
-  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);
+  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);   \
+  template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

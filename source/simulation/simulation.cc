@@ -36,10 +36,11 @@ namespace Morula
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
     commit(space, solve_step(space));
-    {
-      const TimerOutput::Scope section(timer, "strays");
-      pull_back_detached_points(tissue);
-    }
+    if (!surface.restores(run_state.enclosed_share))
+      {
+        const TimerOutput::Scope section(timer, "strays");
+        pull_back_detached_points(tissue);
+      }
 
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();

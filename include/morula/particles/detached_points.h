@@ -66,6 +66,17 @@ namespace Morula
   template <int dim>
   std::uint64_t
   pull_back_detached_points(Tissue<dim> &tissue);
+
+  /**
+   * Moves boundary points that are farther than @p farthest (µm, at most a grid
+   * spacing) from their nearest cell towards it, until they are as near. Their
+   * areas and normals stay. Fixed points stay where they are held, slip points
+   * in their plane.
+   * @return how many points were moved, over all ranks. Collective.
+   */
+  template <int dim>
+  std::uint64_t
+  pull_to_cells(Tissue<dim> &tissue, const double farthest);
 } // namespace Morula
 
 #endif

@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <optional>
 
 namespace Morula
@@ -45,6 +46,26 @@ namespace Morula
                   const double                longest_edge,
                   types::particle_index      &next_id,
                   const MPI_Comm              comm);
+
+  /**
+   * The boundary points of a tissue that was carved at t = 0: the present ones
+   * stay, and where the tissue was cut patches of the same area stand around
+   * its cells, see surface_around(). Their areas are corrected, in proportion,
+   * so that Σ a n = 0 over all points. Rank 0 makes them. Collective.
+   * @param condition what holds or loads a point of t = 0 at this place (µm)
+   *        with this outward unit normal
+   * @param next_id is raised by the number of new points
+   * @return all points, on rank 0; nothing if the cells have no common surface
+   */
+  template <int dim>
+  std::optional<PointList<dim>>
+  carved_surface(const Cells<dim>                               &cells,
+                 const PointList<dim>                           &present,
+                 const BoundaryColumns<dim>                     &columns,
+                 const std::function<SurfaceCondition(
+                   const Point<dim> &, const Tensor<1, dim> &)> &condition,
+                 types::particle_index                          &next_id,
+                 const MPI_Comm                                  comm);
 } // namespace Morula
 
 #endif

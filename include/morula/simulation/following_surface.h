@@ -41,10 +41,20 @@ namespace Morula
     std::optional<double>
     begin(Tissue<dim> &tissue);
 
+    /** Closes the surface of a tissue that was carved at t = 0, and splits its
+     *  patches. Collective. @return as begin() */
+    std::optional<double>
+    close_cuts(Tissue<dim> &tissue);
+
     /** Whether the surface stays open, as a step has lost so many points and
      * the scene never renews it. @param n_before, n_left points of all ranks */
     bool
     is_cut(const std::uint64_t n_before, const std::uint64_t n_left) const;
+
+    /** Whether follow() keeps the surface of flowing tissue near its cells.
+     *  @param share as of follow() */
+    bool
+    restores(const std::optional<double> &share) const;
 
     /** A copy of the points, to be taken before a step loses any; empty if the
      *  scene never renews the surface. */
@@ -84,7 +94,7 @@ namespace Morula
      * as the tissue flows, and nothing brings them back. Collective.
      */
     void
-    restore_fit(Tissue<dim> &tissue, const double share);
+    restore_fit(Tissue<dim> &tissue, const double share, const bool is_torn);
     /** Makes the surface anew. @return whether that was possible. Collective.
      */
     bool

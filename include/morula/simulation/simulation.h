@@ -83,6 +83,10 @@ namespace Morula
 
     void
     begin();
+    /** Takes out at t = 0 what Death/When kills then and goes at once, and
+     *  closes the surface. @return whether that was anything. Collective. */
+    bool
+    carve();
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);

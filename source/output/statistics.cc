@@ -65,6 +65,11 @@ namespace Morula
         list.emplace_back(field.name + "_max", field.max);
         list.emplace_back(field.name + "_clipped", number(field.clipped));
       }
+    if (surface)
+      {
+        list.emplace_back("surface_distance", surface->distance);
+        list.emplace_back("enclosed_volume", surface->enclosed);
+      }
     return list;
   }
 

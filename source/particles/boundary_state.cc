@@ -105,8 +105,9 @@ namespace Morula
     point.set(deformation, F);
     point.set(initial_area, initial.norm());
     point.set(initial_normal, initial / initial.norm());
-    for (unsigned int k = 0; k < dim - 1; ++k)
-      point.set(edges[k], side * (back * tangents(area / area.norm())[k]));
+    if (point.has_patch())
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        point.set(edges[k], side * (back * tangents(area / area.norm())[k]));
   }
 
   template class BoundaryColumns<2>;

@@ -54,32 +54,13 @@ namespace Morula
       return found;
     }
 
-    /**
-     * Numbers of the points that may be farther than @p reaches least reaches
-     * from all cells. Nearly all points have a cell near in their own grid
-     * cell, so that this is far cheaper than to find the nearest ones.
-     */
-    template <int dim>
-    std::vector<unsigned int>
-    far_away(const std::vector<Point<dim>> &points,
-             const Tissue<dim>             &tissue,
-             const double                   reaches)
-    {
-      const double near = reaches * least_reach * tissue.grid().box().spacing();
-      std::vector<unsigned int> found;
-      for (unsigned int p = 0; p < points.size(); ++p)
-        if (!has_cell_near(points[p], tissue, near))
-          found.push_back(p);
-      return found;
-    }
-
     /** A cell near a boundary point. */
     template <int dim>
     using NearCell = std::tuple<Point<dim>,     // where it is, µm
                                 Tensor<2, dim>, // F
                                 double>;        // its surface_reach(), µm
 
-    /** Points that may be farther away than @p reaches (far_away()), and the
+    /** Points that may be farther away than @p reaches, and the
      *  cells nearest to them. Collective. */
     template <int dim>
     std::pair<std::vector<unsigned int>, std::vector<NearCell<dim>>>
@@ -87,7 +68,8 @@ namespace Morula
                const Tissue<dim>             &tissue,
                const double                   reaches)
     {
-      const std::vector<unsigned int> far = far_away(points, tissue, reaches);
+      const std::vector<unsigned int> far = points_without_cell(
+        points, tissue, reaches * least_reach * tissue.grid().box().spacing());
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
         return {};
       std::vector<Point<dim>> queries;
@@ -137,6 +119,19 @@ namespace Morula
       return motion;
     }
   } // namespace
+
+  template <int dim>
+  std::vector<unsigned int>
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near)
+  {
+    std::vector<unsigned int> found;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (!has_cell_near(points[p], tissue, near))
+        found.push_back(p);
+    return found;
+  }
 
   template <int dim>
   double
@@ -214,13 +209,54 @@ namespace Morula
     return n;
   }
 
+  template <int dim>
+  std::uint64_t
+  pull_to_cells(Tissue<dim> &tissue, const double farthest)
+  {
+    const BoundaryPoints<dim>      &points    = tissue.boundary_points();
+    const Cells<dim>               &cells     = tissue.cells();
+    std::vector<Point<dim>>         positions = points.positions();
+    const std::vector<unsigned int> far =
+      points_without_cell(positions, tissue, farthest);
+    if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
+      return 0;
+    std::vector<Point<dim>> queries;
+    for (const unsigned int p : far)
+      queries.push_back(positions[p]);
+    const auto nearest = nearest_values(
+      queries,
+      cells,
+      [&cells](const unsigned int p) { return cells.position(p); },
+      Ties::lowest_id,
+      tissue.grid());
+    std::uint64_t n = 0;
+    for (std::size_t k = 0; k < far.size(); ++k)
+      {
+        const unsigned int   p        = far[k];
+        const Tensor<1, dim> way      = nearest[k] - positions[p];
+        const double         distance = way.norm();
+        if (distance <= farthest ||
+            points.condition(p) == SurfaceCondition::fixed)
+          continue;
+        ++n;
+        positions[p] += free_part(points[p], (1. - farthest / distance) * way);
+      }
+    n = Utilities::MPI::sum(n, tissue.communicator());
+    if (n > 0)
+      tissue.move(cells.positions(), positions);
+    return n;
+  }
+
 #define INSTANTIATE(dim)                                                         \
+  template std::vector<unsigned int> points_without_cell(                        \
+    const std::vector<Point<dim>> &, const Tissue<dim> &, const double);         \
   template double surface_reach(const CellView<dim, const double> &,             \
                                 const double);                                   \
   template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
                                                 const Tissue<dim> &);            \
   template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
-  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);
+  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);   \
+  template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

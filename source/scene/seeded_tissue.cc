@@ -8,24 +8,26 @@
 
 namespace Morula
 {
+  template <int dim>
+  bool
+  has_surface(const Scene &scene)
+  {
+    if (!scene.tissue.is_points())
+      return true;
+    if (scene.tissue.points_surface != "automatic")
+      return scene.tissue.points_surface == "always";
+    if (effects_of<dim>(scene).state.needs_surface() ||
+        scene.fields.have_surface())
+      return true;
+    for (const auto &condition : scene.catalogue.boundary_conditions)
+      if (condition.keys().is_on())
+        return true;
+    return false;
+  }
+
+
   namespace
   {
-    /** Whether cells from a file get a surface. */
-    template <int dim>
-    bool
-    needs_surface(const Scene &scene)
-    {
-      if (scene.tissue.points_surface != "automatic")
-        return scene.tissue.points_surface == "always";
-      if (effects_of<dim>(scene).state.needs_surface() ||
-          scene.fields.have_surface())
-        return true;
-      for (const auto &condition : scene.catalogue.boundary_conditions)
-        if (condition.keys().is_on())
-          return true;
-      return false;
-    }
-
     template <int dim>
     SurfacePatches<dim>
     surface(const Scene         &scene,
@@ -34,7 +36,7 @@ namespace Morula
     {
       if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
-      return needs_surface<dim>(scene) ?
+      return has_surface<dim>(scene) ?
                seed_points_surface(scene.tissue, founders, comm) :
                SurfacePatches<dim>();
     }
@@ -58,6 +60,10 @@ namespace Morula
   }
 
 
+  template bool
+  has_surface<2>(const Scene &);
+  template bool
+  has_surface<3>(const Scene &);
   template SeededTissue<2>
   seed_tissue(const Scene &, const MPI_Comm);
   template SeededTissue<3>

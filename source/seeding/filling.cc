@@ -16,11 +16,14 @@ namespace Morula
 
   template <int dim>
   AllCells<dim>::AllCells(const std::vector<Point<dim>> &positions,
-                          const std::vector<double>     &volumes)
+                          const std::vector<double>     &volumes,
+                          const double                   length)
     : positions(positions)
     , volumes(volumes)
     , volume(std::accumulate(volumes.begin(), volumes.end(), 0.))
-    , length(volumes.empty() ? 0. : std::pow(volume / volumes.size(), 1. / dim))
+    , length(length > 0.     ? length :
+             volumes.empty() ? 0. :
+                               std::pow(volume / volumes.size(), 1. / dim))
   {}
 
   template <int dim>

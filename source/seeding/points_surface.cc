@@ -343,6 +343,25 @@ namespace Morula
       return all;
     }
 
+    /** Moves the patches along their normals, all as far, so that they enclose
+     *  this volume, µm^dim. */
+    template <int dim>
+    void
+    enclose_exactly(const double volume, SurfacePatches<dim> &patches)
+    {
+      const Point<dim> apex   = patches.positions.front();
+      double           so_far = 0., area = 0.;
+      for (std::size_t i = 0; i < patches.areas.size(); ++i)
+        {
+          so_far += patches.areas[i] / dim *
+                    ((patches.positions[i] - apex) * patches.normals[i]);
+          area += patches.areas[i];
+        }
+      const double way = dim * (volume - so_far) / area;
+      for (std::size_t i = 0; i < patches.areas.size(); ++i)
+        patches.positions[i] += way * patches.normals[i];
+    }
+
     /** This rank's share of what rank 0 has. */
     template <int dim>
     SurfacePatches<dim>
@@ -389,12 +408,17 @@ namespace Morula
   std::optional<SurfacePatches<dim>>
   surface_around(const std::vector<Point<dim>> &positions,
                  const std::vector<double>     &volumes,
-                 const double                   patch_area)
+                 const SurfaceWish             &wish)
   {
-    const Enclosure<dim> enclosure = enclose(AllCells<dim>(positions, volumes));
+    const Enclosure<dim> enclosure =
+      enclose(AllCells<dim>(positions, volumes, wish.length));
     if (!enclosure.fits(volumes.size()))
       return {};
-    return tiled(enclosure.surface, total_area(enclosure.surface) / patch_area);
+    SurfacePatches<dim> patches =
+      tiled(enclosure.surface, total_area(enclosure.surface) / wish.patch_area);
+    if (wish.volume > 0.)
+      enclose_exactly(wish.volume, patches);
+    return patches;
   }
 
   template SurfacePatches<2>
@@ -408,9 +432,9 @@ namespace Morula
   template std::optional<SurfacePatches<2>>
   surface_around(const std::vector<Point<2>> &,
                  const std::vector<double> &,
-                 const double);
+                 const SurfaceWish &);
   template std::optional<SurfacePatches<3>>
   surface_around(const std::vector<Point<3>> &,
                  const std::vector<double> &,
-                 const double);
+                 const SurfaceWish &);
 } // namespace Morula

@@ -3,7 +3,8 @@
 
 #include <morula/base/agreement.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/seeding/points_surface.h>
+#include <morula/seeding/filling.h>
+#include <morula/seeding/shape.h>
 #include <morula/seeding/surface_renewal.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace Morula
@@ -83,15 +85,16 @@ namespace Morula
       const Tree tree;
     };
 
-    /** Whether the patch is that of a held point, which stays. */
+    /** Whether the patch is that of a point which stays, a held one or not. */
     template <int dim>
     bool
-    is_beside_held(const FormerPoints<dim> &present,
-                   const Point<dim>        &x,
-                   const Tensor<1, dim>    &n,
-                   const double             side)
+    is_beside(const FormerPoints<dim> &present,
+              const bool               held,
+              const Point<dim>        &x,
+              const Tensor<1, dim>    &n,
+              const double             side)
     {
-      const auto i = present.nearest(x, true);
+      const auto i = present.nearest(x, held);
       if (!i || present.points.positions[*i].distance(x) > beside * side)
         return false;
       const Tensor<1, dim> area = present[*i].area_vector();
@@ -126,6 +129,18 @@ namespace Morula
       list.add(id, x, make_array_view(row));
     }
 
+    /** The area of patches that are as long as the mean cell, but not longer
+     *  than @p longest_edge (µm): that of t = 0, if the scene does not choose
+     *  another; µm^(dim-1). */
+    template <int dim>
+    double
+    area_of_cells(const PointList<dim> &volumes, const double longest_edge)
+    {
+      const double length =
+        AllCells<dim>(volumes.positions, volumes.numbers).length;
+      return std::pow(std::min(length, longest_edge), dim - 1);
+    }
+
     /** Positions and present volumes (µm^dim) of the cells of all ranks. */
     template <int dim>
     PointList<dim>
@@ -146,6 +161,7 @@ namespace Morula
                   const PointList<dim>       &former,
                   const PointList<dim>       &present,
                   const BoundaryColumns<dim> &columns,
+                  const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
                   const MPI_Comm              comm)
@@ -162,7 +178,11 @@ namespace Morula
     on_root(comm, [&]() {
       const FormerPoints<dim> like(all_former, columns);
       const FormerPoints<dim> kept(all_present, columns);
-      const double            wanted = like.wanted_area(longest_edge);
+      SurfaceWish             wanted = wish;
+      if (wanted.patch_area == 0.)
+        wanted.patch_area = columns.reference_area.exists() ?
+                              like.wanted_area(longest_edge) :
+                              area_of_cells(all, longest_edge);
       const auto patches = surface_around(all.positions, all.numbers, wanted);
       if (!patches)
         return;
@@ -176,7 +196,8 @@ namespace Morula
         {
           const Point<dim>     x = patches->positions[k];
           const Tensor<1, dim> n = patches->normals[k];
-          if (!is_beside_held(kept, x, n, std::pow(wanted, 1. / (dim - 1))))
+          if (!is_beside(
+                kept, true, x, n, std::pow(wanted.patch_area, 1. / (dim - 1))))
             add_patch(like, next_id + n_new++, x, patches->areas[k] * n, list);
         }
     });
@@ -186,14 +207,107 @@ namespace Morula
     return list;
   }
 
-#define INSTANTIATE(dim)                                  \
-  template std::optional<PointList<dim>> renewed_surface( \
-    const Cells<dim> &,                                   \
-    const PointList<dim> &,                               \
-    const PointList<dim> &,                               \
-    const BoundaryColumns<dim> &,                         \
-    const double,                                         \
-    types::particle_index &,                              \
+  namespace
+  {
+    /** The patches around carved tissue that no present point stands for, with
+     *  areas that close the surface. */
+    template <int dim>
+    std::vector<SurfacePatch<dim>>
+    patches_of_cuts(const FormerPoints<dim>   &present,
+                    const SurfacePatches<dim> &around,
+                    const double               side)
+    {
+      Tensor<1, dim> opening; // Σ a n
+      for (std::size_t i = 0; i < present.points.size(); ++i)
+        opening += present[i].area_vector();
+      std::vector<SurfacePatch<dim>> cuts;
+      double                         area = 0.;
+      for (std::size_t k = 0; k < around.areas.size(); ++k)
+        {
+          const Point<dim>     x = around.positions[k];
+          const Tensor<1, dim> n = around.normals[k];
+          if (is_beside(present, true, x, n, side) ||
+              is_beside(present, false, x, n, side))
+            continue;
+          cuts.push_back({x, n, around.areas[k]});
+          area += around.areas[k];
+          opening += around.areas[k] * n;
+        }
+      for (SurfacePatch<dim> &patch : cuts)
+        {
+          const Tensor<1, dim> A = patch.area * (patch.normal - opening / area);
+          patch.area             = A.norm();
+          patch.normal           = A / patch.area;
+        }
+      return cuts;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::optional<PointList<dim>>
+  carved_surface(const Cells<dim>                               &cells,
+                 const PointList<dim>                           &present,
+                 const BoundaryColumns<dim>                     &columns,
+                 const std::function<SurfaceCondition(
+                   const Point<dim> &, const Tensor<1, dim> &)> &condition,
+                 types::particle_index                          &next_id,
+                 const MPI_Comm                                  comm)
+  {
+    const PointList<dim>  all         = volumes_of_all_ranks(cells, comm);
+    const PointList<dim>  all_present = of_all_ranks(present, comm);
+    PointList<dim>        list(columns.n_numbers());
+    types::particle_index n_new = 0;
+    bool                  found = false;
+    if (all.size() == 0)
+      return {};
+    on_root(comm, [&]() {
+      const FormerPoints<dim> kept(all_present, columns);
+      double                  area = 0.;
+      for (std::size_t i = 0; i < all_present.size(); ++i)
+        area += kept[i].initial_area() / all_present.size();
+      if (all_present.size() == 0)
+        area = area_of_cells(all, std::numeric_limits<double>::infinity());
+      const auto around =
+        surface_around(all.positions, all.numbers, SurfaceWish{area});
+      if (!around)
+        return;
+      found = true;
+      list  = all_present;
+      for (const SurfacePatch<dim> &patch :
+           patches_of_cuts(kept, *around, std::pow(area, 1. / (dim - 1))))
+        {
+          const std::vector<double> row =
+            columns.initial_point(patch.position,
+                                  patch.normal,
+                                  patch.area,
+                                  condition(patch.position, patch.normal));
+          list.add(next_id + n_new++, patch.position, make_array_view(row));
+        }
+    });
+    next_id += Utilities::MPI::broadcast(comm, n_new, 0);
+    if (!Utilities::MPI::broadcast(comm, found, 0))
+      return {};
+    return list;
+  }
+
+#define INSTANTIATE(dim)                                             \
+  template std::optional<PointList<dim>> renewed_surface(            \
+    const Cells<dim> &,                                              \
+    const PointList<dim> &,                                          \
+    const PointList<dim> &,                                          \
+    const BoundaryColumns<dim> &,                                    \
+    const SurfaceWish &,                                             \
+    const double,                                                    \
+    types::particle_index &,                                         \
+    const MPI_Comm);                                                 \
+  template std::optional<PointList<dim>> carved_surface(             \
+    const Cells<dim> &,                                              \
+    const PointList<dim> &,                                          \
+    const BoundaryColumns<dim> &,                                    \
+    const std::function<SurfaceCondition(const Point<dim> &,         \
+                                         const Tensor<1, dim> &)> &, \
+    types::particle_index &,                                         \
     const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)

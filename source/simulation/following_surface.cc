@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
 #include <morula/particles/surface_coarsening.h>
+#include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/surface_renewal.h>
 #include <morula/simulation/following_surface.h>
 
@@ -24,6 +27,39 @@ namespace Morula
     /** And |F|/√dim that a point may have come to since then: more is no motion
      *  of the tissue, but of a point that it has left behind. */
     constexpr double largest_stretch = 1.5;
+
+    /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
+     *  patches' vectors do not quite add up to nothing. */
+    constexpr double largest_opening = 0.02;
+
+    /** By how much the volume that the surface of flowing tissue encloses may
+     *  differ from the cells', relative to what it was at t = 0. */
+    constexpr double largest_misfit = 0.01;
+
+    /** Mean of |F|/√dim that boundary points may come to without their change
+     *  of volume, while the tissue flows: then areas and normals that follow
+     *  from F begin to differ from those of the surface that the points make.
+     */
+    constexpr double largest_shear = 1.5;
+
+    /** Mean of |F|/√dim over the boundary points, without their change of
+     * volume. Collective. */
+    template <int dim>
+    double
+    mean_shear(const Tissue<dim> &tissue)
+    {
+      double sum = 0.;
+      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+        {
+          const Tensor<2, dim> F = tissue.boundary_points().F(p);
+          sum += F.norm() / std::sqrt(dim) /
+                 std::pow(std::abs(determinant(F)), 1. / dim);
+        }
+      const MPI_Comm comm = tissue.communicator();
+      return Utilities::MPI::sum(sum, comm) /
+             Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
+                                                comm);
+    }
 
     /** Whether a boundary point has a larger |F|. Collective. */
     template <int dim>
@@ -49,14 +85,58 @@ namespace Morula
     , timer(timer)
     , comm(comm)
     , longest_edge(0.5 * model.scene.grid.spacing)
+    , flows(model.scene.material.relaxes())
+    , exists_(has_surface<dim>(model.scene))
   {}
 
 
   template <int dim>
-  void
+  bool
+  FollowingSurface<dim>::exists() const
+  {
+    return exists_;
+  }
+
+
+  template <int dim>
+  std::optional<double>
   FollowingSurface<dim>::begin(Tissue<dim> &tissue)
   {
     refine(tissue, [](const Point<dim> &) { return false; });
+    const SurfaceFit fit = surface_fit(tissue);
+    if (fit.opening > largest_opening || !(fit.enclosed > 0.))
+      return {};
+    return fit.share();
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  FollowingSurface<dim>::close_cuts(Tissue<dim> &tissue)
+  {
+    if (!exists_)
+      return {};
+    const auto list = carved_surface<dim>(
+      tissue.cells(),
+      tissue.boundary_points().copy(),
+      tissue.boundary_points().columns(),
+      [this](const Point<dim> &x, const Tensor<1, dim> &n) {
+        return model.boundary_conditions.condition(x, n);
+      },
+      next_id,
+      comm);
+    if (list)
+      tissue.replace_surface(*list);
+    return begin(tissue);
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::is_cut(const std::uint64_t n_before,
+                                const std::uint64_t n_left) const
+  {
+    return !renews() && n_before - n_left > largest_loss * n_before;
   }
 
 
@@ -70,11 +150,12 @@ namespace Morula
 
   template <int dim>
   void
-  FollowingSurface<dim>::follow(Tissue<dim>            &tissue,
-                                const SplineSpace<dim> &space,
-                                const PointList<dim>   &former,
-                                const double            t,
-                                const double            dt)
+  FollowingSurface<dim>::follow(Tissue<dim>                 &tissue,
+                                const SplineSpace<dim>      &space,
+                                const PointList<dim>        &former,
+                                const std::optional<double> &share,
+                                const double                 t,
+                                const double                 dt)
   {
     if (renews())
       {
@@ -84,6 +165,7 @@ namespace Morula
                                         dt / model.scene.tissue.renew_surface));
         renew_if_due(tissue, former, t, dt);
       }
+    bool is_torn = false;
     try
       {
         refine(tissue, [&space](const Point<dim> &x) {
@@ -92,9 +174,45 @@ namespace Morula
       }
     catch (const SurfaceTorn &)
       {
-        if (!renews() || !renew(tissue, former))
+        const bool is_new = renews() && renew(tissue, former, SurfaceWish());
+        is_torn           = !is_new && restores(share);
+        if (!is_new && !is_torn)
           throw;
       }
+    if (restores(share))
+      restore_fit(tissue, *share, is_torn);
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::restore_fit(Tissue<dim> &tissue,
+                                     const double share,
+                                     const bool   is_torn)
+  {
+    const SurfaceFit fit = surface_fit(tissue);
+    const auto       n =
+      Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
+    if (n == 0)
+      return;
+    // No spline sees what is smaller than half a grid spacing, or than a cell.
+    const double length =
+      std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
+    if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
+        std::abs(fit.share() / share - 1.) > largest_misfit ||
+        mean_shear(tissue) > largest_shear)
+      renew(tissue,
+            tissue.boundary_points().copy(),
+            {0., length, share * fit.cells});
+    pull_to_cells(tissue, length);
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::restores(const std::optional<double> &share) const
+  {
+    return flows && share && !renews();
   }
 
 
@@ -121,14 +239,15 @@ namespace Morula
     const auto n_left =
       Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(), comm);
     if (is_due || n - n_left > largest_loss * n || is_stretched(tissue))
-      renew(tissue, former);
+      renew(tissue, former, SurfaceWish());
   }
 
 
   template <int dim>
   bool
   FollowingSurface<dim>::renew(Tissue<dim>          &tissue,
-                               const PointList<dim> &former)
+                               const PointList<dim> &former,
+                               const SurfaceWish    &wish)
   {
     const TimerOutput::Scope   section(timer, "surface renewal");
     const BoundaryPoints<dim> &points = tissue.boundary_points();
@@ -136,6 +255,7 @@ namespace Morula
                                       former,
                                       points.copy(),
                                       points.columns(),
+                                      wish,
                                       longest_edge,
                                       next_id,
                                       comm);

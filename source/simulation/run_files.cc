@@ -4,6 +4,7 @@
 #include <morula/base/available_memory.h>
 #include <morula/output/csv.h>
 #include <morula/output/vtu.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
 
 #include <algorithm>
@@ -44,6 +45,7 @@ namespace Morula
     }
 
     /** A row with the columns of such a run. */
+    template <int dim>
     StatisticsRow
     row_like(const Scene &scene)
     {
@@ -56,6 +58,8 @@ namespace Morula
         row.death.emplace();
       if (scene.keys<LumenParameters>().is_on())
         row.lumen.emplace();
+      if (has_surface<dim>(scene))
+        row.surface.emplace();
       return row;
     }
 
@@ -67,13 +71,14 @@ namespace Morula
       bool may_begin_later = false;
     };
 
+    template <int dim>
     std::vector<Table>
     tables_of(const Scene &scene)
     {
       const EventsContents            contents = contents_of(scene);
       const std::vector<std::string> &types    = contents.type_names;
       std::vector<Table>              tables   = {
-        {"statistics", statistics_columns(row_like(scene))},
+        {"statistics", statistics_columns(row_like<dim>(scene))},
         {"lineage", lineage_columns(!types.empty())}};
       if (contents.any())
         tables.push_back({"events", event_columns(contents)});
@@ -150,7 +155,7 @@ namespace Morula
       }
     else
       prepare_directory(scene.output_directory, setup(), comm);
-    for (const Table &table : tables_of(scene))
+    for (const Table &table : tables_of<dim>(scene))
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
@@ -205,7 +210,7 @@ namespace Morula
   {
     // All tables are checked before the first of them is cut.
     for (const bool check : {true, false})
-      for (const Table &table : tables_of(scene))
+      for (const Table &table : tables_of<dim>(scene))
         {
           const std::string &name = table.name;
           const std::string  file = path(name + ".csv");

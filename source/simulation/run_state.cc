@@ -33,6 +33,8 @@ namespace Morula
         data.numbers["lumen_at_start"] = state.lumen->volume_at_start;
         data.numbers["lumen_pressure"] = state.lumen->pressure;
       }
+    if (state.enclosed_share)
+      data.numbers["enclosed_share"] = *state.enclosed_share;
     const GridBox<dim> &box = tissue.grid().box();
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
@@ -104,6 +106,9 @@ namespace Morula
     if (has_lumen)
       state.lumen = LumenMemory{data.number("lumen_at_start"),
                                 data.number("lumen_pressure")};
+    // Snapshots of versions that did not know it are without it.
+    if (data.numbers.count("enclosed_share") > 0)
+      state.enclosed_share = data.number("enclosed_share");
     return state;
   }
 

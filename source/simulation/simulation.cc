@@ -46,10 +46,11 @@ namespace Morula
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
     commit(space, solve_step(space));
-    {
-      const TimerOutput::Scope section(timer, "strays");
-      pull_back_detached_points(tissue);
-    }
+    if (!surface.restores(run_state.enclosed_share))
+      {
+        const TimerOutput::Scope section(timer, "strays");
+        pull_back_detached_points(tissue);
+      }
 
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
@@ -199,9 +200,17 @@ namespace Morula
       std::count_if(events.begin(), events.end(), [](const CellEvent &event) {
         return event.kind == CellEvent::Kind::death;
       });
+    const auto n_points = [&]() {
+      return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
+                                                comm);
+    };
+    const std::uint64_t          n_before = n_points();
     const std::vector<CellEvent> removals =
       remove_dead_cells(tissue, model.development, time_steps.time());
     events.insert(events.end(), removals.begin(), removals.end());
+    // The surface is open where it was cut, unless it is made anew.
+    if (surface.is_cut(n_before, n_points()))
+      run_state.enclosed_share.reset();
     row.death.emplace();
     row.death->deaths = Utilities::MPI::sum(n_deaths, comm);
     row.death->removed =
@@ -215,7 +224,12 @@ namespace Morula
   {
     try
       {
-        surface.follow(tissue, space, former, time_steps.time(), row.dt);
+        surface.follow(tissue,
+                       space,
+                       former,
+                       run_state.enclosed_share,
+                       time_steps.time(),
+                       row.dt);
       }
     catch (const SurfaceTorn &error)
       {

@@ -4,6 +4,8 @@
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/tissue_tables.h>
 
+#include <cmath>
+
 // What a run tells of its state.
 
 namespace Morula
@@ -57,6 +59,8 @@ namespace Morula
       row.death->pieces = pieces.n_pieces();
     row.lumen  = lumen_state(model, tissue, run_state.lumen);
     row.fields = fields.statistics(tissue);
+    if (surface.exists())
+      row.surface = surface_fit(tissue);
   }
 
   template <int dim>
@@ -75,10 +79,25 @@ namespace Morula
         told_of_path = true;
         files->message(path_message(time_steps.time()));
       }
-    if (row.lengths.n_too_long == 0 || warned_of_long_cells)
-      return;
-    warned_of_long_cells = true;
-    files->message(long_cells_warning<dim>(row, model.scene.grid.spacing));
+    if (row.lengths.n_too_long > 0 && !warned_of_long_cells)
+      {
+        warned_of_long_cells = true;
+        files->message(long_cells_warning<dim>(row, model.scene.grid.spacing));
+      }
+    if (surface_misfits() && !warned_of_misfit)
+      {
+        warned_of_misfit = true;
+        files->message(misfit_warning(row, *run_state.enclosed_share));
+      }
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::surface_misfits() const
+  {
+    return run_state.enclosed_share && row.cells > 0 &&
+           std::abs(row.surface->share() / *run_state.enclosed_share - 1.) >
+             0.05;
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
@@ -68,8 +69,8 @@ namespace Morula
     warnings                   = seeded.warnings;
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
-    surface.begin(tissue);
-    run_state.lumen   = lumen_at_start(model, tissue);
+    run_state.enclosed_share   = surface.begin(tissue);
+    run_state.lumen            = lumen_at_start(model, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }
 
@@ -148,11 +149,17 @@ namespace Morula
       {
         for (const std::string &warning : warnings)
           files->message(warning);
-        first_splines.emplace(splines());
-        find_fields([&]() {
-          fields.set_steady(tissue, *first_splines, time_steps.time());
-        });
-        fields.forget_configuration(); // the splines will stand elsewhere
+        const auto find_steady = [&]() {
+          first_splines.emplace(splines());
+          find_fields([&]() {
+            fields.set_steady(tissue, *first_splines, time_steps.time());
+          });
+          fields.forget_configuration(); // the splines will stand elsewhere
+        };
+        // What is carved may depend on the fields, and they on what is left.
+        find_steady();
+        if (carve())
+          find_steady();
         pieces.count(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
@@ -161,6 +168,26 @@ namespace Morula
       }
     resumed_from.reset();
     warned_of_long_cells = row.lengths.n_too_long > 0;
+    warned_of_misfit     = surface_misfits();
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::carve()
+  {
+    if (model.development.death() == nullptr)
+      return false;
+    events = Morula::carve(tissue, model.development);
+    const std::uint64_t n =
+      Utilities::MPI::sum<std::uint64_t>(events.size() / 2, comm);
+    row.death.emplace();
+    row.death->deaths = row.death->removed = n;
+    if (n == 0)
+      return false;
+    run_state.enclosed_share = surface.close_cuts(tissue);
+    run_state.lumen          = lumen_at_start(model, tissue);
+    typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
+    return true;
   }
 
   template <int dim>

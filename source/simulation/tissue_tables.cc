@@ -122,6 +122,23 @@ namespace Morula
   }
 
 
+  std::string
+  misfit_warning(const StatisticsRow &row, const double share_at_start)
+  {
+    std::ostringstream text;
+    text << "Warning: from t = " << row.time << " day on, the surface encloses "
+         << row.surface->share() << " of the cells' volume, and did "
+         << share_at_start
+         << " at t = 0: boundary points have left the cells, the surface has a "
+            "hole, or cells share space. Loads on the surface and fields that "
+            "enter through it are wrong by as much. Tissue/Renew surface makes "
+            "it anew; a smaller Grid/Spacing follows the tissue more closely. "
+            "The columns enclosed_volume, total_volume and surface_distance of "
+            "statistics.csv have the numbers.";
+    return text.str();
+  }
+
+
 #define INSTANTIATE(dim)                                                     \
   template void               set_state(const TissueModel<dim> &,            \
                                         const Tissue<dim> &,                 \

@@ -76,8 +76,14 @@ namespace
     PointList<dim>
     renewed(const PointList<dim> &present)
     {
-      const auto list = renewed_surface(
-        tissue.cells(), former, present, columns, 20., next_id, comm);
+      const auto list = renewed_surface(tissue.cells(),
+                                        former,
+                                        present,
+                                        columns,
+                                        SurfaceWish(),
+                                        20.,
+                                        next_id,
+                                        comm);
       EXPECT_TRUE(list.has_value());
       return of_all_ranks(*list, comm);
     }
@@ -150,6 +156,88 @@ namespace
       }
   }
 
+  /** A surface that is smooth over more than a cell, and encloses a given
+   *  volume. */
+  template <int dim>
+  void
+  check_exact()
+  {
+    Body<dim> body([](const Point<dim> &x) { return x.norm() < 60.; });
+    for (const Tensor<1, dim> &n : directions<dim>(dim == 2 ? 40 : 450))
+      body.add(Point<dim>(60. * n), n, SurfaceCondition::free);
+    const double volume = 1.03 * body.n_cells * std::pow(length, dim);
+    const auto   list   = renewed_surface(body.tissue.cells(),
+                                      body.former,
+                                      body.former,
+                                      body.columns,
+                                      SurfaceWish{0., 25., volume},
+                                      20.,
+                                      body.next_id,
+                                      comm);
+    ASSERT_TRUE(list.has_value());
+    const PointList<dim> points = of_all_ranks(*list, comm);
+    const PatchSums<dim> sums(points, body.columns);
+    EXPECT_LT(sums.vector.norm(), 1e-12 * sums.area);
+    EXPECT_NEAR(sums.volume / volume, 1., 1e-12);
+    const double radius = dim == 2 ? std::sqrt(volume / numbers::PI) :
+                                     std::cbrt(0.75 * volume / numbers::PI);
+    for (const Point<dim> &x : points.positions)
+      EXPECT_NEAR(x.norm() / radius, 1., 0.05);
+  }
+
+  /** A ball from which a cap was carved: the points that are left stay as they
+   *  are, and the cut is closed. */
+  template <int dim>
+  void
+  check_carved()
+  {
+    Body<dim> body(
+      [](const Point<dim> &x) { return x.norm() < 80. && x[0] < 30.; });
+    const unsigned int n_all = dim == 2 ? 50 : 800;
+    const double       area =
+      (dim == 2 ? 2. * numbers::PI * 80. : 4. * numbers::PI * 6400.) / n_all;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const Tensor<1, dim> &n : directions<dim>(n_all))
+        if (80. * n[0] < 30.)
+          body.former.add(
+            body.former.size(),
+            Point<dim>(80. * n),
+            make_array_view(body.columns.initial_point(
+              Point<dim>(80. * n), n, area, SurfaceCondition::free)));
+    const PointList<dim> former = of_all_ranks(body.former, comm);
+    const auto           list   = carved_surface<dim>(
+      body.tissue.cells(),
+      body.former,
+      body.columns,
+      [](const Point<dim> &, const Tensor<1, dim> &n) {
+        return n[0] > 0.9 ? SurfaceCondition::loaded : SurfaceCondition::free;
+      },
+      body.next_id,
+      comm);
+    ASSERT_TRUE(list.has_value());
+    const PointList<dim> points = of_all_ranks(*list, comm);
+    const PatchSums<dim> sums(points, body.columns);
+    EXPECT_LT(sums.vector.norm(), 1e-12 * sums.area);
+    EXPECT_NEAR(sums.volume / (body.n_cells * std::pow(length, dim)), 1., 0.04);
+    EXPECT_EQ(body.next_id, 1000 + points.size() - former.size());
+    unsigned int n_loaded = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const BoundaryView<dim> point(points.row(i), body.columns);
+        const Point<dim>       &x = points.positions[i];
+        if (points.ids[i] < 1000)
+          {
+            EXPECT_EQ(x.distance(former.positions[points.ids[i]]), 0.);
+            EXPECT_EQ(point.initial_area(), area);
+            continue;
+          }
+        EXPECT_EQ(x.distance(point.initial_position()), 0.);
+        EXPECT_GT(x[0], 10.);
+        n_loaded += point.condition() == SurfaceCondition::loaded;
+      }
+    EXPECT_GT(n_loaded, dim == 2 ? 6u : 50u);
+  }
+
   /** A half ball on a plane along which it slips. */
   template <int dim>
   void
@@ -201,6 +289,12 @@ namespace
 TEST(SurfaceRenewal, EnclosesWhatIsLeft){MORULA_BOTH_DIMENSIONS(check_ball)}
 
 
+TEST(SurfaceRenewal, EnclosesWhatItShall){MORULA_BOTH_DIMENSIONS(check_exact)}
+
+
+TEST(SurfaceRenewal, ClosesCuts){MORULA_BOTH_DIMENSIONS(check_carved)}
+
+
 TEST(SurfaceRenewal, LetsHeldPointsBe){MORULA_BOTH_DIMENSIONS(check_held)}
 
 
@@ -211,6 +305,7 @@ TEST(SurfaceRenewal, NeedsASurface)
                                body.former,
                                body.former,
                                body.columns,
+                               SurfaceWish(),
                                20.,
                                body.next_id,
                                comm));
@@ -231,6 +326,7 @@ TEST(SurfaceRenewal, LetsScatteredCellsBe)
                                body.former,
                                body.former,
                                body.columns,
+                               SurfaceWish(),
                                20.,
                                body.next_id,
                                comm));

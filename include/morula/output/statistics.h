@@ -6,6 +6,7 @@
 
 #include <morula/output/longest_cell.h>
 #include <morula/output/tissue_sums.h>
+#include <morula/particles/surface_fit.h>
 
 #include <cstdint>
 #include <optional>
@@ -69,6 +70,8 @@ namespace Morula
     std::optional<LumenState> lumen = {};
     /** By the fields' numbers; empty without fields. */
     std::vector<FieldStatistics> fields = {};
+    /** Only with boundary points. */
+    std::optional<SurfaceFit> surface = {};
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>

@@ -12,6 +12,18 @@
 namespace Morula
 {
   /**
+   * Numbers of those of these points of this rank that have no cell of this
+   * rank within @p near (µm), which is at most a grid spacing. Other ranks may
+   * have one. Most boundary points have a cell near in their own grid cell, so
+   * that this is far cheaper than to find the nearest ones.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near);
+
+  /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present
    * width |F_e| (V⁰ det F_g)^(1/dim), at least h/4. No surface of a lattice of
    * cells lies farther from it: doc/theory.md (4.13). Boundary points farther
@@ -54,6 +66,17 @@ namespace Morula
   template <int dim>
   std::uint64_t
   pull_back_detached_points(Tissue<dim> &tissue);
+
+  /**
+   * Moves boundary points that are farther than @p farthest (µm, at most a grid
+   * spacing) from their nearest cell towards it, until they are as near. Their
+   * areas and normals stay. Fixed points stay where they are held, slip points
+   * in their plane.
+   * @return how many points were moved, over all ranks. Collective.
+   */
+  template <int dim>
+  std::uint64_t
+  pull_to_cells(Tissue<dim> &tissue, const double farthest);
 } // namespace Morula
 
 #endif

@@ -29,6 +29,11 @@ namespace Morula
     std::vector<std::string> warnings;
   };
 
+  /** Whether the tissue of a scene has boundary points. @throws InputError */
+  template <int dim>
+  bool
+  has_surface(const Scene &scene);
+
   /**
    * Seeds the tissue, with a surface around cells from a file if Tissue/Points
    * surface or a boundary condition asks for one, and lets all effects check

@@ -21,14 +21,16 @@ namespace Morula
   template <int dim>
   struct AllCells
   {
+    /** @param length over which they are seen, µm; 0: that of the mean cell */
     AllCells(const std::vector<Point<dim>> &positions,
-             const std::vector<double>     &volumes);
+             const std::vector<double>     &volumes,
+             const double                   length = 0.);
 
     const std::vector<Point<dim>> positions; // µm
     const std::vector<double>     volumes;   // µm^dim
     /** Sum of the volumes, µm^dim. */
     double volume;
-    /** Length of the mean cell, µm; 0 if there are no cells. */
+    /** Over which they are seen, µm; 0 if there are no cells. */
     double length;
   };
 

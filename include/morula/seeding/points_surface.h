@@ -34,9 +34,20 @@ namespace Morula
                       const Founders<dim>    &founders,
                       const MPI_Comm          comm);
 
+  /** What a surface around cells shall be like. */
+  struct SurfaceWish
+  {
+    /** Area of its patches, µm^(dim-1); 0: whoever makes it chooses. */
+    double patch_area = 0.;
+    /** ℓ, over which it is smooth, µm; 0: the length of the mean cell. */
+    double length = 0.;
+    /** What it shall enclose exactly, µm^dim; 0: about the cells' volume. */
+    double volume = 0.;
+  };
+
   /**
    * The same surface around cells at these positions (µm) with these volumes
-   * (µm^dim), in patches of about @p patch_area (µm^(dim-1)).
+   * (µm^dim).
    * @return nothing if the cells have no common surface: it would enclose less
    * than half or more than twice their volume, or have more parts than half the
    * cells
@@ -45,7 +56,7 @@ namespace Morula
   std::optional<SurfacePatches<dim>>
   surface_around(const std::vector<Point<dim>> &positions,
                  const std::vector<double>     &volumes,
-                 const double                   patch_area);
+                 const SurfaceWish             &wish);
 } // namespace Morula
 
 #endif

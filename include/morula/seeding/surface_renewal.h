@@ -7,9 +7,11 @@
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/cells.h>
 #include <morula/particles/point_list.h>
+#include <morula/seeding/points_surface.h>
 
 #include <mpi.h>
 
+#include <functional>
 #include <optional>
 
 namespace Morula
@@ -26,7 +28,9 @@ namespace Morula
    * @param cells   in their places
    * @param former  this rank's points before the step lost any
    * @param present this rank's points now
-   * @param columns of the boundary points; the scene must coarsen the surface
+   * @param columns of the boundary points
+   * @param wish    how smooth it shall be, and what it shall enclose; without a
+   *        patch area that of wanted_area()
    * @param longest_edge of a patch, µm
    * @param next_id is raised by the number of new points
    * @return the points, all of them on rank 0; nothing if the cells have no
@@ -38,9 +42,30 @@ namespace Morula
                   const PointList<dim>       &former,
                   const PointList<dim>       &present,
                   const BoundaryColumns<dim> &columns,
+                  const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
                   const MPI_Comm              comm);
+
+  /**
+   * The boundary points of a tissue that was carved at t = 0: the present ones
+   * stay, and where the tissue was cut patches of the same area stand around
+   * its cells, see surface_around(). Their areas are corrected, in proportion,
+   * so that Σ a n = 0 over all points. Rank 0 makes them. Collective.
+   * @param condition what holds or loads a point of t = 0 at this place (µm)
+   *        with this outward unit normal
+   * @param next_id is raised by the number of new points
+   * @return all points, on rank 0; nothing if the cells have no common surface
+   */
+  template <int dim>
+  std::optional<PointList<dim>>
+  carved_surface(const Cells<dim>                               &cells,
+                 const PointList<dim>                           &present,
+                 const BoundaryColumns<dim>                     &columns,
+                 const std::function<SurfaceCondition(
+                   const Point<dim> &, const Tensor<1, dim> &)> &condition,
+                 types::particle_index                          &next_id,
+                 const MPI_Comm                                  comm);
 } // namespace Morula
 
 #endif

@@ -4,9 +4,13 @@
 #ifndef morula_simulation_following_surface_h
 #define morula_simulation_following_surface_h
 
+#include <morula/seeding/points_surface.h>
 #include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/timer.h>
+
+#include <cstdint>
+#include <optional>
 
 namespace Morula
 {
@@ -25,9 +29,32 @@ namespace Morula
                      TimerOutput            &timer,
                      const MPI_Comm          comm);
 
-    /** Splits patches that are too long at the start of a run. Collective. */
-    void
+    /** Whether the scene has boundary points. */
+    bool
+    exists() const;
+
+    /**
+     * Splits patches that are too long at the start of a run. Collective.
+     * @return the volume that the surface encloses over that of the cells;
+     *         nothing if it is not closed, or there is none
+     */
+    std::optional<double>
     begin(Tissue<dim> &tissue);
+
+    /** Closes the surface of a tissue that was carved at t = 0, and splits its
+     *  patches. Collective. @return as begin() */
+    std::optional<double>
+    close_cuts(Tissue<dim> &tissue);
+
+    /** Whether the surface stays open, as a step has lost so many points and
+     * the scene never renews it. @param n_before, n_left points of all ranks */
+    bool
+    is_cut(const std::uint64_t n_before, const std::uint64_t n_left) const;
+
+    /** Whether follow() keeps the surface of flowing tissue near its cells.
+     *  @param share as of follow() */
+    bool
+    restores(const std::optional<double> &share) const;
 
     /** A copy of the points, to be taken before a step loses any; empty if the
      *  scene never renews the surface. */
@@ -39,16 +66,19 @@ namespace Morula
      * points or stretched one too much; splits and merges patches. Collective.
      * @param space  of the step
      * @param former as from before_losses()
+     * @param share  of the cells' volume that the surface encloses, at t = 0;
+     *        nothing if it is not closed
      * @param t      end of the step, day
      * @param dt     its length, day
      * @throws SurfaceTorn on all ranks
      */
     void
-    follow(Tissue<dim>            &tissue,
-           const SplineSpace<dim> &space,
-           const PointList<dim>   &former,
-           const double            t,
-           const double            dt);
+    follow(Tissue<dim>                 &tissue,
+           const SplineSpace<dim>      &space,
+           const PointList<dim>        &former,
+           const std::optional<double> &share,
+           const double                 t,
+           const double                 dt);
 
   private:
     bool
@@ -58,10 +88,19 @@ namespace Morula
                  const PointList<dim> &former,
                  const double          t,
                  const double          dt);
+    /**
+     * Makes the surface of flowing tissue anew where it does not fit its cells
+     * any more: doc/theory.md (4.12f). Its points are carried along for as long
+     * as the tissue flows, and nothing brings them back. Collective.
+     */
+    void
+    restore_fit(Tissue<dim> &tissue, const double share, const bool is_torn);
     /** Makes the surface anew. @return whether that was possible. Collective.
      */
     bool
-    renew(Tissue<dim> &tissue, const PointList<dim> &former);
+    renew(Tissue<dim>          &tissue,
+          const PointList<dim> &former,
+          const SurfaceWish    &wish);
     void
     refine(Tissue<dim>                                   &tissue,
            const std::function<bool(const Point<dim> &)> &crowded);
@@ -71,6 +110,8 @@ namespace Morula
     TimerOutput            &timer;
     const MPI_Comm          comm;
     const double            longest_edge; // of a patch, µm
+    const bool              flows;        // whether shear relaxes
+    const bool              exists_;
   };
 } // namespace Morula
 

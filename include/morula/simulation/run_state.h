@@ -21,6 +21,9 @@ namespace Morula
     unsigned int          n_steps          = 0;
     unsigned int          n_rejected       = 0;
     std::optional<LumenMemory> lumen       = {};
+    /** The volume that the surface enclosed at t = 0 over that of the cells;
+     *  nothing if it was not closed. */
+    std::optional<double> enclosed_share = {};
   };
 
   /**

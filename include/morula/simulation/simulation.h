@@ -84,6 +84,10 @@ namespace Morula
 
     void
     begin();
+    /** Takes out at t = 0 what Death/When kills then and goes at once, and
+     *  closes the surface. @return whether that was anything. Collective. */
+    bool
+    carve();
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);
@@ -118,6 +122,10 @@ namespace Morula
     complete_row();
     void
     count(const SplineSpace<dim> &space);
+    /** Whether the surface encloses another part of the cells' volume than at
+     *  t = 0, by 5 % or more. */
+    bool
+    surface_misfits() const;
     void
     write_rows();
     void
@@ -171,6 +179,7 @@ namespace Morula
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
     bool told_of_path         = false; // once a run
+    bool warned_of_misfit     = false; // likewise
 
     std::vector<std::string>         warnings;      // of a new run
     std::optional<SplineSpace<dim>>  first_splines; // until the first step

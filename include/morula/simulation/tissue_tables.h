@@ -36,6 +36,11 @@ namespace Morula
   template <int dim>
   std::string
   long_cells_warning(const StatisticsRow &row, const double grid_spacing);
+
+  /** The warning about a surface that does not enclose its cells any more.
+   *  @param share_at_start as RunState::enclosed_share */
+  std::string
+  misfit_warning(const StatisticsRow &row, const double share_at_start);
 } // namespace Morula
 
 #endif

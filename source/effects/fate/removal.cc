@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
+#include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -82,6 +84,45 @@ namespace Morula
                           std::back_inserter(left));
       return left;
     }
+    /** Whether Death/When kills a living cell at @p t (day), and it is to be
+     *  removed then. */
+    template <int dim>
+    bool
+    goes_at_once(const PresentCell<dim> &cell,
+                 const Death<dim>       &death,
+                 const double            t)
+    {
+      if (!death.condition_holds(cell, t))
+        return false;
+      std::vector<double>         row(cell.cell().row().begin(),
+                              cell.cell().row().end());
+      const CellView<dim, double> after(make_array_view(row),
+                                        cell.cell().columns());
+      death.kill(cell, after, t);
+      return death.is_due_for_removal(after, t);
+    }
+
+    /** Boundary points of this rank whose nearest cell is one of these, by
+     * their positions in the store. Collective. */
+    template <int dim>
+    std::vector<unsigned int>
+    points_of(const Tissue<dim> &tissue, const std::vector<unsigned int> &cells)
+    {
+      std::vector<double> goes(tissue.cells().size(), 0.);
+      for (const unsigned int p : cells)
+        goes[p] = 1.;
+      const auto nearest = nearest_values(
+        tissue.boundary_points().positions(),
+        tissue.cells(),
+        [&goes](const unsigned int p) { return goes[p]; },
+        Ties::lowest_id,
+        tissue.grid());
+      std::vector<unsigned int> list;
+      for (unsigned int p = 0; p < nearest.size(); ++p)
+        if (nearest[p] > 0.)
+          list.push_back(p);
+      return list;
+    }
   } // namespace
 
   template <int dim>
@@ -113,6 +154,41 @@ namespace Morula
     return events;
   }
 
+  template <int dim>
+  std::vector<CellEvent>
+  carve(Tissue<dim> &tissue, const CellDevelopment<dim> &development)
+  {
+    const Death<dim>         &death  = *development.death();
+    const Cells<dim>         &cells  = tissue.cells();
+    const CellReader<dim>     reader = development.reader(0.);
+    std::vector<unsigned int> gone;
+    std::vector<CellEvent>    events;
+    everywhere(tissue.communicator(), [&]() {
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          const PresentCell<dim> cell(cells[p],
+                                      cells.id(p),
+                                      cells.position(p),
+                                      reader);
+          if (!goes_at_once(cell, death, 0.))
+            continue;
+          const types::particle_index id   = cells.id(p);
+          const unsigned int          type = cell.type();
+          gone.push_back(p);
+          events.push_back(
+            {0., id, CellEvent::Kind::death, type, type, DeathCause::when});
+          events.push_back({0., id, CellEvent::Kind::removal, type, type});
+        }
+    });
+    if (Utilities::MPI::logical_or(!gone.empty(), tissue.communicator()))
+      tissue.remove(gone, points_of(tissue, gone));
+    return events;
+  }
+
+  template std::vector<CellEvent>
+  carve(Tissue<2> &, const CellDevelopment<2> &);
+  template std::vector<CellEvent>
+  carve(Tissue<3> &, const CellDevelopment<3> &);
   template std::vector<CellEvent>
   remove_dead_cells(Tissue<2> &, const CellDevelopment<2> &, const double);
   template std::vector<CellEvent>

@@ -24,6 +24,17 @@ namespace Morula
   remove_dead_cells(Tissue<dim>                &tissue,
                     const CellDevelopment<dim> &development,
                     const double                t);
+
+  /**
+   * Carves the tissue at t = 0: takes out the cells that Death/When kills then
+   * and that go at once, and the boundary points whose nearest cell is one of
+   * them. Only with death. Collective.
+   * @return the deaths and removals of this rank
+   * @throws InputError on all ranks
+   */
+  template <int dim>
+  std::vector<CellEvent>
+  carve(Tissue<dim> &tissue, const CellDevelopment<dim> &development);
 } // namespace Morula
 
 #endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/detached_points.h>
+#include <morula/particles/nearest.h>
+#include <morula/particles/surface_fit.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /**
+     * The largest distance from a boundary point to its nearest cell, µm. Only
+     * the points that have no cell within some distance are asked for theirs;
+     * this distance is halved until there are any.
+     */
+    template <int dim>
+    double
+    largest_distance(const Tissue<dim> &tissue)
+    {
+      const std::vector<Point<dim>> points =
+        tissue.boundary_points().positions();
+      const double              h = tissue.grid().box().spacing();
+      std::vector<unsigned int> far;
+      double                    near = 0.5 * h;
+      do
+        {
+          near = near > h / 64. ? 0.5 * near : 0.; // then these are all points
+          far  = points_without_cell(points, tissue, near);
+      } while (near > 0. && !Utilities::MPI::logical_or(!far.empty(),
+                                                        tissue.communicator()));
+      std::vector<Point<dim>> queries;
+      for (const unsigned int p : far)
+        queries.push_back(points[p]);
+      const Cells<dim> &cells   = tissue.cells();
+      const auto        nearest = nearest_values(
+        queries,
+        cells,
+        [&cells](const unsigned int p) { return cells.position(p); },
+        Ties::lowest_id,
+        tissue.grid());
+      double largest = 0.;
+      for (std::size_t k = 0; k < queries.size(); ++k)
+        largest = std::max(largest, queries[k].distance(nearest[k]));
+      return Utilities::MPI::max(largest, tissue.communicator());
+    }
+  } // namespace
+
+
+  template <int dim>
+  SurfaceFit
+  surface_fit(const Tissue<dim> &tissue)
+  {
+    // Sums over the patches: a, a n, a x and a n·x; and over the cells: V.
+    std::vector<double>        sums(2 * dim + 3, 0.);
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const Tensor<1, dim> A = points[p].area_vector();
+        const Point<dim>    &x = points.position(p);
+        sums[0] += A.norm();
+        sums[1] += A * x;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            sums[3 + d] += A[d];
+            sums[3 + dim + d] += A.norm() * x[d];
+          }
+      }
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      sums[2] += tissue.cells().volume(p);
+    Utilities::MPI::sum(sums, tissue.communicator(), sums);
+
+    SurfaceFit fit;
+    fit.cells = sums[2];
+    if (!(sums[0] > 0.) || !(sums[2] > 0.))
+      return fit;
+    Tensor<1, dim> opening;
+    fit.enclosed = sums[1];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        opening[d] = sums[3 + d];
+        // seen from the surface's middle, as (4.8g)
+        fit.enclosed -= opening[d] * sums[3 + dim + d] / sums[0];
+      }
+    fit.enclosed /= dim;
+    fit.opening  = opening.norm() / sums[0];
+    fit.distance = largest_distance(tissue);
+    return fit;
+  }
+
+  template SurfaceFit
+  surface_fit(const Tissue<2> &);
+  template SurfaceFit
+  surface_fit(const Tissue<3> &);
+} // namespace Morula

@@ -20,9 +20,14 @@ namespace Morula
     /** Above it a part hardly moves: the path is stuck. */
     constexpr double most_proximity = 10.;
     /** A part that needs more iterations is too long. */
-    constexpr unsigned int iterations_of_part = 30;
-    /** One that needs as few or fewer may be followed by a longer one. */
+    constexpr unsigned int iterations_of_part = 20;
+    /** One that needs as few or fewer may be followed by a longer one, */
     constexpr unsigned int few_iterations = 10;
+    /** unless one of the last so many has failed: the longer one would fail,
+     *  too, and failures cost most. */
+    constexpr unsigned int parts_after_failure = 4;
+    /** Iterations of a path in those of Solver/Newton iterations. */
+    constexpr unsigned int budget = 2;
   } // namespace
 
 
@@ -99,10 +104,10 @@ namespace Morula
 
   // Each part starts where the last one has ended, and is as long as Newton's
   // method can do it at ease: c falls after a part of few iterations, and rises
-  // where one fails, which is then tried again. Once c is so small that it no
-  // longer counts, the equilibrium itself is solved for; where that fails,
-  // parts go on from there. The parts need not be solved more accurately than
-  // the step itself.
+  // where one fails, which is then tried again, and stays for some parts. Once
+  // c is so small that it no longer counts, the equilibrium itself is solved
+  // for; where that fails, parts go on from there. The parts need not be solved
+  // more accurately than the step itself.
   Equilibrium::Evaluation
   follow_proximal_path(Equilibrium            &problem,
                        const LinearProblem    &linear_problem,
@@ -125,8 +130,10 @@ namespace Morula
 
     ProximalEquilibrium nearby(problem);
     Equilibrium::Vector centre(u);
-    double              c     = first_proximity;
-    const unsigned int  begun = report.newton_iterations;
+    double              c    = first_proximity;
+    unsigned int        wait = 0; // parts until c may fall again
+    const unsigned int  most =
+      report.newton_iterations + budget * parameters.newton_iterations;
     while (true)
       try
         {
@@ -142,16 +149,18 @@ namespace Morula
               report.place.proximity = 0.;
               return evaluation;
             }
-          if (report.newton_iterations - before <= few_iterations)
+          if (wait > 0)
+            --wait;
+          else if (report.newton_iterations - before <= few_iterations)
             c *= 0.25;
           if (c < least_proximity)
             c = 0.;
         }
       catch (const StepFailed &failure)
         {
-          c = c == 0. ? 4. * least_proximity : 4. * c;
-          if (c > most_proximity ||
-              report.newton_iterations - begun > parameters.newton_iterations)
+          c    = c == 0. ? 4. * least_proximity : 4. * c;
+          wait = parts_after_failure;
+          if (c > most_proximity || report.newton_iterations > most)
             {
               report.place.proximity = 0.;
               throw StepFailed(failure.what() +

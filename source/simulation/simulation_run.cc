@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
@@ -69,6 +70,7 @@ namespace Morula
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
     surface.begin(tissue);
+    renew_carriers(tissue);
     run_state.lumen   = lumen_at_start(model, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }

@@ -2,10 +2,10 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/nearest.h>
 
 #include <algorithm>
 
@@ -13,13 +13,6 @@ namespace Morula
 {
   namespace
   {
-    bool
-    is_dirichlet(const SurfaceCondition condition)
-    {
-      return condition == SurfaceCondition::fixed ||
-             condition == SurfaceCondition::slip;
-    }
-
     /** Directions in which a fixed or slip point is held. */
     template <int dim>
     Tensor<2, dim>
@@ -48,27 +41,22 @@ namespace Morula
     using CellState =
       std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
 
-    /** Of the cells nearest to points. Cells that do not grow, or have a
-     * stiffness by their place, need not tell. */
+    /** Of the cells that carry boundary points. Cells that do not grow, or have
+     * a stiffness by their place, need not tell. */
     template <int dim>
     std::vector<CellState<dim>>
-    nearest_states(const std::vector<Point<dim>> &queries,
-                   const Tissue<dim>             &tissue,
-                   const DevelopmentOfStep<dim>  &growth)
+    states_of_carriers(const std::vector<unsigned int> &points,
+                       const Tissue<dim>               &tissue,
+                       const DevelopmentOfStep<dim>    &growth)
     {
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-      return nearest_values(
-        queries,
-        tissue.cells(),
-        [&](const unsigned int p) {
-          const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
-          return CellState<dim>(growth.present ? growth.previous[p] : identity,
-                                growth.present ? growth.current[p] : identity,
-                                lame.lambda,
-                                lame.mu);
-        },
-        Ties::mean,
-        tissue.grid());
+      return carrier_values(points, tissue, [&](const unsigned int p) {
+        const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
+        return CellState<dim>(growth.present ? growth.previous[p] : identity,
+                              growth.present ? growth.current[p] : identity,
+                              lame.lambda,
+                              lame.mu);
+      });
     }
 
     template <int dim>
@@ -114,15 +102,15 @@ namespace Morula
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     const PointGroups          groups =
       group_points(store, space, [&](const unsigned int p) {
-        return is_dirichlet(store.condition(p));
+        return is_held(store.condition(p));
       });
     std::vector<Point<dim>> queries;
     for (const unsigned int p : groups.points)
       queries.push_back(store.position(p));
     const std::vector<double>   attached = attachment(queries, tissue);
-    std::vector<CellState<dim>> nearest;
+    std::vector<CellState<dim>> carrier;
     if (growth.present || !growth.lame.empty())
-      nearest = nearest_states(queries, tissue, growth);
+      carrier = states_of_carriers(groups.points, tissue, growth);
 
     std::vector<typename Nitsche<dim>::HeldPoint> list;
     std::vector<ElasticState<dim>>                current, previous;
@@ -142,7 +130,7 @@ namespace Morula
         held.normal            = area / area.norm();
         held.traction_fraction = attached[k];
         held.lame =
-          growth.lame.empty() ? material.lame_at(X) : lame_of(nearest[k]);
+          growth.lame.empty() ? material.lame_at(X) : lame_of(carrier[k]);
         const double E = growth.lame.empty() ? material.youngs_modulus(X) :
                                                youngs_modulus(held.lame);
 
@@ -154,9 +142,9 @@ namespace Morula
         else
           {
             previous.push_back(
-              state(F, std::get<0>(nearest[k]), material.per_grown_volume()));
+              state(F, std::get<0>(carrier[k]), material.per_grown_volume()));
             current.push_back(
-              state(F, std::get<1>(nearest[k]), material.per_grown_volume()));
+              state(F, std::get<1>(carrier[k]), material.per_grown_volume()));
           }
         // A traction that does not count need not be held down by the penalty.
         held.penalty = conditions.nitsche().penalty(
@@ -278,7 +266,7 @@ namespace Morula
       {
         const BoundaryView<dim> point = points[p];
         const Point<dim>        x     = points.position(p);
-        if (is_dirichlet(point.condition()))
+        if (is_held(point.condition()))
           list.push_back(
             {space.piece(space.box().number(space.box().locate(x))),
              x,
@@ -302,7 +290,7 @@ namespace Morula
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const BoundaryView<dim> point = points[p];
-        if (!is_dirichlet(point.condition()))
+        if (!is_held(point.condition()))
           continue;
         const Point<dim> x = points.position(p);
         HeldPoint<dim>   held{x, x, x, projection(point), point.initial_area()};

@@ -39,7 +39,9 @@ namespace Morula
   {
     BoundaryColumns<dim> columns(scene.tissue.refine_surface,
                                  scene.tissue.coarsen_surface);
-    if (boundary_conditions.has_dirichlet() && development.grows())
+    // The renewed traction is that of all cells around a point.
+    if (boundary_conditions.has_dirichlet() && development.grows() &&
+        boundary_conditions.nitsche().form() != NitscheForm::bounded)
       add_carriers(columns);
     return columns;
   }

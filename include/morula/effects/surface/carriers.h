@@ -20,6 +20,27 @@ namespace Morula
   bool
   is_held(const SurfaceCondition condition);
 
+  /** The held points of this rank by active grid cell. */
+  template <int dim>
+  PointGroups
+  held_groups(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    return group_points(store, space, [&](const unsigned int p) {
+      return is_held(store.condition(p));
+    });
+  }
+
+  /** The directions in which a fixed or slip point is held, M. */
+  template <int dim>
+  Tensor<2, dim>
+  projection(const BoundaryView<dim> &point)
+  {
+    if (point.condition() == SurfaceCondition::slip)
+      return outer_product(point.initial_normal(), point.initial_normal());
+    return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+  }
+
   /** Adds the column of the carriers. */
   template <int dim>
   void

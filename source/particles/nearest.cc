@@ -75,31 +75,6 @@ namespace Morula
       return list;
     }
 
-    /** Points that may be nearest: those in grid cells near a query. Ranks ask
-     *  the owners of these grid cells for them. */
-    template <int dim>
-    PointList<dim>
-    candidates(const std::vector<Point<dim>> &queries,
-               const PointStore<dim>         &points,
-               const NearestQuery            &wanted,
-               const BackgroundGrid<dim>     &grid,
-               const int                      radius)
-    {
-      const MPI_Comm     comm = grid.communicator();
-      const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-      GridCellsOfRanks   near = near_queries(queries, grid, radius);
-      PointList<dim>     list = points_in(near[rank], points, wanted);
-      if (Utilities::MPI::n_mpi_processes(comm) == 1)
-        return list;
-      near.erase(rank);
-      std::map<unsigned int, PointList<dim>> points_to;
-      for (const auto &[asking, grid_cells] :
-           Utilities::MPI::some_to_some(comm, near))
-        points_to.emplace(asking, points_in(grid_cells, points, wanted));
-      list.append(exchange(points_to, wanted.n, comm));
-      return list;
-    }
-
     /** Positions of the nearest points in the list, by id, and their distance.
      *  Distances that differ by rounding only count as equal. */
     template <int dim, typename Tree>
@@ -152,6 +127,30 @@ namespace Morula
   } // namespace
 
   template <int dim>
+  PointList<dim>
+  near_points(const std::vector<Point<dim>> &queries,
+              const PointStore<dim>         &points,
+              const NearestQuery            &wanted,
+              const BackgroundGrid<dim>     &grid,
+              const int                      radius)
+  {
+    const MPI_Comm     comm = grid.communicator();
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    GridCellsOfRanks   near = near_queries(queries, grid, radius);
+    PointList<dim>     list = points_in(near[rank], points, wanted);
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return list;
+    // Ranks ask the owners of these grid cells for them.
+    near.erase(rank);
+    std::map<unsigned int, PointList<dim>> points_to;
+    for (const auto &[asking, grid_cells] :
+         Utilities::MPI::some_to_some(comm, near))
+      points_to.emplace(asking, points_in(grid_cells, points, wanted));
+    list.append(exchange(points_to, wanted.n, comm));
+    return list;
+  }
+
+  template <int dim>
   std::vector<double>
   nearest_numbers(const std::vector<Point<dim>> &queries,
                   const PointStore<dim>         &points,
@@ -165,7 +164,7 @@ namespace Morula
     for (int radius = 1;; radius *= 2)
       {
         const PointList<dim> list =
-          candidates(queries, points, wanted, grid, radius);
+          near_points(queries, points, wanted, grid, radius);
         const auto          tree = pack_rtree_of_indices(list.positions);
         std::vector<double> numbers;
         double              farthest = 0.;
@@ -185,14 +184,18 @@ namespace Morula
       }
   }
 
-  template std::vector<double>
-  nearest_numbers(const std::vector<Point<2>> &,
-                  const PointStore<2> &,
-                  const NearestQuery &,
-                  const BackgroundGrid<2> &);
-  template std::vector<double>
-  nearest_numbers(const std::vector<Point<3>> &,
-                  const PointStore<3> &,
-                  const NearestQuery &,
-                  const BackgroundGrid<3> &);
+#define INSTANTIATE(dim)                                                    \
+  template PointList<dim>      near_points(const std::vector<Point<dim>> &, \
+                                           const PointStore<dim> &,         \
+                                           const NearestQuery &,            \
+                                           const BackgroundGrid<dim> &,     \
+                                           const int);                      \
+  template std::vector<double> nearest_numbers(                             \
+    const std::vector<Point<dim>> &,                                        \
+    const PointStore<dim> &,                                                \
+    const NearestQuery &,                                                   \
+    const BackgroundGrid<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

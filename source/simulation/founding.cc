@@ -56,8 +56,7 @@ namespace Morula
   {
     const Founders<dim>       &founders = seeded.founders;
     const SurfacePatches<dim> &patches  = seeded.surface;
-    const BoundaryColumns<dim> boundary(model.scene.tissue.refine_surface,
-                                        model.scene.tissue.coarsen_surface);
+    const BoundaryColumns<dim> boundary = model.boundary_columns();
     FirstPoints<dim>           points{PointList<dim>(
                               model.development.columns().n_numbers()),
                             PointList<dim>(boundary.n_numbers()),

@@ -5,6 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
@@ -59,6 +60,7 @@ namespace Morula
     remove_the_dead();
     count(space);
     follow_surface(space, former);
+    renew_carriers(tissue);
     complete_row();
   }
 

@@ -118,7 +118,8 @@ namespace Morula
           model.fields.dilute(cell, cell.volume() / volume);
       }
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
-      if (surface.motions[p].f.norm() <= limit.f)
+      if (surface.motions[p].f.norm() <= limit.f &&
+          determinant(surface.motions[p].f) > 0.)
         tissue.boundary_point(p).deform(surface.motions[p].f);
     run_state.lumen = solution.lumen;
     events          = std::move(growth_of_step.events);

@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
@@ -70,7 +71,8 @@ namespace Morula
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
     run_state.enclosed_share   = surface.begin(tissue);
-    run_state.lumen            = lumen_at_start(model, tissue);
+    renew_carriers(tissue);
+    run_state.lumen   = lumen_at_start(model, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }
 
@@ -185,7 +187,8 @@ namespace Morula
     if (n == 0)
       return false;
     run_state.enclosed_share = surface.close_cuts(tissue);
-    run_state.lumen          = lumen_at_start(model, tissue);
+    renew_carriers(tissue);
+    run_state.lumen   = lumen_at_start(model, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     return true;
   }

@@ -12,6 +12,7 @@
 #include <morula/simulation/step_points.h>
 #include <morula/solver/proximal_path.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace Morula
@@ -81,9 +82,19 @@ namespace Morula
     NewtonReport                     &report,
     std::optional<ConditionEstimate> &condition) const
   {
-    const double                  stiffness = attempt.typical_stiffness;
-    const TermList                list      = terms(attempt, points);
-    std::optional<Enclosure<dim>> lumen     = lumen_of(attempt);
+    const double                     stiffness = attempt.typical_stiffness;
+    std::optional<HeldTraction<dim>> traction;
+    if (model.boundary_conditions.has_dirichlet() &&
+        model.boundary_conditions.nitsche().form() == NitscheForm::bounded)
+      {
+        const TimerOutput::Scope section(timer, "nitsche");
+        everywhere(comm, [&]() {
+          traction.emplace(model, tissue, space, attempt.growth, stiffness);
+        });
+      }
+    const TermList list =
+      terms(attempt, points, traction ? &*traction : nullptr);
+    std::optional<Enclosure<dim>> lumen = lumen_of(attempt);
     MomentumBalance<dim>          balance(
       space, list, timer, comm, lumen ? &*lumen : nullptr);
     const LinearProblem linear =
@@ -100,6 +111,8 @@ namespace Morula
                           balance,
                           lumen->content,
                           timer));
+    if (traction)
+      participants.push_back(&*traction);
     Equilibrium::Evaluation evaluation;
     const std::size_t       n_traced = report.trace.size();
     try
@@ -144,7 +157,11 @@ namespace Morula
                              NewtonReport         &report) const
   {
     const Equilibrium::Vector begin(u);
-    const NewtonScales scales = balance.scales(attempt.typical_stiffness);
+    NewtonScales scales = balance.scales(attempt.typical_stiffness);
+    // A later turn begins with what the renewed traction has changed, and need
+    // not be balanced more exactly than the first one.
+    if (report.place.turn > 1 && !attempt.lumen)
+      scales.small_force = std::max(scales.small_force, report.first_residual);
     try
       {
         return Morula::solve(
@@ -216,7 +233,8 @@ namespace Morula
   template <int dim>
   typename StepEquilibrium<dim>::TermList
   StepEquilibrium<dim>::terms(const Attempt             &attempt,
-                              const MaterialPoints<dim> &points) const
+                              const MaterialPoints<dim> &points,
+                              const HeldTraction<dim>   *traction) const
   {
     const double t = attempt.t_next;
     TermList     list;
@@ -238,6 +256,15 @@ namespace Morula
       });
     if (model.boundary_conditions.has_dirichlet())
       add("nitsche", [&]() {
+        if (traction != nullptr)
+          return bounded_nitsche_term(model.boundary_conditions,
+                                      model.material,
+                                      tissue,
+                                      space,
+                                      attempt.growth,
+                                      t,
+                                      traction->stiffnesses(),
+                                      traction->tractions());
         return nitsche_term(model.boundary_conditions,
                             model.material,
                             tissue,

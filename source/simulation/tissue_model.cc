@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/surface/carriers.h>
 #include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/mpi.h>
@@ -33,14 +34,24 @@ namespace Morula
 
 
   template <int dim>
+  BoundaryColumns<dim>
+  TissueModel<dim>::boundary_columns() const
+  {
+    BoundaryColumns<dim> columns(scene.tissue.refine_surface,
+                                 scene.tissue.coarsen_surface);
+    // The renewed traction is that of all cells around a point.
+    if (boundary_conditions.has_dirichlet() && development.grows() &&
+        boundary_conditions.nitsche().form() != NitscheForm::bounded)
+      add_carriers(columns);
+    return columns;
+  }
+
+
+  template <int dim>
   Tissue<dim>
   TissueModel<dim>::empty_tissue(const MPI_Comm comm) const
   {
-    return {scene.grid,
-            development.columns(),
-            comm,
-            BoundaryColumns<dim>(scene.tissue.refine_surface,
-                                 scene.tissue.coarsen_surface)};
+    return {scene.grid, development.columns(), comm, boundary_columns()};
   }
 
 

@@ -54,14 +54,17 @@ class MethodTest(ProgramTest):
         return output
 
     def test_it_is_the_word_for_its_keys(self):
-        paper = self.run_disc("silent")
-        self.assertEqual(without_wall_time(paper),
-                         without_wall_time(self.run_disc("paper", Method="paper")))
-        consistent = self.run_disc("consistent", Method="consistent")
+        consistent = self.run_disc("silent")
+        for name, keys in (("consistent", {"Method": "consistent"}),
+                           ("spelt", {FORM: "bounded", PENALTY: "20"})):
+            self.assertEqual(without_wall_time(consistent),
+                             without_wall_time(self.run_disc(name, **keys)))
+        paper = self.run_disc("paper", Method="paper")
         self.assertEqual(
-            without_wall_time(consistent),
-            without_wall_time(self.run_disc("spelt", **{FORM: "unsymmetric",
-                                                PENALTY: "20"})))
+            without_wall_time(paper),
+            without_wall_time(self.run_disc("spelt-paper",
+                                            **{FORM: "symmetric",
+                                               PENALTY: "1000"})))
         energies = [read_csv(output / "statistics.csv")["mean_energy_density"]
                     [-1] for output in (paper, consistent)]
         self.assertGreater(energies[0], 1.03 * energies[1])
@@ -70,20 +73,21 @@ class MethodTest(ProgramTest):
         first = self.run_disc("first", Method="consistent", **{PENALTY: "35"})
         keys = parse((first / "parameters.prm").read_text())
         self.assertEqual((keys["Method"], keys[FORM], normal(keys[PENALTY])),
-                         ("consistent", "unsymmetric", "35"))
+                         ("consistent", "bounded", "35"))
         again = self.work / "again"
         self.execute(first / "parameters.prm", output=again)
         self.assertEqual(without_wall_time(first), without_wall_time(again))
 
     def test_resuming_asks_for_the_values_not_the_word(self):
-        spelt = {FORM: "unsymmetric", PENALTY: "20"}
+        spelt = {FORM: "bounded", PENALTY: "20"}
         whole = self.run_disc("whole", **spelt)
         halves = self.run_disc("halves", **{**spelt, "Time/End time": "1"})
         self.run_disc("halves", "--resume", Method="consistent")
         self.assertEqual(without_wall_time(whole), without_wall_time(halves))
 
         # a scene of before this key goes on as the paper's
-        older = self.run_disc("older", **{"Time/End time": "1"})
+        older = self.run_disc("older", **{"Time/End time": "1",
+                                          FORM: "symmetric", PENALTY: "1000"})
         error = self.execute(self.work / "disc.prm", "--resume", "-s",
                              "Method=consistent", output=older, code=1).stderr
         self.assertIn("Nitsche", error)
@@ -95,7 +99,7 @@ class MethodTest(ProgramTest):
                             "Method=consistent", "-s", f"{PENALTY}=35").stdout
         self.assertIn("Method\n  consistent, which stands for\n", text)
         self.assertIn(f"    {PENALTY} = 35 (set by the scene)\n", text)
-        self.assertIn(f"    {FORM} = unsymmetric\n", text)
+        self.assertIn(f"    {FORM} = bounded\n", text)
 
     def test_tools_complete_a_scene_alike(self):
         for number, chosen in enumerate((

@@ -68,6 +68,15 @@ class Resume(ProgramTest):
         self.assert_same_run(*self.interrupt_and_resume(
             overrides({"Time/End time": "0.5"}), *SHEET, ranks=2))
 
+    def test_carriers_of_held_points(self):
+        """In the paper's form held points keep a cell, which may not be the
+        nearest one any more."""
+        self.assert_same_run(*self.interrupt_and_resume(
+            overrides({"Time/End time": "0.5"}), *SHEET,
+            *overrides({"Method": "paper"}), ranks=2))
+        with h5py.File(self.work / "whole" / "snapshot.h5") as file:
+            self.assertIn("carrier 1", str(file["boundary points/columns"][()]))
+
     def test_condition_estimate(self):
         """condition.csv goes on, too."""
         estimate = overrides({"Output/Condition estimate": "true"})

@@ -7,8 +7,11 @@
 #include <morula/grid/background_grid.h>
 #include <morula/particles/point_store.h>
 
+#include <cstdlib>
 #include <functional>
+#include <optional>
 #include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 namespace Morula
@@ -28,6 +31,19 @@ namespace Morula
     std::function<void(unsigned int, std::vector<double> &)> append;
     Ties                                                     ties;
   };
+
+  /**
+   * The wanted numbers of all points in the grid cells at most @p radius grid
+   * cells away from that of some query, of all ranks. Queries lie in grid cells
+   * of this rank. Collective.
+   */
+  template <int dim>
+  PointList<dim>
+  near_points(const std::vector<Point<dim>> &queries,
+              const PointStore<dim>         &points,
+              const NearestQuery            &wanted,
+              const BackgroundGrid<dim>     &grid,
+              const int                      radius);
 
   /**
    * The wanted numbers of the point nearest to each query position, over all
@@ -59,6 +75,50 @@ namespace Morula
     std::vector<T> values;
     for (std::size_t first = 0; first < numbers.size(); first += Flat<T>::n)
       values.push_back(Flat<T>::read(&numbers[first]));
+    return values;
+  }
+
+  /**
+   * The values value(p) of the points with these ids, one for each query
+   * position, as far as they are at most two grid cells away from it: others
+   * count as gone. Which are does not depend on the number of ranks.
+   * Collective.
+   */
+  template <int dim, typename Value>
+  auto
+  values_by_id(const std::vector<types::particle_index> &ids,
+               const std::vector<Point<dim>>            &queries,
+               const PointStore<dim>                    &points,
+               const Value                              &value,
+               const BackgroundGrid<dim>                &grid)
+  {
+    using T              = std::invoke_result_t<Value, unsigned int>;
+    constexpr int radius = 2;
+    const auto append = [&](const unsigned int p, std::vector<double> &list) {
+      append_flat(list, value(p));
+    };
+    const PointList<dim> near = near_points(
+      queries, points, {Flat<T>::n, append, Ties::lowest_id}, grid, radius);
+    std::unordered_map<types::particle_index, std::size_t> places;
+    for (std::size_t i = 0; i < near.size(); ++i)
+      places.emplace(near.ids[i], i);
+
+    std::vector<std::optional<T>> values(ids.size());
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      {
+        const auto place = places.find(ids[k]);
+        if (place == places.end())
+          continue;
+        // Other queries of this rank may have asked for points farther away.
+        const GridIndex<dim> here = grid.box().locate(queries[k]),
+                             there =
+                               grid.box().locate(near.positions[place->second]);
+        bool is_near = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_near = is_near && std::abs(here[d] - there[d]) <= radius;
+        if (is_near)
+          values[k] = near.template value<T>(place->second);
+      }
     return values;
   }
 } // namespace Morula

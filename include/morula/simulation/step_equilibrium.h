@@ -6,6 +6,7 @@
 
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/simulation/held_traction.h>
 #include <morula/simulation/lumen_of_run.h>
 #include <morula/simulation/tissue_model.h>
 #include <morula/solver/condition_estimate.h>
@@ -98,8 +99,11 @@ namespace Morula
     std::vector<Equilibrium::Vector>
     inertia() const;
 
+    /** @param traction of held points, or null if it belongs to the term */
     TermList
-    terms(const Attempt &attempt, const MaterialPoints<dim> &points) const;
+    terms(const Attempt             &attempt,
+          const MaterialPoints<dim> &points,
+          const HeldTraction<dim>   *traction) const;
     /** Adds the terms of the conditions that load the surface. @throws
      *  StepFailed on all ranks if a condition finds the step too long */
     void

@@ -34,6 +34,10 @@ namespace Morula
     const std::vector<std::unique_ptr<const Fate<dim>>> fates;
     const std::vector<typename SceneEffects<dim>::NamedForce> forces;
 
+    /** The columns of the boundary points that the scene needs. */
+    BoundaryColumns<dim>
+    boundary_columns() const;
+
     /** An empty tissue whose cells and boundary points have the columns that
      *  the effects need. */
     Tissue<dim>

@@ -2,10 +2,10 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/nitsche.h>
+#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/nitsche_bounded.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/nearest.h>
 
 #include <algorithm>
 
@@ -13,23 +13,6 @@ namespace Morula
 {
   namespace
   {
-    bool
-    is_dirichlet(const SurfaceCondition condition)
-    {
-      return condition == SurfaceCondition::fixed ||
-             condition == SurfaceCondition::slip;
-    }
-
-    /** Directions in which a fixed or slip point is held. */
-    template <int dim>
-    Tensor<2, dim>
-    projection(const BoundaryView<dim> &point)
-    {
-      if (point.condition() == SurfaceCondition::slip)
-        return outer_product(point.initial_normal(), point.initial_normal());
-      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    }
-
     /** Prescribed displacement of a fixed point at @p t, µm. */
     template <int dim>
     Tensor<1, dim>
@@ -48,27 +31,22 @@ namespace Morula
     using CellState =
       std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
 
-    /** Of the cells nearest to points. Cells that do not grow, or have a
-     * stiffness by their place, need not tell. */
+    /** Of the cells that carry boundary points. Cells that do not grow, or have
+     * a stiffness by their place, need not tell. */
     template <int dim>
     std::vector<CellState<dim>>
-    nearest_states(const std::vector<Point<dim>> &queries,
-                   const Tissue<dim>             &tissue,
-                   const DevelopmentOfStep<dim>  &growth)
+    states_of_carriers(const std::vector<unsigned int> &points,
+                       const Tissue<dim>               &tissue,
+                       const DevelopmentOfStep<dim>    &growth)
     {
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-      return nearest_values(
-        queries,
-        tissue.cells(),
-        [&](const unsigned int p) {
-          const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
-          return CellState<dim>(growth.present ? growth.previous[p] : identity,
-                                growth.present ? growth.current[p] : identity,
-                                lame.lambda,
-                                lame.mu);
-        },
-        Ties::mean,
-        tissue.grid());
+      return carrier_values(points, tissue, [&](const unsigned int p) {
+        const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
+        return CellState<dim>(growth.present ? growth.previous[p] : identity,
+                              growth.present ? growth.current[p] : identity,
+                              lame.lambda,
+                              lame.mu);
+      });
     }
 
     template <int dim>
@@ -76,6 +54,60 @@ namespace Morula
     lame_of(const CellState<dim> &state)
     {
       return {std::get<2>(state), std::get<3>(state)};
+    }
+
+    /** The held points of this rank, without their penalty. */
+    template <int dim>
+    struct HeldPoints
+    {
+      PointGroups                                   groups;
+      std::vector<typename Nitsche<dim>::HeldPoint> list;
+      std::vector<double>                           youngs_moduli; // kPa
+      /** Empty if cells neither grow nor have a stiffness by their state. */
+      std::vector<CellState<dim>> carriers;
+    };
+
+    template <int dim>
+    HeldPoints<dim>
+    points_of_term(const BoundaryConditions<dim> &conditions,
+                   const TissueMaterial          &material,
+                   const Tissue<dim>             &tissue,
+                   const SplineSpace<dim>        &space,
+                   const DevelopmentOfStep<dim>  &growth,
+                   const double                   t)
+    {
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      HeldPoints<dim>            held;
+      held.groups = held_groups(tissue, space);
+      std::vector<Point<dim>> places;
+      for (const unsigned int p : held.groups.points)
+        places.push_back(store.position(p));
+      const std::vector<double> attached = attachment(places, tissue);
+      if (growth.present || !growth.lame.empty())
+        held.carriers = states_of_carriers(held.groups.points, tissue, growth);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        {
+          const BoundaryView<dim> point = store[held.groups.points[k]];
+          const Point<dim>        x = places[k], X = point.initial_position();
+          Point<dim>              target = X;
+          if (point.condition() == SurfaceCondition::fixed)
+            target += displacement(conditions, point, t);
+          const Tensor<1, dim>             area = point.area_vector();
+          typename Nitsche<dim>::HeldPoint of_term;
+          of_term.projection        = projection(point);
+          of_term.gap               = of_term.projection * (x - target);
+          of_term.position_scale    = std::max(x.norm(), target.norm());
+          of_term.area              = area.norm();
+          of_term.normal            = area / area.norm();
+          of_term.traction_fraction = attached[k];
+          const bool by_place       = growth.lame.empty();
+          of_term.lame =
+            by_place ? material.lame_at(X) : lame_of(held.carriers[k]);
+          held.youngs_moduli.push_back(by_place ? material.youngs_modulus(X) :
+                                                  youngs_modulus(of_term.lame));
+          held.list.push_back(of_term);
+        }
+      return held;
     }
 
     /** State of a boundary point with its F and a cell's F_g. */
@@ -111,63 +143,33 @@ namespace Morula
                const double                   t,
                const std::string             &kernel)
   {
+    HeldPoints<dim> held =
+      points_of_term(conditions, material, tissue, space, growth, t);
     const BoundaryPoints<dim> &store = tissue.boundary_points();
-    const PointGroups          groups =
-      group_points(store, space, [&](const unsigned int p) {
-        return is_dirichlet(store.condition(p));
-      });
-    std::vector<Point<dim>> queries;
-    for (const unsigned int p : groups.points)
-      queries.push_back(store.position(p));
-    const std::vector<double>   attached = attachment(queries, tissue);
-    std::vector<CellState<dim>> nearest;
-    if (growth.present || !growth.lame.empty())
-      nearest = nearest_states(queries, tissue, growth);
+    const Tensor<2, dim>       I(unit_symmetric_tensor<dim>());
+    const bool                 grown = material.per_grown_volume();
 
-    std::vector<typename Nitsche<dim>::HeldPoint> list;
-    std::vector<ElasticState<dim>>                current, previous;
-    for (std::size_t k = 0; k < groups.points.size(); ++k)
+    std::vector<ElasticState<dim>> current, previous;
+    for (std::size_t k = 0; k < held.list.size(); ++k)
       {
-        const BoundaryView<dim> point = store[groups.points[k]];
-        const Point<dim>        x = queries[k], X = point.initial_position();
-        Point<dim>              target = X;
-        if (point.condition() == SurfaceCondition::fixed)
-          target += displacement(conditions, point, t);
-        const Tensor<1, dim>             area = point.area_vector();
-        typename Nitsche<dim>::HeldPoint held;
-        held.projection        = projection(point);
-        held.gap               = held.projection * (x - target);
-        held.position_scale    = std::max(x.norm(), target.norm());
-        held.area              = area.norm();
-        held.normal            = area / area.norm();
-        held.traction_fraction = attached[k];
-        held.lame =
-          growth.lame.empty() ? material.lame_at(X) : lame_of(nearest[k]);
-        const double E = growth.lame.empty() ? material.youngs_modulus(X) :
-                                               youngs_modulus(held.lame);
-
-        const Tensor<2, dim> F = point.F();
+        const Tensor<2, dim> F = store.F(held.groups.points[k]);
         if (!growth.present)
-          current.push_back(state(F,
-                                  Tensor<2, dim>(unit_symmetric_tensor<dim>()),
-                                  material.per_grown_volume()));
+          current.push_back(state(F, I, grown));
         else
           {
-            previous.push_back(
-              state(F, std::get<0>(nearest[k]), material.per_grown_volume()));
-            current.push_back(
-              state(F, std::get<1>(nearest[k]), material.per_grown_volume()));
+            previous.push_back(state(F, std::get<0>(held.carriers[k]), grown));
+            current.push_back(state(F, std::get<1>(held.carriers[k]), grown));
           }
+        auto &point = held.list[k];
         // A traction that does not count need not be held down by the penalty.
-        held.penalty = conditions.nitsche().penalty(
-          E,
-          held.lame,
-          held.traction_fraction > 0. ?
-            stiffness(current.back(), held, material) :
+        point.penalty = conditions.nitsche().penalty(
+          held.youngs_moduli[k],
+          point.lame,
+          point.traction_fraction > 0. ?
+            stiffness(current.back(), point, material) :
             0.,
           material.volumetric_form(),
           space.box().spacing());
-        list.push_back(held);
       }
     // Where the pressure is the grid cell's, ln J_e of the point itself says
     // nothing about it.
@@ -179,11 +181,37 @@ namespace Morula
       conditions.nitsche().form(),
       material.material(),
       part,
-      grouped_places(store, space, groups),
-      std::move(list),
+      grouped_places(store, space, held.groups),
+      std::move(held.list),
       std::move(current),
       std::move(previous),
       product_kernel<dim>(material.material(), kernel));
+  }
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  bounded_nitsche_term(const BoundaryConditions<dim>     &conditions,
+                       const TissueMaterial              &material,
+                       const Tissue<dim>                 &tissue,
+                       const SplineSpace<dim>            &space,
+                       const DevelopmentOfStep<dim>      &growth,
+                       const double                       t,
+                       const std::vector<double>         &stiffnesses,
+                       const std::vector<Tensor<1, dim>> &tractions)
+  {
+    HeldPoints<dim> held =
+      points_of_term(conditions, material, tissue, space, growth, t);
+    for (std::size_t k = 0; k < held.list.size(); ++k)
+      held.list[k].penalty =
+        conditions.nitsche().penalty(held.youngs_moduli[k],
+                                     held.list[k].lame,
+                                     stiffnesses[k],
+                                     material.volumetric_form(),
+                                     space.box().spacing());
+    return std::make_unique<BoundedNitsche<dim>>(
+      grouped_places(tissue.boundary_points(), space, held.groups),
+      std::move(held.list),
+      tractions);
   }
 
   template <int dim>
@@ -278,7 +306,7 @@ namespace Morula
       {
         const BoundaryView<dim> point = points[p];
         const Point<dim>        x     = points.position(p);
-        if (is_dirichlet(point.condition()))
+        if (is_held(point.condition()))
           list.push_back(
             {space.piece(space.box().number(space.box().locate(x))),
              x,
@@ -302,7 +330,7 @@ namespace Morula
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const BoundaryView<dim> point = points[p];
-        if (!is_dirichlet(point.condition()))
+        if (!is_held(point.condition()))
           continue;
         const Point<dim> x = points.position(p);
         HeldPoint<dim>   held{x, x, x, projection(point), point.initial_area()};
@@ -326,6 +354,15 @@ namespace Morula
     const DevelopmentOfStep<dim> &,                                              \
     const double,                                                                \
     const std::string &);                                                        \
+  template std::unique_ptr<Term<dim>> bounded_nitsche_term(                      \
+    const BoundaryConditions<dim> &,                                             \
+    const TissueMaterial &,                                                      \
+    const Tissue<dim> &,                                                         \
+    const SplineSpace<dim> &,                                                    \
+    const DevelopmentOfStep<dim> &,                                              \
+    const double,                                                                \
+    const std::vector<double> &,                                                 \
+    const std::vector<Tensor<1, dim>> &);                                        \
   template LoadedPoints<dim>            loaded_points(const Tissue<dim> &,       \
                                                       const SplineSpace<dim> &); \
   template Enclosure<dim>               enclosure(const Lumen<dim> &,            \

@@ -13,30 +13,46 @@ namespace Morula
      *  (λ + 2μ)/h, and what is added for squeezed tissue, in units of the
      *  stiffness beyond that at rest by h: doc/theory.md (4.6). */
     constexpr double least_penalty = 20., squeezed_penalty = 100.;
+
+    /** What lets the turns of the bounded form contract, in the same units: for
+     *  all tissue, squeezed or not. */
+    constexpr double least_of_turns = 10.;
+
+    NitscheForm
+    form_called(const std::string &name)
+    {
+      return name == "symmetric"   ? NitscheForm::symmetric :
+             name == "unsymmetric" ? NitscheForm::unsymmetric :
+                                     NitscheForm::bounded;
+    }
   } // namespace
 
 
   NitscheParameters::NitscheParameters()
     : penalty("Boundary conditions/Nitsche penalty",
-              1e3,
+              20.,
               "Penalty of fixed and slip points; > 0. "
               "The symmetric form uses at least " +
-                as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.")
+                as_text(least_penalty) +
+                " (lambda + 2 mu)/h, the bounded one " +
+                as_text(least_of_turns) + ". Units: E/h.")
     , form(
         "Boundary conditions/Nitsche form",
-        "symmetric",
+        "bounded",
         "symmetric: the paper's, for large penalties. unsymmetric: stable for "
-        "any penalty; with Nitsche penalty = 20 it is much more accurate "
-        "beside the edge of a fixed surface, for somewhat dearer linear "
-        "solves.",
-        {"symmetric|unsymmetric"})
+        "any penalty, but without an energy. bounded: the traction of held "
+        "points comes from the cells around them, is constant in a solve and "
+        "renewed after it; its energy has a lower bound, and with Nitsche "
+        "penalty = 20 it is much more accurate beside the edge of a fixed "
+        "surface.",
+        {"symmetric|unsymmetric|bounded"})
   {
-    penalty.with("consistent", "20")
+    penalty.with("paper", "1000")
       .require([](const double beta) { return beta > 0.; },
                "a number > 0, in units of E/h",
                "1e3 is a good choice for the symmetric Nitsche form, 20 "
-               "for the unsymmetric one.");
-    form.with("consistent", "unsymmetric");
+               "for the others.");
+    form.with("paper", "symmetric");
   }
 
 
@@ -80,8 +96,7 @@ namespace Morula
 
   NitschePenalty::NitschePenalty(const NitscheParameters &parameters)
     : relative(parameters.penalty)
-    , form_(parameters.form == "symmetric" ? NitscheForm::symmetric :
-                                             NitscheForm::unsymmetric)
+    , form_(form_called(parameters.form))
   {}
 
 
@@ -92,14 +107,15 @@ namespace Morula
                           const VolumetricStrain volumetric_form,
                           const double           h) const
   {
-    if (volumetric_form != VolumetricStrain::pointwise)
-      return relative * (lame.lambda + 2. * lame.mu) / h;
     const double at_rest = lame.lambda + 2. * lame.mu;
-    const double least =
-      form_ == NitscheForm::symmetric ?
-        least_penalty * at_rest +
-          squeezed_penalty * std::max(0., stiffness - at_rest) :
-        0.;
+    const double more    = std::max(0., stiffness - at_rest);
+    if (form_ == NitscheForm::bounded)
+      return std::max(relative * E, least_of_turns * (at_rest + more)) / h;
+    if (volumetric_form != VolumetricStrain::pointwise)
+      return relative * at_rest / h;
+    const double least = form_ == NitscheForm::symmetric ?
+                           least_penalty * at_rest + squeezed_penalty * more :
+                           0.;
     return std::max(relative * E, least) / h;
   }
 

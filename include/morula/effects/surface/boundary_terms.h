@@ -35,6 +35,24 @@ namespace Morula
                const double                   t,
                const std::string             &kernel);
 
+  /**
+   * The same with a traction that is renewed in turns: doc/theory.md (4.6a).
+   * Collective.
+   * @param stiffnesses of the tissue around the held points, along their
+   *        normals, by held_groups(), kPa: k in (4.6)
+   * @param tractions M T, kPa; a reference is kept
+   */
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  bounded_nitsche_term(const BoundaryConditions<dim>     &conditions,
+                       const TissueMaterial              &material,
+                       const Tissue<dim>                 &tissue,
+                       const SplineSpace<dim>            &space,
+                       const DevelopmentOfStep<dim>      &growth,
+                       const double                       t,
+                       const std::vector<double>         &stiffnesses,
+                       const std::vector<Tensor<1, dim>> &tractions);
+
   /** The boundary points of this rank that conditions load. */
   template <int dim>
   LoadedPoints<dim>

@@ -21,7 +21,10 @@ namespace Morula
     symmetric,
     /** The traction's variation with the other sign: no energy, but stable for
      *  any penalty. */
-    unsymmetric
+    unsymmetric,
+    /** The traction is constant while an equilibrium is found, and renewed
+     *  after it: BoundedNitsche. */
+    bounded
   };
 
   /**

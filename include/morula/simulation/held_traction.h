@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_held_traction_h
+#define morula_simulation_held_traction_h
+
+#include <morula/mechanics/spline_field.h>
+#include <morula/particles/surroundings.h>
+#include <morula/simulation/tissue_model.h>
+#include <morula/solver/turns.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /**
+   * The traction of this rank's fixed and slip points from the stress of the
+   * cells around them, doc/theory.md (4.6b), and what else of these cells their
+   * term needs. It is constant while an equilibrium is found and taken anew
+   * there, until it changes by less than one per cent. Keeps references to all
+   * that it is given.
+   */
+  template <int dim>
+  class HeldTraction : public TurnParticipant
+  {
+  public:
+    /** That of the state at t. @param typical_stiffness kPa. Collective. */
+    HeldTraction(const TissueModel<dim>       &model,
+                 const Tissue<dim>            &tissue,
+                 const SplineSpace<dim>       &space,
+                 const DevelopmentOfStep<dim> &growth,
+                 const double                  typical_stiffness);
+
+    /** M T per area of the configuration at t, kPa, by held_groups(). Stays
+     *  where it is as long as this object. */
+    const std::vector<Tensor<1, dim>> &
+    tractions() const;
+
+    /** Stiffnesses of a stretch along the normals with the growth at t, kPa, by
+     *  held_groups(): k in doc/theory.md (4.6). Collective. */
+    std::vector<double>
+    stiffnesses() const;
+
+    bool
+    renew(const Equilibrium::Vector &u) override;
+
+    std::string
+    unfinished() const override;
+
+  private:
+    /** A held point. */
+    struct Held
+    {
+      Tensor<2, dim> projection; // M
+      Tensor<1, dim> normal;     // n_t
+      double         area;       // a_t, µm^(dim-1)
+      double         fraction;   // of the traction that counts
+    };
+
+    /** The tractions of the state after a @p displacement with the growth at
+     *  t + dt, or, without one, of that at t. */
+    std::vector<Tensor<1, dim>>
+    tractions_of(const DisplacementField<dim> *displacement) const;
+
+    const TissueModel<dim>       &model;
+    const Tissue<dim>            &tissue;
+    const SplineSpace<dim>       &space;
+    const DevelopmentOfStep<dim> &growth;
+    const double                  typical_stiffness;
+    std::vector<Held>             held;
+    const Surroundings<dim>       surroundings;
+    std::vector<Tensor<1, dim>>   T;
+    double                        change = 0.; // relative, by the last turn
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/carriers.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Morula
+{
+  namespace
+  {
+    const std::string name = "carrier";
+
+    template <int dim>
+    Column<int>
+    column(const Tissue<dim> &tissue)
+    {
+      return tissue.boundary_points().columns().template find<int>(name);
+    }
+  } // namespace
+
+
+  bool
+  is_held(const SurfaceCondition condition)
+  {
+    return condition == SurfaceCondition::fixed ||
+           condition == SurfaceCondition::slip;
+  }
+
+
+  template <int dim>
+  void
+  add_carriers(BoundaryColumns<dim> &columns)
+  {
+    columns.template add<int>(
+      {name, "", "id of the cell whose growth a held point takes", -1});
+  }
+
+
+  template <int dim>
+  std::vector<types::particle_index>
+  carriers(const std::vector<unsigned int> &points, const Tissue<dim> &tissue)
+  {
+    const Column<int>                  ids = column(tissue);
+    std::vector<types::particle_index> list;
+    for (const unsigned int p : points)
+      list.push_back(ids.exists() ? tissue.boundary_points().get(ids, p) : -1);
+    return list;
+  }
+
+
+  template <int dim>
+  void
+  renew_carriers(Tissue<dim> &tissue)
+  {
+    const Column<int> ids = column(tissue);
+    if (!ids.exists())
+      return;
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    std::vector<unsigned int>  held;
+    std::vector<Point<dim>>    places;
+    for (unsigned int p = 0; p < store.size(); ++p)
+      if (is_held(store.condition(p)))
+        {
+          held.push_back(p);
+          places.push_back(store.position(p));
+        }
+    const auto id = [&](const unsigned int p) -> double {
+      return tissue.cells().id(p);
+    };
+    const auto present = values_by_id(
+      carriers(held, tissue), places, tissue.cells(), id, tissue.grid());
+    std::vector<unsigned int> lost;
+    std::vector<Point<dim>>   queries;
+    for (std::size_t k = 0; k < held.size(); ++k)
+      if (!present[k])
+        {
+          lost.push_back(held[k]);
+          queries.push_back(places[k]);
+        }
+    const MPI_Comm comm = tissue.communicator();
+    if (!Utilities::MPI::logical_or(!lost.empty(), comm) ||
+        Utilities::MPI::sum(1. * tissue.cells().size(), comm) == 0.)
+      return;
+    // The mean of several ids is larger than the lowest of them.
+    const auto lowest = nearest_values(
+      queries, tissue.cells(), id, Ties::lowest_id, tissue.grid());
+    const auto mean =
+      nearest_values(queries, tissue.cells(), id, Ties::mean, tissue.grid());
+    for (std::size_t k = 0; k < lost.size(); ++k)
+      tissue.boundary_point(lost[k]).set(
+        ids, mean[k] == lowest[k] ? static_cast<int>(lowest[k]) : -1);
+  }
+
+
+#define INSTANTIATE(dim)                                     \
+  template void add_carriers(BoundaryColumns<dim> &);        \
+  template std::vector<types::particle_index> carriers(      \
+    const std::vector<unsigned int> &, const Tissue<dim> &); \
+  template void renew_carriers(Tissue<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/nitsche_bounded.h>
+
+#include <cmath>
+#include <utility>
+
+namespace Morula
+{
+  namespace
+  {
+    /** The gap at which the penalty has doubled, g₀ in (4.6a), in grid
+     *  spacings. */
+    constexpr double stiffening_gap = 0.2;
+  } // namespace
+
+
+  template <int dim>
+  BoundedNitsche<dim>::BoundedNitsche(
+    GroupedPoints<dim>                 points,
+    std::vector<HeldPoint>             held_points,
+    const std::vector<Tensor<1, dim>> &tractions)
+    : PointTerm<dim>(std::move(points))
+    , held_points(std::move(held_points))
+    , tractions(tractions)
+  {}
+
+
+  template <int dim>
+  void
+  BoundedNitsche<dim>::add_point(const unsigned int       p,
+                                 const SplineValues<dim> &splines,
+                                 const LocalField<dim>   &field,
+                                 LocalSystem<dim>        &system) const
+  {
+    const HeldPoint     &held = held_points[p];
+    const double         a_t = held.area, beta = held.penalty;
+    const Tensor<1, dim> gap =
+      held.gap + held.projection * field.value(splines);
+    const Tensor<1, dim> &T = tractions[p];
+    system.note_gap(gap.norm(), this->points.xi[p]);
+    const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
+    const double   more  = std::pow(ratio, 4); // of the penalty, at this gap
+    Tensor<2, dim> stiffness = (1. + more) * held.projection;
+    if (more > 0.)
+      stiffness += 4. * more / gap.norm_square() * outer_product(gap, gap);
+    add_force_at(splines,
+                 a_t * (0.5 * beta * (1. + more / 3.) * gap.norm_square() -
+                        T * gap),
+                 a_t * (beta * (1. + more) * gap - T),
+                 a_t * beta * stiffness,
+                 system);
+    if (system.wanted == LocalSystem<dim>::rounding)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          system.magnitude[i * BSpline<dim>::n + a] +=
+            a_t * beta * held.position_scale * splines.value[a];
+  }
+
+  template class BoundedNitsche<2>;
+  template class BoundedNitsche<3>;
+} // namespace Morula

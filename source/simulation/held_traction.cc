@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/carriers.h>
+#include <morula/mechanics/elastic_point.h>
+#include <morula/mechanics/point_motions.h>
+#include <morula/particles/detached_points.h>
+#include <morula/simulation/elastic_volumes.h>
+#include <morula/simulation/held_traction.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Change of the traction, relative to it, that needs no further turn. */
+    constexpr double tolerance = 0.01;
+
+    /** Tractions below this count as that, in units of Young's modulus: they
+     *  move held points by less than a millionth of a grid spacing. */
+    constexpr double least_traction = 1e-4;
+
+    template <int dim>
+    std::vector<Point<dim>>
+    held_places(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
+    {
+      std::vector<Point<dim>> list;
+      for (const unsigned int p : held_groups(tissue, space).points)
+        list.push_back(tissue.boundary_points().position(p));
+      return list;
+    }
+
+    /** λ and μ of cell number @p p. */
+    template <int dim>
+    Lame
+    lame_of(const TissueModel<dim>            &model,
+            const DevelopmentOfStep<dim>      &growth,
+            const CellView<dim, const double> &cell,
+            const unsigned int                 p)
+    {
+      return growth.lame.empty() ?
+               model.material.lame_at(cell.founder_position()) :
+               growth.lame[p];
+    }
+
+    /** W / V_t of a cell. */
+    template <int dim>
+    double
+    energy_volume(const TissueModel<dim>            &model,
+                  const CellView<dim, const double> &cell,
+                  const Tensor<2, dim>              &F_g)
+    {
+      return (model.material.per_grown_volume() ? determinant(F_g) : 1.) /
+             determinant(cell.F());
+    }
+  } // namespace
+
+
+  template <int dim>
+  HeldTraction<dim>::HeldTraction(const TissueModel<dim>       &model,
+                                  const Tissue<dim>            &tissue,
+                                  const SplineSpace<dim>       &space,
+                                  const DevelopmentOfStep<dim> &growth,
+                                  const double typical_stiffness)
+    : model(model)
+    , tissue(tissue)
+    , space(space)
+    , growth(growth)
+    , typical_stiffness(typical_stiffness)
+    , surroundings(held_places(tissue, space), tissue)
+  {
+    const std::vector<unsigned int> points = held_groups(tissue, space).points;
+    const std::vector<double>       attached =
+      attachment(held_places(tissue, space), tissue);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        const BoundaryView<dim> point = tissue.boundary_points()[points[k]];
+        const Tensor<1, dim>    area  = point.area_vector();
+        held.push_back(
+          {projection(point), area / area.norm(), area.norm(), attached[k]});
+      }
+    T = tractions_of(nullptr);
+  }
+
+
+  template <int dim>
+  const std::vector<Tensor<1, dim>> &
+  HeldTraction<dim>::tractions() const
+  {
+    return T;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  HeldTraction<dim>::stiffnesses() const
+  {
+    // k = n·K n for all n, but for laws with a C, where it is an upper bound.
+    const auto          K = surroundings.values([&](const unsigned int p) {
+      const auto           cell = tissue.cells()[p];
+      const Tensor<2, dim> F_g =
+        growth.present ? growth.previous[p] : cell.growth();
+      const ElasticPoint<dim> point(cell.F() * invert(F_g),
+                                    lame_of(model, growth, cell, p),
+                                    model.material.material());
+      const auto             &r = point.response();
+      const Tensor<2, dim>    b(point.b()), I(unit_symmetric_tensor<dim>());
+      return Tensor<2, dim>(energy_volume(model, cell, F_g) *
+                            ((r.total_A() + r.alpha - r.total_gamma()) * I +
+                             (r.alpha + 2. * r.B) * b + r.C * (b * b)));
+    });
+    std::vector<double> list;
+    for (std::size_t k = 0; k < held.size(); ++k)
+      list.push_back(held[k].normal * (K[k] * held[k].normal));
+    return list;
+  }
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  HeldTraction<dim>::tractions_of(
+    const DisplacementField<dim> *displacement) const
+  {
+    const std::string &kernel = model.scene.solver.kernel;
+    // J_e of the grid cell, if that makes the pressure. The committed F have
+    // it.
+    std::vector<double>           volumes;
+    std::vector<PointMotion<dim>> motions;
+    if (displacement != nullptr)
+      {
+        volumes = elastic_volumes(
+          tissue, space, growth, model.material, kernel, *displacement);
+        motions =
+          point_motions(tissue.cells(),
+                        *displacement,
+                        motion_kernel<dim>(model.material.material(), kernel));
+      }
+    // (W / V_t) τ f⁻ᵀ of the cells
+    const auto P = surroundings.values([&](const unsigned int p) {
+      const auto     cell = tissue.cells()[p];
+      Tensor<2, dim> F_g  = cell.growth();
+      if (growth.present)
+        F_g = displacement != nullptr ? growth.current[p] : growth.previous[p];
+      const Tensor<2, dim> f   = displacement != nullptr ?
+                                   motions[p].f :
+                                   Tensor<2, dim>(unit_symmetric_tensor<dim>());
+      const Tensor<2, dim> F_e = f * cell.F() * invert(F_g);
+      const double         theta =
+        std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
+      const ElasticPoint<dim> point(F_e,
+                                    lame_of(model, growth, cell, p),
+                                    model.material.material(),
+                                    &theta);
+      return Tensor<2, dim>(energy_volume(model, cell, F_g) *
+                            Tensor<2, dim>(point.kirchhoff_stress()) *
+                            transpose(invert(f)));
+    });
+    std::vector<Tensor<1, dim>> list;
+    for (std::size_t k = 0; k < held.size(); ++k)
+      list.push_back(held[k].fraction *
+                     (held[k].projection * (P[k] * held[k].normal)));
+    return list;
+  }
+
+
+  template <int dim>
+  bool
+  HeldTraction<dim>::renew(const Equilibrium::Vector &u)
+  {
+    const MPI_Comm                    comm = tissue.communicator();
+    const DisplacementField<dim>      displacement(space, u, comm);
+    const std::vector<Tensor<1, dim>> now = tractions_of(&displacement);
+    double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
+    for (std::size_t k = 0; k < held.size(); ++k)
+      {
+        sums[0] += held[k].area * (now[k] - T[k]).norm_square();
+        sums[1] += held[k].area * now[k].norm_square();
+        sums[2] += held[k].area;
+      }
+    double totals[3];
+    Utilities::MPI::sum(sums, comm, totals);
+    const double least = least_traction * typical_stiffness;
+    change =
+      std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
+    if (!(change > tolerance))
+      return false;
+    // In its place, as the term keeps a reference.
+    std::copy(now.begin(), now.end(), T.begin());
+    return true;
+  }
+
+
+  template <int dim>
+  std::string
+  HeldTraction<dim>::unfinished() const
+  {
+    std::ostringstream text;
+    text << "the traction of held points does not settle: it still changes by "
+         << change << " of itself";
+    return text.str();
+  }
+
+
+  template class HeldTraction<2>;
+  template class HeldTraction<3>;
+} // namespace Morula

@@ -36,31 +36,6 @@ namespace Morula
      *  differ from the cells', relative to what it was at t = 0. */
     constexpr double largest_misfit = 0.01;
 
-    /** Mean of |F|/√dim that boundary points may come to without their change
-     *  of volume, while the tissue flows: then areas and normals that follow
-     *  from F begin to differ from those of the surface that the points make.
-     */
-    constexpr double largest_shear = 1.5;
-
-    /** Mean of |F|/√dim over the boundary points, without their change of
-     * volume. Collective. */
-    template <int dim>
-    double
-    mean_shear(const Tissue<dim> &tissue)
-    {
-      double sum = 0.;
-      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
-        {
-          const Tensor<2, dim> F = tissue.boundary_points().F(p);
-          sum += F.norm() / std::sqrt(dim) /
-                 std::pow(std::abs(determinant(F)), 1. / dim);
-        }
-      const MPI_Comm comm = tissue.communicator();
-      return Utilities::MPI::sum(sum, comm) /
-             Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
-                                                comm);
-    }
-
     /** Whether a boundary point has a larger |F|. Collective. */
     template <int dim>
     bool
@@ -199,8 +174,7 @@ namespace Morula
     const double length =
       std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
-        std::abs(fit.share() / share - 1.) > largest_misfit ||
-        mean_shear(tissue) > largest_shear)
+        std::abs(fit.share() / share - 1.) > largest_misfit)
       renew(tissue,
             tissue.boundary_points().copy(),
             {0., length, share * fit.cells});

@@ -21,6 +21,16 @@ namespace Morula
     /** Change of the traction, relative to it, that needs no further turn. */
     constexpr double tolerance = 0.01;
 
+    /** The largest change of the traction in a turn, relative to it: where a
+     *  load jumps, the stress of squeezed cells at the edge of a clamp tells
+     * far too much of the traction that will be needed. */
+    constexpr double largest_step = 0.3;
+
+    /** After so many turns a change of more than this part of the one before
+     *  shows that the traction does not settle. */
+    constexpr unsigned int patient_turns = 6;
+    constexpr double       settling      = 0.8;
+
     /** Tractions below this count as that, in units of Young's modulus: they
      *  move held points by less than a millionth of a grid spacing. */
     constexpr double least_traction = 1e-4;
@@ -184,13 +194,20 @@ namespace Morula
       }
     double totals[3];
     Utilities::MPI::sum(sums, comm, totals);
-    const double least = least_traction * typical_stiffness;
+    const double least  = least_traction * typical_stiffness;
+    const double before = change;
     change =
       std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
     if (!(change > tolerance))
       return false;
+    // What is not settled is balanced all the same, with a gap that the step's
+    // check of gaps judges.
+    if (++n_turns >= patient_turns && change > settling * before)
+      return false;
     // In its place, as the term keeps a reference.
-    std::copy(now.begin(), now.end(), T.begin());
+    const double part = std::min(1., largest_step / change);
+    for (std::size_t k = 0; k < held.size(); ++k)
+      T[k] += part * (now[k] - T[k]);
     return true;
   }
 

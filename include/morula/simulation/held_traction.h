@@ -18,8 +18,9 @@ namespace Morula
    * The traction of this rank's fixed and slip points from the stress of the
    * cells around them, doc/theory.md (4.6b), and what else of these cells their
    * term needs. It is constant while an equilibrium is found and taken anew
-   * there, until it changes by less than one per cent. Keeps references to all
-   * that it is given.
+   * there, until it changes by less than one per cent, or does not settle. Then
+   * tissue is crushed at an edge, and stays as far from where it is held as the
+   * last traction lets it. Keeps references to all that it is given.
    */
   template <int dim>
   class HeldTraction : public TurnParticipant
@@ -71,7 +72,8 @@ namespace Morula
     std::vector<Held>             held;
     const Surroundings<dim>       surroundings;
     std::vector<Tensor<1, dim>>   T;
-    double                        change = 0.; // relative, by the last turn
+    double                        change  = 0.; // relative, by the last turn
+    unsigned int                  n_turns = 0;
   };
 } // namespace Morula
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/surface_mesh.h>
 #include <morula/seeding/points_file.h>
 #include <morula/seeding/unit_warnings.h>
 
@@ -166,6 +167,7 @@ namespace Morula
       }
     if (tissue.is_mesh())
       {
+        review_mesh(TissueKeys::surface_mesh, tissue.surface_mesh, review);
         const double extent =
           longest_extent(founders, tissue.cell_spacing, comm);
         if (extent < fewest_cells * tissue.cell_spacing)

@@ -13,7 +13,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 
 #include "common/complaint.h"
@@ -493,16 +492,4 @@ TEST(Snapshot, LeavesTheOldFileWhenTheDiskIsFull)
   EXPECT_EQ(directory.files(), std::vector<std::string>{"s.h5"});
   EXPECT_THROW(write_snapshot(directory / "none/s.h5", data, MPI_COMM_WORLD),
                std::runtime_error);
-}
-
-TEST(Snapshot, InADirectoryWithAColon)
-{
-  const ScratchDirectory directory;
-  on_root(MPI_COMM_WORLD, [&]() {
-    std::filesystem::create_directory(directory / "run-12:30");
-  });
-  const std::string path = directory / "run-12:30/a:b.h5";
-  const auto        data = data_of<3>(MPI_COMM_WORLD);
-  write_snapshot(path, data, MPI_COMM_WORLD);
-  EXPECT_EQ(read_snapshot<3>(path, MPI_COMM_WORLD).time, data.time);
 }

@@ -1,182 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/base/surface_mesh.h>
+#include <morula/base/surface_mesh_soup.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
-#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <map>
-#include <sstream>
 
 namespace Morula
 {
+  using namespace MeshFile;
+
   namespace
   {
     namespace Processing = CGAL::Polygon_mesh_processing;
 
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
     using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
     using Tree   = Inside::AABB_tree;
-
-    template <typename Position>
-    std::string
-    place(const Position &p)
-    {
-      std::ostringstream text;
-      text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-      return text.str();
-    }
-
-    /** The polygons of a file, which does not say which ones are neighbours. */
-    struct Soup
-    {
-      std::vector<Kernel::Point_3>          points;
-      std::vector<std::vector<std::size_t>> polygons;
-    };
-
-    /** A file and the path of the key that names it. */
-    struct NamedFile
-    {
-      const std::string &key;
-      const std::string &name;
-    };
-
-    [[noreturn]] void
-    refuse(const NamedFile &file, const std::string &remedy)
-    {
-      throw InputError(file.key,
-                       file.name,
-                       "a closed surface that does not intersect itself, as an "
-                       "STL, OFF, PLY or OBJ file",
-                       remedy);
-    }
-
-    /** Refuses an empty file, and an STL file that ends before its last
-     *  triangle. A missing file is left to the reader. */
-    void
-    check_complete(const NamedFile &file)
-    {
-      const std::string ending =
-        file.name.substr(std::min(file.name.rfind('.'), file.name.size()));
-      std::ifstream stream(file.name, std::ios::binary);
-      if (!stream)
-        return;
-      if (stream.peek() == std::ifstream::traits_type::eof())
-        refuse(file, "The file is empty: copy or export it again.");
-      if (!boost::algorithm::iequals(ending, ".stl"))
-        return;
-      const std::string text((std::istreambuf_iterator<char>(stream)),
-                             std::istreambuf_iterator<char>());
-      // 80 bytes of header, the number of triangles, 50 bytes each
-      std::uint32_t n = 0;
-      if (text.size() >= 84)
-        std::memcpy(&n, text.data() + 80, sizeof(n));
-      const std::size_t there = text.size() < 84 ? 0 : (text.size() - 84) / 50;
-      if (text.rfind("solid", 0) == 0 &&
-          (text.size() < 84 || text.size() != 84 + 50 * std::size_t(n)) &&
-          text.find("facet") != std::string::npos)
-        {
-          if (text.find("endsolid") == std::string::npos)
-            refuse(file,
-                   "The file is cut off: it has no 'endsolid'. Copy or export "
-                   "it again.");
-          return;
-        }
-      if (text.size() < 84 || there < n)
-        refuse(file,
-               "The file is cut off: it has " + std::to_string(there) +
-                 " whole triangles" +
-                 (text.size() < 84 ?
-                    "" :
-                    ", and says that it has " + std::to_string(n)) +
-                 ". Copy or export it again.");
-    }
-
-    /** Refuses coordinates that are no numbers, or so large that areas and
-     *  volumes would overflow. */
-    void
-    check_finite(const Soup &soup, const NamedFile &file)
-    {
-      for (std::size_t i = 0; i < soup.points.size(); ++i)
-        {
-          const Kernel::Point_3 &p = soup.points[i];
-          const double           largest =
-            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-          if (std::isnan(p.x() + p.y() + p.z()) || !(largest < 1e100))
-            refuse(file,
-                   "Vertex " + std::to_string(i) + " (counted from 0) is at " +
-                     place(p) + " um: export the surface again, in um.");
-        }
-    }
-
-    Soup
-    read_soup(const NamedFile &file)
-    {
-      check_complete(file);
-      Soup soup;
-      bool good = false;
-      try
-        {
-          good =
-            CGAL::IO::read_polygon_soup(file.name, soup.points, soup.polygons);
-        }
-      catch (const std::exception &)
-        {
-          // a file that it could not parse is reported below
-        }
-      const auto in_range = [&](const std::vector<std::size_t> &polygon) {
-        return std::all_of(polygon.begin(),
-                           polygon.end(),
-                           [&](const std::size_t i) {
-                             return i < soup.points.size();
-                           });
-      };
-      if (!good ||
-          !std::all_of(soup.polygons.begin(), soup.polygons.end(), in_range))
-        refuse(file,
-               "The file cannot be read: check that it exists, that its name "
-               "ends with .stl, .off, .ply or .obj, that it is whole, and that "
-               "it holds numbers only.");
-      check_finite(soup, file);
-      Processing::repair_polygon_soup(soup.points, soup.polygons);
-      if (soup.polygons.empty())
-        refuse(file, "The file has no polygons: export the surface again.");
-      return soup;
-    }
 
     /** Refuses a surface with an edge that does not have two polygons. */
     void
     check_edges(const Soup &soup, const NamedFile &file)
     {
-      std::map<std::pair<std::size_t, std::size_t>, unsigned int> edges;
-      for (const std::vector<std::size_t> &polygon : soup.polygons)
-        for (std::size_t i = 0; i < polygon.size(); ++i)
-          ++edges[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
-
       std::size_t n_many = 0, n_open = 0;
       std::string first_many, first_open;
-      for (const auto &[edge, n_polygons] : edges)
+      for (const auto &[edge, n_polygons] : edges_of(soup))
         if (n_polygons != 2)
           {
             ++(n_polygons > 2 ? n_many : n_open);
@@ -404,5 +266,18 @@ namespace Morula
     return {distance,
             direction,
             (across - outer_product(direction, direction)) / distance};
+  }
+
+  void
+  review_mesh(const std::string &key, const std::string &name, Review &review)
+  {
+    const std::size_t n_merged = read_soup({key, name}).n_merged;
+    if (n_merged > 0)
+      review.warn(key,
+                  name,
+                  std::to_string(n_merged) +
+                    " of its vertices differ from others by rounding only, and "
+                    "were merged with them: without that the surface is open.",
+                  "Merge them in a mesh editor if they were meant to differ.");
   }
 } // namespace Morula

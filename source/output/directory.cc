@@ -54,7 +54,8 @@ namespace Morula
     {
       static const std::regex pattern(
         "(?:parameters\\.prm|log\\.txt|(?:cells|surface)\\.pvd|"
-        "(?:condition|lineage|statistics|timings)\\.csv|snapshot\\.h5)(?:\\.tmp)?");
+        "(?:condition|events|lineage|statistics|timings)\\.csv|"
+        "snapshot\\.h5)(?:\\.tmp)?");
       return series_number(name) >= 0 || std::regex_match(name, pattern);
     }
 

@@ -23,4 +23,10 @@ namespace Morula
     H5Pset_fapl_mpio(list, comm, MPI_INFO_NULL);
     return list;
   }
+
+  std::string
+  name_for_mpi(const std::string &path)
+  {
+    return path.find(':') == std::string::npos ? path : "ufs:" + path;
+  }
 } // namespace Morula

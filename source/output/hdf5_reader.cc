@@ -30,7 +30,9 @@ namespace Morula
   } // namespace
 
   Hdf5Reader::Hdf5Reader(const std::string &path)
-    : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access_by(MPI_COMM_SELF)),
+    : file(H5Fopen(name_for_mpi(path).c_str(),
+                   H5F_ACC_RDONLY,
+                   access_by(MPI_COMM_SELF)),
            H5Fclose)
   {
     check<hid_t>(file, "the file as HDF5");

@@ -20,7 +20,10 @@ namespace Morula
     {
       const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
       H5Pset_userblock(creation, size_of_seal);
-      return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access_by(comm)),
+      return {H5Fcreate(name_for_mpi(path).c_str(),
+                        H5F_ACC_TRUNC,
+                        creation,
+                        access_by(comm)),
               H5Fclose};
     }
 

@@ -93,5 +93,21 @@ namespace Morula
                       " day, and nothing is written between the ends of "
                       "steps.",
                     "Raise it to the step, or shorten the step.");
+    const double steps = interval / step;
+    if (steps > 1. && std::abs(steps - std::round(steps)) > 1e-9 * steps)
+      {
+        std::string times;
+        for (unsigned int n = 1; n <= 3; ++n)
+          times += (n == 1 ? "" : ", ") +
+                   as_text(std::ceil(n * steps * (1. - 1e-9)) * step);
+        review.warn(interval.path(),
+                    as_text(interval) + " day",
+                    std::string("it is no multiple of ") +
+                      TimeParameters::step_path + " = " + as_text(step) +
+                      " day, and outputs come at the ends of steps: the first "
+                      "ones at t = " +
+                      times + " day, if no step is halved.",
+                    "Choose a multiple of the step.");
+      }
   }
 } // namespace Morula

@@ -34,6 +34,25 @@ namespace Morula
       return keys;
     }
 
+    /**
+     * Whether a key that two statements set at these places ("file:line: ") is
+     * set twice by mistake. Who includes a file may set its keys anew, and the
+     * command line those of all files.
+     * @param scene the file that is read first
+     */
+    bool
+    is_set_twice(const std::string &before,
+                 const std::string &now,
+                 const std::string &scene)
+    {
+      const auto file_of = [](const std::string &place) {
+        const auto line = place.rfind(':', place.size() - 3);
+        return place.substr(0, line);
+      };
+      return now.rfind("-s: ", 0) != 0 &&
+             (file_of(before) == file_of(now) || file_of(before) == scene);
+    }
+
     /** Admits the names of all effects of a kind. */
     template <template <int> class Interface>
     void
@@ -280,6 +299,13 @@ namespace Morula
         if (statement.kind == Statement::set)
           {
             const std::string path = keys.current_name(statement.path);
+            if (scene.as_written.count(path) > 0 &&
+                is_set_twice(scene.places.at(path), statement.place, file))
+              scene.renamed.push_back(
+                statement.place + "the key '" + path + "' is set to '" +
+                statement.value + "', which counts; " + scene.places.at(path) +
+                "it was set to '" + scene.as_written.at(path) +
+                "': remove one of the lines");
             scene.as_written[path] = statement.value;
             scene.places[path]     = statement.place;
             if (path != statement.path)

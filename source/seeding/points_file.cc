@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/algorithm/string.hpp>
 #include <boost/serialization/array.hpp>
 
 #include <algorithm>
@@ -51,13 +52,59 @@ namespace Morula
     /** The header line and its meaning. */
     struct Header
     {
-      std::uint64_t             line       = 0; // its number, from 1
-      std::uint64_t             data_begin = 0; // byte after it
-      std::uint64_t             file_size  = 0;
-      std::vector<unsigned int> columns; // see read_columns()
-      LineProblem               problem;
+      std::uint64_t            line       = 0; // its number, from 1
+      std::uint64_t            data_begin = 0; // byte after it
+      std::uint64_t            file_size  = 0;
+      PointsFormat             format;
+      std::vector<std::string> further; // header lines below the first one
+      LineProblem              problem;
     };
 
+    /** Whether lines end with a carriage return alone, in the file's beginning.
+     */
+    char
+    find_line_end(const std::string &beginning)
+    {
+      const auto end = beginning.find_first_of("\r\n");
+      return end == std::string::npos || end + 1 >= beginning.size() ||
+                 beginning[end] == '\n' || beginning[end + 1] == '\n' ?
+               '\n' :
+               '\r';
+    }
+
+    /** Why a file that begins so is no text; empty if it is one. */
+    std::string
+    why_no_text(const std::string &beginning)
+    {
+      for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"})
+        if (boost::starts_with(beginning, mark))
+          return "It is written in UTF-16: save it as CSV in UTF-8.";
+      if (boost::starts_with(beginning, "PK\x03\x04"))
+        return "It is a spreadsheet or an archive: export the table as CSV.";
+      if (std::any_of(beginning.begin(), beginning.end(), [](const char c) {
+            return static_cast<unsigned char>(c) < 0x20 &&
+                   std::string("\t\n\v\f\r").find(c) == std::string::npos;
+          }))
+        return "It holds bytes that no text has, as a file in UTF-16 or a "
+               "compressed one does: save it as CSV in UTF-8.";
+      return "";
+    }
+
+    /** The beginning of a file, as far as its kind shows there. */
+    std::string
+    beginning_of(std::ifstream &stream)
+    {
+      std::string text(std::size_t(1) << 16, ' ');
+      stream.seekg(0);
+      stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+      text.resize(static_cast<std::size_t>(stream.gcount()));
+      stream.clear();
+      stream.seekg(0);
+      return text;
+    }
+
+    /** Reads until below the header: the line with names, and further ones of
+     *  words. */
     template <int dim>
     Header
     read_header(std::ifstream &stream)
@@ -66,24 +113,50 @@ namespace Morula
       stream.seekg(0, std::ios::end);
       header.file_size =
         static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
-      stream.seekg(0);
-      for (std::string text; std::getline(stream, text);)
+      const std::string beginning = beginning_of(stream);
+      if (const std::string why = why_no_text(beginning); !why.empty())
         {
-          ++header.line;
-          header.data_begin += text.size() + 1;
-          if (header.line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0)
-            text.erase(0, 3); // the byte order mark that spreadsheets write
-          if (is_blank_or_comment(text))
-            continue;
-          header.columns = read_columns<dim>(text, header.problem);
-          if (!header.problem.allowed.empty())
-            header.problem.line = header.line;
+          header.problem = {1, "", "a table as text", why};
           return header;
         }
-      header.problem = {std::max<std::uint64_t>(header.line, 1),
-                        "",
-                        "a header line and one line per cell",
-                        "The file is empty: give another one."};
+      const char line_end = find_line_end(beginning);
+      bool       found    = false;
+      for (std::string text; std::getline(stream, text, line_end);)
+        {
+          if (header.line == 0 && text.rfind("\xEF\xBB\xBF", 0) == 0)
+            {
+              text.erase(0, 3); // the byte order mark that spreadsheets write
+              header.data_begin += 3;
+            }
+          const bool skipped =
+            is_blank_or_comment(text) ||
+            // by this line a spreadsheet is told the separator
+            (!found && boost::istarts_with(text, "sep="));
+          if (found && !skipped)
+            {
+              if (!is_further_header(text, header.format, header.problem))
+                break;
+              header.further.push_back(text);
+            }
+          ++header.line;
+          header.data_begin += text.size() + 1;
+          if (!found && !skipped)
+            {
+              found                  = true;
+              header.format          = read_columns<dim>(text, header.problem);
+              header.format.line_end = line_end;
+            }
+          if (!header.problem.allowed.empty())
+            {
+              header.problem.line = header.line;
+              return header;
+            }
+        }
+      if (!found)
+        header.problem = {std::max<std::uint64_t>(header.line, 1),
+                          "",
+                          "a header line and one line per cell",
+                          "The file is empty: give another one."};
       return header;
     }
 
@@ -108,17 +181,18 @@ namespace Morula
       std::string         text;
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(at - 1));
+      const char line_end = header.format.line_end;
       // skips the rest of the line before, at least its end
-      if (!std::getline(stream, text))
+      if (!std::getline(stream, text, line_end))
         return rows;
       at += text.size();
       while (at < end && rows.problem.line == LineProblem::no_line &&
-             std::getline(stream, text))
+             std::getline(stream, text, line_end))
         {
           at += text.size() + 1;
           ++rows.n_lines;
           if (!is_blank_or_comment(text))
-            read_row(text, header.columns, default_volume, types, rows);
+            read_row(text, header.format, default_volume, types, rows);
         }
       return rows;
     }
@@ -138,6 +212,24 @@ namespace Morula
         MPI_Exscan(&mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
       AssertThrowMPI(error);
       return Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : below;
+    }
+
+    /** Refuses the cells of several moments, which stand among each other. */
+    template <int dim>
+    void
+    check_moment(const PointsFileRows<dim> &rows,
+                 const std::string         &file,
+                 const MPI_Comm             comm)
+    {
+      const double first = Utilities::MPI::min(rows.first_time, comm);
+      const double last  = Utilities::MPI::max(rows.last_time, comm);
+      if (first < last)
+        throw InputError(TissueKeys::points_file,
+                         file,
+                         "the cells of one moment",
+                         "The column 'frame', 't' or 'time' goes from " +
+                           as_text(first) + " to " + as_text(last) +
+                           ": keep the rows of one moment.");
     }
 
     /** Cells nearer than this fraction of their length coincide. Division could
@@ -279,6 +371,7 @@ namespace Morula
     throw_first(rows.problem, file, comm);
     const std::uint64_t n_mine = rows.positions.size();
     const std::uint64_t n      = Utilities::MPI::sum(n_mine, comm);
+    check_moment(rows, file, comm);
     throw_first(find_row_beyond_limits(rows, limits), file, comm);
     throw_first(find_outlier(rows, limits.extent, n, comm), file, comm);
     if (limits.check_memory && n > 0)
@@ -303,6 +396,35 @@ namespace Morula
     return founders;
   }
 
+  template <int dim>
+  void
+  review_points_file(const std::string &file, Review &review)
+  {
+    std::ifstream stream(file, std::ios::binary);
+    const Header  header = read_header<dim>(stream);
+    if (!header.format.skipped.empty())
+      review.warn(TissueKeys::points_file,
+                  file,
+                  "its columns '" + boost::join(header.format.skipped, "', '") +
+                    "' say nothing about cells here and are skipped.",
+                  "Columns that count are x, y, z, volume, generation, phase "
+                  "and type: correct the name of one that is misspelt.");
+    if (!header.further.empty())
+      review.warn(TissueKeys::points_file,
+                  file,
+                  "its line '" + boost::trim_copy(header.further.back()) +
+                    "' is taken for a line of the header, and skipped" +
+                    (header.further.size() == 1 ?
+                       "." :
+                       ", as " + std::to_string(header.further.size() - 1) +
+                         " before it."),
+                  "If it is a cell, correct its coordinates.");
+  }
+
+  template void
+  review_points_file<2>(const std::string &, Review &);
+  template void
+  review_points_file<3>(const std::string &, Review &);
   template Founders<2>
   read_points<2>(const std::string &,
                  const double,

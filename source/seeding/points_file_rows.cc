@@ -3,7 +3,7 @@
 
 #include <morula/seeding/points_file_rows.h>
 
-#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@ namespace Morula
   {
     /** The columns of a points file; their places are their meanings. */
     constexpr unsigned int volume = 3, generation = 4, phase = 5, type = 6,
-                           n_meanings                      = 7;
-    const std::array<std::string, n_meanings> column_names = {
+                           moment = 7, skipped = 8, n_meanings = skipped;
+    const std::array<std::string, moment> column_names = {
       {"x", "y", "z", "volume", "generation", "phase", "type"}};
 
     /** Longest line, in characters. A few numbers and their names are far
@@ -36,23 +36,46 @@ namespace Morula
                text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
     }
 
+    /** The entries of a line. A separator within quotes belongs to a text. */
     std::vector<std::string>
-    fields(const std::string &line)
+    fields(const std::string &line, const char separator)
     {
-      std::vector<std::string> result;
-      std::size_t              begin = 0;
-      for (std::size_t comma; begin != std::string::npos;
-           begin = comma == std::string::npos ? comma : comma + 1)
+      std::vector<std::string> result(1);
+      bool                     quoted = false;
+      for (const char c : separator == ' ' ? trimmed(line) : line)
         {
-          comma = line.find(',', begin);
-          result.push_back(trimmed(line.substr(begin, comma - begin)));
+          quoted = quoted != (c == '"');
+          if (quoted || c != separator)
+            result.back() += c;
+          else if (separator != ' ' || !result.back().empty())
+            result.emplace_back();
         }
+      for (std::string &entry : result)
+        entry = trimmed(entry);
       return result;
+    }
+
+    std::string
+    name_of(const char separator)
+    {
+      switch (separator)
+        {
+          case ' ':
+            return "blanks";
+          case ',':
+            return "commas";
+          case ';':
+            return "semicolons";
+          default:
+            return "tabs";
+        }
     }
 
     std::optional<double>
     number(const std::string &text)
     {
+      if (text.empty())
+        return {};
       double            value = 0.;
       const char *const end   = text.data() + text.size();
       const auto [rest, error] =
@@ -119,80 +142,232 @@ namespace Morula
                         "(never divides)",
                         "Correct it; M, 3, is no phase that lasts."};
     }
+    /** The rest of @p name and the unit in brackets behind it, if any. */
+    std::pair<std::string, std::string>
+    split_unit(const std::string &name)
+    {
+      const auto open = name.find_first_of("([");
+      if (open == std::string::npos ||
+          name.find_last_of(")]") != name.size() - 1)
+        return {name, ""};
+      return {trimmed(name.substr(0, open)),
+              trimmed(name.substr(open + 1, name.size() - open - 2))};
+    }
+
+    /** Whether a unit is another one than µm, µm^2 or µm^3: it may be written
+     *  in many ways. */
+    bool
+    is_other_unit(const std::string &unit)
+    {
+      // two signs of Unicode look like the Greek letter
+      const std::array<std::string, 4> known = {
+        {"um", "micro", "\xC2\xB5m", "\xCE\xBCm"}};
+      return !unit.empty() &&
+             std::none_of(known.begin(), known.end(), [&](const auto &begin) {
+               return boost::algorithm::istarts_with(unit, begin);
+             });
+    }
+
+    /** What is said of a column of coordinates in another unit. */
+    void
+    set_unit_problem(const std::string &text,
+                     const std::string &unit,
+                     LineProblem       &problem)
+    {
+      problem.value   = text;
+      problem.allowed = "coordinates in um, volumes in um^3 (2-D: um^2)";
+      problem.remedy  = "The file says '" + unit +
+                       "': convert the columns to um, and correct the unit.";
+    }
+
+    /** The meaning of a column by its name. */
+    unsigned int
+    meaning_of(const std::string &title)
+    {
+      std::string name =
+        boost::algorithm::to_lower_copy(split_unit(title).first);
+      if (boost::algorithm::starts_with(name, "position"))
+        name = boost::algorithm::trim_left_copy_if(
+          name.substr(8), boost::algorithm::is_any_of("_-. "));
+      if (name == "frame" || name == "t" || name == "time")
+        return moment;
+      const auto place =
+        std::find(column_names.begin(), column_names.end(), name);
+      return place == column_names.end() ? skipped :
+                                           place - column_names.begin();
+    }
+
+    /** The columns, if entries are separated by @p separator, and how many
+     *  coordinates are among them. */
+    std::pair<std::vector<unsigned int>, unsigned int>
+    columns_with(const std::string &text, const char separator)
+    {
+      std::vector<unsigned int>            columns;
+      std::array<unsigned int, n_meanings> found{};
+      for (const std::string &title : fields(text, separator))
+        {
+          columns.push_back(meaning_of(title));
+          if (columns.back() < n_meanings)
+            ++found[columns.back()];
+        }
+      return {columns, (found[0] > 0) + (found[1] > 0) + (found[2] > 0)};
+    }
+
+    /** The separator by which most coordinates are found, and then most
+     *  columns. */
+    char
+    find_separator(const std::string &text)
+    {
+      char                                 best = ',';
+      std::pair<unsigned int, std::size_t> most = {0, 0};
+      for (const char separator : {',', ';', '\t', ' '})
+        {
+          const auto [columns, coordinates] = columns_with(text, separator);
+          const std::pair<unsigned int, std::size_t> has = {coordinates,
+                                                            columns.size()};
+          if (has > most)
+            {
+              most = has;
+              best = separator;
+            }
+        }
+      return best;
+    }
+
+    /** What is wrong with a header line, in words; empty if nothing is. */
+    template <int dim>
+    std::string
+    header_fault(const std::vector<std::string>  &titles,
+                 const std::vector<unsigned int> &columns)
+    {
+      if (std::all_of(titles.begin(), titles.end(), [](const auto &title) {
+            return number(title).has_value();
+          }))
+        return "This line has numbers only, so that the file seems to have no "
+               "header: write one in front, such as 'x,y,z'.";
+      std::string missing;
+      for (unsigned int meaning = 0; meaning < moment; ++meaning)
+        {
+          const auto n = std::count(columns.begin(), columns.end(), meaning);
+          if (n > 1)
+            return "There are " + std::to_string(n) + " columns '" +
+                   column_names[meaning] + "': rename or drop all but one.";
+          if (n == 0 && meaning < dim)
+            missing +=
+              (missing.empty() ? "'" : ", '") + column_names[meaning] + "'";
+        }
+      return missing.empty() ? "" :
+                               "There is no column " + missing +
+                                 ": rename those that hold the coordinates.";
+    }
   } // namespace
 
   bool
   is_blank_or_comment(const std::string &line)
   {
-    const std::string text = trimmed(line);
-    return text.empty() || text[0] == '#';
+    const auto first = line.find_first_not_of(" \t\r\",;");
+    return first == std::string::npos || line[first] == '#';
   }
 
   template <int dim>
-  std::vector<unsigned int>
+  PointsFormat
   read_columns(const std::string &text, LineProblem &problem)
   {
-    std::vector<unsigned int>            columns;
-    const auto                          &names = column_names;
-    std::array<unsigned int, n_meanings> found{};
-    bool                                 known = true;
-    for (std::string name : text.size() > longest_line ?
-                              std::vector<std::string>{""} :
-                              fields(text))
+    PointsFormat      format;
+    const std::string line = text.substr(0, longest_line);
+    format.separator       = find_separator(line);
+    format.columns         = columns_with(line, format.separator).first;
+    const auto titles      = fields(line, format.separator);
+    const auto fault       = text.size() > longest_line ?
+                               "This line is too long for a header." :
+                               header_fault<dim>(titles, format.columns);
+    if (!fault.empty())
       {
-        std::transform(name.begin(),
-                       name.end(),
-                       name.begin(),
-                       [](const char c) {
-                         return static_cast<char>(
-                           std::tolower(static_cast<unsigned char>(c)));
-                       });
-        const auto column = static_cast<unsigned int>(
-          std::find(names.begin(), names.end(), name) - names.begin());
-        columns.push_back(column);
-        known = known && column < names.size() && ++found[column] == 1;
-      }
-    if (!known || found[0] == 0 || found[1] == 0 || (dim == 3 && found[2] == 0))
-      {
-        problem.value = trimmed(text.substr(0, longest_line));
+        problem.value = trimmed(line);
         problem.allowed =
           dim == 3 ?
             "a header line that names the columns x, y, z and, if there, "
             "volume, generation, phase and type, each once" :
             "a header line that names the columns x, y and, if there, z, "
             "volume, generation, phase and type, each once";
-        problem.remedy = "Name the columns in the file's first line.";
+        problem.remedy = fault;
+        return format;
       }
-    return columns;
+    for (std::size_t i = 0; i < titles.size(); ++i)
+      if (format.columns[i] >= moment)
+        format.skipped.push_back(titles[i].empty() ? "(no name)" : titles[i]);
+      else if (const auto unit = split_unit(titles[i]).second;
+               format.columns[i] <= volume && is_other_unit(unit))
+        set_unit_problem(titles[i], unit, problem);
+    return format;
+  }
+
+  bool
+  is_further_header(const std::string  &text,
+                    const PointsFormat &format,
+                    LineProblem        &problem)
+  {
+    const auto entries = fields(text, format.separator);
+    if (entries.size() != format.columns.size())
+      return false;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (format.columns[i] < volume &&
+          (entries[i].empty() ||
+           entries[i].find_first_of("0123456789") != std::string::npos ||
+           boost::algorithm::istarts_with(entries[i], "nan") ||
+           boost::algorithm::ifind_first(entries[i], "inf")))
+        return false;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (const auto unit = split_unit(entries[i]).second;
+          format.columns[i] <= volume && is_other_unit(unit))
+        set_unit_problem(entries[i], unit, problem);
+    return true;
   }
 
   template <int dim>
   void
-  read_row(const std::string               &text,
-           const std::vector<unsigned int> &columns,
-           const double                     default_volume,
-           const std::vector<std::string>  &types,
-           PointsFileRows<dim>             &rows)
+  read_row(const std::string              &text,
+           const PointsFormat             &format,
+           const double                    default_volume,
+           const std::vector<std::string> &types,
+           PointsFileRows<dim>            &rows)
   {
-    const bool                     too_long = text.size() > longest_line;
-    const std::vector<std::string> entries =
-      too_long ? std::vector<std::string>() : fields(text);
-    if (entries.size() != columns.size())
+    const auto              &columns = format.columns;
+    std::vector<std::string> entries =
+      fields(text.substr(0, longest_line), format.separator);
+    // spreadsheets fill rows up to the width of the sheet
+    while (entries.size() > columns.size() && entries.back().empty())
+      entries.pop_back();
+    if (text.size() > longest_line || entries.size() != columns.size())
       {
-        rows.problem = {rows.n_lines,
-                        trimmed(text.substr(0, longest_line)),
-                        std::to_string(columns.size()) +
-                          " numbers separated by commas, as in the header",
-                        "Correct the line."};
+        rows.problem = {
+          rows.n_lines,
+          trimmed(text.substr(0, longest_line)),
+          std::to_string(columns.size()) + " entries separated by " +
+            name_of(format.separator) + ", as in the header",
+          "This line has " + std::to_string(entries.size()) +
+            ": complete it, or drop the columns that it lacks. Numbers have "
+            "decimal points, not commas."};
         return;
       }
     std::array<double, n_meanings> values = {
-      {0., 0., 0., default_volume, 0., 0., 0.}};
+      {0., 0., 0., default_volume, 0., 0., 0., 0.}};
     for (unsigned int i = 0; i < entries.size(); ++i)
       {
+        if (columns[i] == skipped)
+          continue;
         const std::optional<double> value = columns[i] == type ?
                                               type_number(entries[i], types) :
                                               number(entries[i]);
+        if (columns[i] == moment)
+          {
+            if (value)
+              {
+                rows.first_time = std::min(rows.first_time, *value);
+                rows.last_time  = std::max(rows.last_time, *value);
+              }
+            continue;
+          }
         if (!value && columns[i] == type)
           {
             rows.problem = {rows.n_lines,
@@ -207,7 +382,10 @@ namespace Morula
                             entries[i],
                             "a finite number with a decimal point, in um "
                             "(volumes: um^3, 2-D: um^2)",
-                            "Correct the line."};
+                            entries[i].find(',') != std::string::npos ?
+                              "Write decimal points instead of decimal "
+                              "commas." :
+                              "Correct the line."};
             return;
           }
         values[columns[i]] = *value;
@@ -240,19 +418,19 @@ namespace Morula
   }
 
 
-  template std::vector<unsigned int>
+  template PointsFormat
   read_columns<2>(const std::string &, LineProblem &);
-  template std::vector<unsigned int>
+  template PointsFormat
   read_columns<3>(const std::string &, LineProblem &);
   template void
   read_row<2>(const std::string &,
-              const std::vector<unsigned int> &,
+              const PointsFormat &,
               const double,
               const std::vector<std::string> &,
               PointsFileRows<2> &);
   template void
   read_row<3>(const std::string &,
-              const std::vector<unsigned int> &,
+              const PointsFormat &,
               const double,
               const std::vector<std::string> &,
               PointsFileRows<3> &);

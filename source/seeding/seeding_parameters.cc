@@ -278,6 +278,12 @@ namespace Morula
     if (shape == "sphere" && !(inner_radius >= 0. && inner_radius < radius))
       inner_radius.refuse("a length >= 0 um and less than " + radius.path(),
                           "The tissue is what lies between the two.");
+    // below, the volume of the cavity would be lost in rounding
+    if (shape == "sphere" && inner_radius > 0. &&
+        inner_radius < 1e-3 * cell_spacing)
+      inner_radius.refuse("0 for no cavity, or a length in um of at least 1e-3 "
+                          "of Tissue/Cell spacing",
+                          "No cell could notice such a cavity.");
     if (has_size(dim - 1))
       check_vector(size, dim);
     for (unsigned int d = 0; d < dim; ++d)

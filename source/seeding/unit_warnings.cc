@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/surface_mesh.h>
+#include <morula/seeding/points_file.h>
 #include <morula/seeding/unit_warnings.h>
 
 #include <deal.II/base/mpi.h>
@@ -134,6 +136,8 @@ namespace Morula
                const MPI_Comm             comm,
                Review                    &review)
   {
+    if (tissue.is_points())
+      review_points_file<dim>(tissue.points_file, review);
     if (tissue.is_points() && founders.n_global > 1)
       {
         const double ratio = median_distance(founders, comm);
@@ -163,6 +167,7 @@ namespace Morula
       }
     if (tissue.is_mesh())
       {
+        review_mesh(TissueKeys::surface_mesh, tissue.surface_mesh, review);
         const double extent =
           longest_extent(founders, tissue.cell_spacing, comm);
         if (extent < fewest_cells * tissue.cell_spacing)

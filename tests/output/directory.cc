@@ -62,6 +62,7 @@ TEST(Directory, LosesTheOldRunAndNothingElse)
                                       "surface-0001.vtu",
                                       "surface-0001.csv",
                                       "condition.csv",
+                                      "events.csv",
                                       "lineage.csv",
                                       "statistics.csv",
                                       "timings.csv",

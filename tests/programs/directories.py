@@ -232,6 +232,22 @@ class Directories(ProgramTest):
                          r" the file '.*/cells-0000\.csv(\.tmp)?': No such file")
         self.assertFalse(self.output.exists())
 
+    def test_colon(self):
+        """MPI-IO takes what stands before a colon for a file system."""
+        place = ("-s", f"Output directory={self.work / 'run-12:30'}")
+        for ranks in (1, 2):
+            self.execute(SCENE, *SHORT, *place, "--replace", ranks=ranks)
+            self.assertTrue((self.work / "run-12:30/snapshot.h5").exists())
+        self.execute(SCENE, *overrides({"Time/End time": 0.5}), *place,
+                     "--resume")
+
+    def test_events_of_an_old_run(self):
+        """A new run keeps no table that its own scene does not write."""
+        self.execute(SCENE, *SHORT)
+        (self.output / "events.csv").write_text("time,cell,event\n")
+        self.execute(SCENE, *SHORT)
+        self.assertFalse((self.output / "events.csv").exists())
+
     def test_either_resume_or_replace(self):
         result = self.execute(SCENE, "--resume", "--replace", code=1)
         self.assertIn("leave one of the two out", result.stderr)

@@ -69,3 +69,23 @@ TEST(ScenePlaces, AreThoseOfValuesRefusedLater)
   EXPECT_EQ(scene.located("Time/End time = '1'"), "Time/End time = '1'");
   EXPECT_EQ(scene.located("no message"), "no message");
 }
+
+
+TEST(ScenePlaces, OfKeysThatAreSetTwice)
+{
+  const std::string grid = "subsection Grid\n  set Spacing = 40\nend\n";
+  EXPECT_TRUE(
+    read(grid, {"Grid/Spacing=30", "Grid/Spacing=20"}).renamed.empty());
+
+  const Scene twice = read(grid + "subsection Grid\n  set Spacing = 30\nend\n");
+  ASSERT_EQ(twice.renamed.size(), 1u);
+  for (const std::string part :
+       {".prm:5: the key 'Grid/Spacing' is set to '30'",
+        ".prm:2: it was set to '40'"})
+    EXPECT_NE(twice.renamed[0].find(part), std::string::npos) << part;
+
+  // Who includes a file may set its keys anew, but not before it.
+  const TemporaryFile base(".prm", grid);
+  EXPECT_TRUE(read("include " + base.path + "\n" + grid).renamed.empty());
+  EXPECT_EQ(read(grid + "include " + base.path + "\n").renamed.size(), 1u);
+}

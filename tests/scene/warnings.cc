@@ -386,6 +386,13 @@ TEST(SceneWarnings, OfIntervalsBelowTheStep)
   scene.output.interval = 0.5;
   expect_warning(scene,
                  {"Output/Interval = '0.5 day'", "Time/Step = 1 day", "Raise"});
+  scene.output.interval = 2.5;
+  expect_warning(scene,
+                 {"Output/Interval = '2.5 day'",
+                  "it is no multiple of Time/Step = 1 day",
+                  "t = 3, 5, 8 day"});
+  scene.output.interval = 3.;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
   scene.output.interval          = 0.;
   scene.output.snapshot_interval = 0.9;
   expect_warning(scene, {"Output/Snapshot interval = '0.9 day'"});

@@ -177,9 +177,92 @@ TEST(PointsFile, RefusesWrongHeaders)
   EXPECT_TRUE(contains(refusal<3>("1,2,3\n4,5,6\n"), "line 1"));
   EXPECT_TRUE(contains(refusal<3>("# no z\nx,y\n1,2\n"), "line 2"));
   EXPECT_TRUE(contains(refusal<3>("x,y,z,x\n1,2,3,4\n"), "line 1"));
-  EXPECT_TRUE(contains(refusal<3>("x,y,z,radius\n1,2,3,4\n"), "radius"));
   EXPECT_TRUE(contains(refusal<3>("x,y,z\n\n# nothing\n"), "1 to 4e9"));
   EXPECT_TRUE(contains(refusal<3>("x,y,z"), "1 to 4e9"));
+}
+
+TEST(PointsFile, SeparatorsAndLineEnds)
+{
+  const Rows expected = {{1., 2., 3., 4.}, {-5.5, 60., 7., 8.}};
+  for (const std::string separator : {",", ";", "\t", " ", "  ", " ; "})
+    for (const std::string end : {"\n", "\r\n", "\r"})
+      for (const std::string mark : {"", "\xEF\xBB\xBF"})
+        {
+          std::string content = mark;
+          for (const std::vector<std::string> &row :
+               std::vector<std::vector<std::string>>{
+                 {"x", "y", "z", "volume"},
+                 {"1", "2", "3", "4"},
+                 {"-5.5", "6e1", "+7", "8"}})
+            content += row[0] + separator + row[1] + separator + row[2] +
+                       separator + row[3] + end;
+          EXPECT_EQ(read_and_gather<3>(content), expected) << content;
+        }
+  // as spreadsheets write a table in a wider sheet
+  EXPECT_EQ(read_and_gather<3>("sep=;\nx;y;z\n1;2;3;;\n;;;;\n"),
+            (Rows{{1., 2., 3., 1000.}}));
+}
+
+TEST(PointsFile, SkipsWhatItDoesNotKnow)
+{
+  const std::string content = ",name,x,y,z,radius,volume\n"
+                              "0,\"a, b\",1,2,3,6.2,4\n"
+                              "1,,5,6,7,none,8\n";
+  EXPECT_EQ(read_and_gather<3>(content),
+            (Rows{{1., 2., 3., 4.}, {5., 6., 7., 8.}}));
+  const TemporaryFile file(".csv", content);
+  Review              review;
+  review_points_file<3>(file.path, review);
+  ASSERT_EQ(review.warnings.size(), 1u);
+  EXPECT_TRUE(contains(review.warnings[0], "'(no name)', 'name', 'radius'"));
+
+  const TemporaryFile plain(".csv", "x,y,z\n1,2,3\n");
+  review.warnings.clear();
+  review_points_file<3>(plain.path, review);
+  EXPECT_TRUE(review.warnings.empty());
+}
+
+TEST(PointsFile, TablesOfTrackers)
+{
+  const std::string header  = "LABEL,POSITION_X,POSITION_Y,POSITION_Z,FRAME\n"
+                              "Label,X,Y,Z,Frame\n";
+  const std::string content = header + ",(micron),(micron),(micron),\n"
+                                       "cell 1,1,2,3,7\n"
+                                       "cell 2,31,2,3,7\n";
+  EXPECT_EQ(read_and_gather<3>(content),
+            (Rows{{1., 2., 3., 1000.}, {31., 2., 3., 1000.}}));
+  const TemporaryFile file(".csv", content);
+  Review              review;
+  review_points_file<3>(file.path, review);
+  ASSERT_EQ(review.warnings.size(), 2u);
+  EXPECT_TRUE(contains(review.warnings[1], "',(micron),(micron),(micron),'"));
+  EXPECT_TRUE(contains(review.warnings[1], "as 1 before it"));
+
+  EXPECT_TRUE(
+    contains(refusal<3>(content + "cell 1,1,2,4,8\n"), "goes from 7 to 8"));
+  EXPECT_TRUE(
+    contains(refusal<3>(header + ",(pixel),(pixel),(pixel),\n1,1,2,3,7\n"),
+             "says 'pixel'"));
+  EXPECT_EQ(read_and_gather<3>("x (um),y [\xC2\xB5m],Z (micron)\n1,2,3\n"),
+            (Rows{{1., 2., 3., 1000.}}));
+  EXPECT_TRUE(contains(refusal<3>("x (nm),y (nm),z (nm)\n1,2,3\n"), "'nm'"));
+}
+
+TEST(PointsFile, SaysWhyAHeaderIsWrong)
+{
+  EXPECT_TRUE(contains(refusal<3>("1;2;3\n4;5;6\n"), "numbers only"));
+  EXPECT_TRUE(contains(refusal<3>("x,y,w\n1,2,3\n"), "no column 'z'"));
+  EXPECT_TRUE(contains(refusal<3>("x,y,z,X\n1,2,3,4\n"), "2 columns 'x'"));
+  EXPECT_TRUE(
+    contains(refusal<3>("x,y,z,type,volume\n1,2,3,a\n"), "This line has 4"));
+  EXPECT_TRUE(contains(refusal<3>("x;y;z\n1,5;2;3\n"), "decimal points"));
+  EXPECT_TRUE(contains(refusal<3>("x,y,z\n1,5,2,5,3,5\n"), "decimal points"));
+  EXPECT_TRUE(
+    contains(refusal<3>(std::string("\xFF\xFEx\0,\0y\0", 8)), "UTF-16"));
+  EXPECT_TRUE(
+    contains(refusal<3>(std::string("\xFE\xFF\0x\0,\0y", 8)), "UTF-16"));
+  EXPECT_TRUE(contains(refusal<3>(std::string("x\0,\0y\0", 6)), "UTF-16"));
+  EXPECT_TRUE(contains(refusal<3>("PK\x03\x04 sheet"), "spreadsheet"));
 }
 
 TEST(PointsFile, NamesTheFirstBadLine)

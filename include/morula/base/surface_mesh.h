@@ -4,6 +4,8 @@
 #ifndef morula_base_surface_mesh_h
 #define morula_base_surface_mesh_h
 
+#include <morula/base/review.h>
+
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -48,8 +50,10 @@ namespace Morula
   public:
     /**
      * Reads STL, OFF, PLY or OBJ (by the file's ending), in µm. Coinciding
-     * vertices are merged, and polygons are cut into triangles. Triangles are
-     * turned outward; those of a cavity are turned towards the cavity.
+     * vertices are merged, if the surface is open otherwise also those that
+     * differ by rounding to single precision, and polygons are cut into
+     * triangles. Triangles are turned outward; those of a cavity are turned
+     * towards the cavity.
      * @param key  path of the key that names the file
      * @throws InputError if the file cannot be read or is cut off, or if the
      * surface is empty, open or non-manifold, has a triangle without area, or
@@ -79,6 +83,12 @@ namespace Morula
     std::unique_ptr<Implementation> implementation;
     std::vector<SurfaceTriangle>    all_triangles;
   };
+
+  /** Warns of vertices of a good mesh that were merged though they differ.
+   * Reads the file.
+   *  @param key path of the key that names the file */
+  void
+  review_mesh(const std::string &key, const std::string &name, Review &review);
 } // namespace Morula
 
 #endif

@@ -7,6 +7,7 @@
 #include <hdf5.h>
 #include <mpi.h>
 
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -97,6 +98,12 @@ namespace Morula
         return H5T_NATIVE_ULLONG;
       }
   }
+
+  /** The name by which MPI-IO opens the file @p path. It takes what stands
+   *  before a colon for the kind of a file system, unless that is said first.
+   */
+  std::string
+  name_for_mpi(const std::string &path);
 } // namespace Morula
 
 #endif

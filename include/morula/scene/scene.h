@@ -80,7 +80,8 @@ namespace Morula
     /** Whether the run may delete any run that it finds in its directory. */
     bool replace = false;
 
-    /** What to say about keys that were written by a former name. */
+    /** What to say about keys that were written by a former name, or set twice.
+     */
     std::vector<std::string> renamed;
 
     /** The growth law of all types of cells that grow; "none" if there is none.

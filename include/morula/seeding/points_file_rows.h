@@ -38,6 +38,10 @@ namespace Morula
     std::vector<double> volumes;
     /** Empty if the file has no such columns. */
     std::vector<unsigned int> generations, phases, types;
+    /** The first and last moment that a column "frame" or "t" names, in its
+     *  own unit; first > last without such a column. */
+    double first_time = std::numeric_limits<double>::infinity();
+    double last_time  = -std::numeric_limits<double>::infinity();
     /** The lines on which the rows stand. */
     std::vector<std::uint64_t> lines;
     /** Number of lines read, including those without a row. */
@@ -46,18 +50,44 @@ namespace Morula
     LineProblem problem;
   };
 
-  /** Whether a line is blank or begins with #. Such lines are skipped. */
+  /** How the rows of a points file are written, as its header line says. */
+  struct PointsFormat
+  {
+    /** Old programs end lines with a carriage return alone. */
+    char line_end = '\n';
+    /** Between the entries of a row; a blank stands for any number of them. */
+    char separator = ',';
+    /** The meaning of each column: 0, 1, 2 are x, y, z, 3 the volume, 4 the
+     *  generation, 5 the phase, 6 the type, 7 the moment; 8 is skipped. */
+    std::vector<unsigned int> columns;
+    /** Names of the columns whose entries are skipped. */
+    std::vector<std::string> skipped;
+  };
+
+  /** Whether a line is blank, has separators only, or begins with #. Such
+   *  lines are skipped. */
   bool
   is_blank_or_comment(const std::string &line);
 
   /**
-   * The meaning of each column that the header line @p text names: 0, 1, 2 for
-   * x, y, z, 3 for the volume, 4 for the generation, 5 for the phase, 6 for the
-   * type. If the names are wrong, sets @p problem, except its line.
+   * What the header line @p text names, with the separator that makes most
+   * sense of it. Names of trackers ("POSITION_X") and a unit after a name
+   * ("x (um)") are understood. If the header is wrong, sets @p problem, except
+   * its line.
    */
   template <int dim>
-  std::vector<unsigned int>
+  PointsFormat
   read_columns(const std::string &text, LineProblem &problem);
+
+  /**
+   * Whether the line @p text, below the header line, is a further one, of
+   * words: tables of trackers have such lines with long names and units. Sets
+   * @p problem if a coordinate is in another unit than µm.
+   */
+  bool
+  is_further_header(const std::string  &text,
+                    const PointsFormat &format,
+                    LineProblem        &problem);
 
   /**
    * Appends the row in the line @p text, whose number is rows.n_lines, or sets
@@ -67,11 +97,11 @@ namespace Morula
    */
   template <int dim>
   void
-  read_row(const std::string               &text,
-           const std::vector<unsigned int> &columns,
-           const double                     default_volume,
-           const std::vector<std::string>  &types,
-           PointsFileRows<dim>             &rows);
+  read_row(const std::string              &text,
+           const PointsFormat             &format,
+           const double                    default_volume,
+           const std::vector<std::string> &types,
+           PointsFileRows<dim>            &rows);
 } // namespace Morula
 
 #endif

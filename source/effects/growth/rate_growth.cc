@@ -246,6 +246,27 @@ namespace Morula
 
 
   template <int dim>
+  const Expression &
+  RateGrowth<dim>::cause_of_size(const GrowingCell<dim> &cell,
+                                 const double            t0,
+                                 const double            t1) const
+  {
+    if (!homeostasis || cell.present == nullptr)
+      return rate;
+    const double t   = (t0 + t1) / 2.;
+    const Rates  now = rates(*cell.present, t0, t1);
+    // a rate that is no number counts as the larger one
+    if (std::abs(now.of_rate.rate) >= std::abs(now.of_homeostasis.rate))
+      return rate;
+    const double of_target = dim * cell.present->value(*homeostasis, t) *
+                             cell.present->value(*homeostatic_stress, t);
+    return 2. * std::abs(of_target) < std::abs(now.of_homeostasis.rate) ?
+             *homeostasis :
+             *homeostatic_stress;
+  }
+
+
+  template <int dim>
   Tensor<2, dim>
   RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
                           const double            t0,
@@ -257,14 +278,17 @@ namespace Morula
       grown(cell.growth, rate_of_growth(cell, t0, t1), t1 - t0);
     const double ratio = determinant(F);
     if (!(ratio >= least_volume_ratio && std::isfinite(ratio)))
-      throw InputError(
-        rate.key(),
-        rate.text(),
-        "a rate that leaves cells between 1e-6 and 1e300 of their volume",
-        place_and_time_of(
-          "det F_g of this law", ratio, text_of(cell.founder_position), t1) +
-          "Let the rate end, e.g. by a factor of (growth > 0.1) for cells that "
-          "wither.");
+      {
+        const Expression &cause = cause_of_size(cell, t0, t1);
+        throw InputError(
+          cause.key(),
+          cause.text(),
+          "a rate that leaves cells between 1e-6 and 1e300 of their volume",
+          place_and_time_of(
+            "det F_g of this law", ratio, text_of(cell.founder_position), t1) +
+            "Let the rate end, e.g. by a factor of (growth > 0.1) for cells that "
+            "wither.");
+      }
     return F;
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/mechanics/equilibrium.h>
 
@@ -54,7 +55,9 @@ namespace Morula
                       keys.side == "inside",
                       make_body<dim>(keys),
                       keys.stiffness,
-                      velocity_of(keys, dim)});
+                      velocity_of(keys, dim),
+                      keys.surface_mesh.path(),
+                      keys.shape == "mesh" ? keys.surface_mesh.value() : ""});
   }
 
 
@@ -165,6 +168,16 @@ namespace Morula
                          "most half a grid spacing deep in at t = 0",
                          text.str());
       }
+  }
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::review(const Preview<dim> &, Review &review) const
+  {
+    for (const Obstacle &obstacle : list)
+      if (!obstacle.mesh.empty())
+        review_mesh(obstacle.mesh_key, obstacle.mesh, review);
   }
 
 

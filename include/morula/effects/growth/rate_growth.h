@@ -116,6 +116,13 @@ namespace Morula
                    const double            t0,
                    const double            t1) const;
 
+    /** The expression to blame for a cell that grows or withers beyond all
+     *  bounds: the one with the largest part in the rate of its volume. */
+    const Expression &
+    cause_of_size(const GrowingCell<dim> &cell,
+                  const double            t0,
+                  const double            t1) const;
+
     Expression                          rate;
     std::optional<Expression>           share;
     std::optional<DirectionOfCell<dim>> direction;

@@ -36,6 +36,8 @@ namespace Morula
     only_pushes() const override;
     void
     check(const Preview<dim> &scene) const override;
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     struct Obstacle
@@ -45,6 +47,8 @@ namespace Morula
       std::unique_ptr<const Body<dim>> body;
       double                           stiffness; // κ h / E
       Expression                       velocity;  // µm/day
+      std::string                      mesh_key;  // that names the mesh's file
+      std::string                      mesh;      // empty without one
 
       /** From t = 0 to @p t, µm. */
       Tensor<1, dim>

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/surface_mesh_soup.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/point.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <locale>
+#include <regex>
+
+namespace Morula::MeshFile
+{
+  using namespace dealii;
+  namespace Processing = CGAL::Polygon_mesh_processing;
+
+  namespace
+  {
+    /** The file's ending in small letters, with its point. */
+    std::string
+    ending_of(const NamedFile &file)
+    {
+      return boost::algorithm::to_lower_copy(
+        file.name.substr(std::min(file.name.rfind('.'), file.name.size())));
+    }
+
+    /** All bytes of a file; nothing of one that is not there. */
+    std::string
+    content_of(const NamedFile &file)
+    {
+      std::ifstream stream(file.name, std::ios::binary);
+      return {std::istreambuf_iterator<char>(stream),
+              std::istreambuf_iterator<char>()};
+    }
+
+    /** Whether @p word, a blank and something else stand in a line. */
+    bool
+    begins_with_word(const std::string &line, const std::string &word)
+    {
+      return line == word || boost::algorithm::starts_with(line, word + ' ');
+    }
+
+    /** Whether CGAL's reader of a format needs a line of a text. What is
+     *  dropped are remarks, and what an OBJ file says besides the surface. */
+    bool
+    is_needed(const std::string &line, const std::string &ending)
+    {
+      if (line.empty() || line[0] == '#')
+        return false;
+      if (ending == ".obj")
+        return begins_with_word(line, "v") || begins_with_word(line, "f");
+      return ending != ".ply" || !(begins_with_word(line, "comment") ||
+                                   begins_with_word(line, "obj_info"));
+    }
+
+    /**
+     * A text without what CGAL's readers stumble over: byte order mark, line
+     * ends with a carriage return, tabs, blanks around lines, blank lines,
+     * remarks, and letters of the wrong case. Names of solids go, since they
+     * may be words of the format.
+     */
+    std::string
+    plain_text(std::string text, const std::string &ending)
+    {
+      if (boost::algorithm::starts_with(text, "\xEF\xBB\xBF"))
+        text.erase(0, 3);
+      std::replace(text.begin(), text.end(), '\t', ' ');
+      boost::algorithm::replace_all(text, "\r\n", "\n");
+      std::replace(text.begin(), text.end(), '\r', '\n');
+      if (ending == ".obj")
+        boost::algorithm::replace_all(text, "\\\n", " ");
+      boost::algorithm::to_lower(text, std::locale::classic());
+
+      std::istringstream stream(text);
+      std::string        result;
+      for (std::string line; std::getline(stream, line);)
+        {
+          boost::algorithm::trim(line);
+          if (!is_needed(line, ending))
+            continue;
+          if (ending == ".off" && result.empty())
+            boost::algorithm::to_upper(line);
+          if (ending == ".stl" && line.find("outer loop") == std::string::npos)
+            for (const std::string word : {"solid", "endsolid"})
+              if (begins_with_word(line, word))
+                line = word;
+          result += line + '\n';
+        }
+      return result;
+    }
+
+    /** What a file holds, as CGAL's readers understand it. A binary file is
+     * left as it is, but for the header of a PLY file, which is text. */
+    std::string
+    readable(const std::string &content, const std::string &ending)
+    {
+      const std::string last = "end_header";
+      if (content.find('\0') == std::string::npos)
+        return plain_text(content, ending);
+      const auto begin = content.find(last);
+      if (ending != ".ply" || begin == std::string::npos)
+        return content;
+      const std::string header = content.substr(0, begin);
+      const std::size_t line_end =
+        header.find("\r\n") == std::string::npos ? 1 : 2;
+      return plain_text(header, ending) + last + '\n' +
+             content.substr(
+               std::min(begin + last.size() + line_end, content.size()));
+    }
+
+    /** Refuses what is no mesh at all, by what stands at its beginning. */
+    void
+    check_kind(const std::string &content, const NamedFile &file)
+    {
+      const auto begins = [&](const std::string &bytes) {
+        return boost::algorithm::starts_with(content, bytes);
+      };
+      if (content.find_first_not_of(" \t\r\n") == std::string::npos)
+        refuse(file, "The file is empty: copy or export it again.");
+      if (begins("\xFF\xFE") || begins("\xFE\xFF"))
+        refuse(file, "The file is written in UTF-16: save it in UTF-8.");
+      if (begins("\x1F\x8B") || begins("PK\x03\x04"))
+        refuse(file, "The file is compressed: unpack it first.");
+      if (begins("version https://git-lfs"))
+        refuse(file,
+               "The file only says where Git LFS keeps the mesh: fetch it with "
+               "'git lfs pull'.");
+    }
+
+    /** Refuses an STL file that ends before its last triangle. */
+    void
+    check_complete(const std::string &text, const NamedFile &file)
+    {
+      if (text.find('\0') == std::string::npos)
+        {
+          if (text.find("facet") == std::string::npos)
+            refuse(file,
+                   "The file is a text without the word 'facet', and begins "
+                   "with '" +
+                     text.substr(0,
+                                 std::min<std::size_t>(text.find('\n'), 40)) +
+                     "': it is no STL file.");
+          if (text.find("endsolid") == std::string::npos)
+            refuse(file,
+                   "The file is cut off: it has no 'endsolid'. Copy or export "
+                   "it again.");
+          return;
+        }
+      // 80 bytes of header, the number of triangles, 50 bytes each
+      std::uint32_t n = 0;
+      if (text.size() >= 84)
+        std::memcpy(&n, text.data() + 80, sizeof(n));
+      const std::size_t there = text.size() < 84 ? 0 : (text.size() - 84) / 50;
+      if (text.size() < 84 || there < n)
+        refuse(file,
+               "The file is cut off: it has " + std::to_string(there) +
+                 " whole triangles" +
+                 (text.size() < 84 ?
+                    "" :
+                    ", and says that it has " + std::to_string(n)) +
+                 ". Copy or export it again.");
+    }
+
+    /** Lets CGAL's reader of the format @p ending append to @p soup.
+     *  @returns whether it could */
+    bool
+    read_polygons(const std::string &text,
+                  const std::string &ending,
+                  Soup              &soup)
+    {
+      std::istringstream stream(text, std::ios::in | std::ios::binary);
+      if (ending == ".stl" || ending == ".ply")
+        CGAL::IO::set_mode(stream, CGAL::IO::BINARY);
+      if (ending == ".stl")
+        return CGAL::IO::read_STL(stream, soup.points, soup.polygons);
+      if (ending == ".ply")
+        return CGAL::IO::read_PLY(stream, soup.points, soup.polygons);
+      if (ending == ".obj")
+        return CGAL::IO::read_OBJ(stream, soup.points, soup.polygons);
+      return ending == ".off" &&
+             CGAL::IO::read_OFF(stream, soup.points, soup.polygons);
+    }
+
+    /** Refuses coordinates that are no numbers, or so large that areas and
+     *  volumes would overflow. */
+    void
+    check_finite(const Soup &soup, const NamedFile &file)
+    {
+      for (std::size_t i = 0; i < soup.points.size(); ++i)
+        {
+          const Kernel::Point_3 &p = soup.points[i];
+          const double           largest =
+            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+          if (std::isnan(p.x() + p.y() + p.z()) || !(largest < 1e100))
+            refuse(file,
+                   "Vertex " + std::to_string(i) + " (counted from 0) is at " +
+                     place(p) + " um: export the surface again, in um.");
+        }
+    }
+
+    /**
+     * Merges vertices that differ by rounding only. Most files have been
+     * through single precision, in which a vertex that was computed in two ways
+     * differs by some 1e-7 of its coordinates; the digits that others write are
+     * as many or more. No cell is as small. A vertex goes to the first one in
+     * the file that it is near to, so that the result does not depend on the
+     * order of a search.
+     * @returns how many vertices have gone
+     */
+    std::size_t
+    merge_vertices(Soup &soup)
+    {
+      std::vector<Point<3>> points;
+      double                largest = 0.;
+      for (const Kernel::Point_3 &p : soup.points)
+        {
+          points.emplace_back(p.x(), p.y(), p.z());
+          for (unsigned int d = 0; d < 3; ++d)
+            largest = std::max(largest, std::abs(points.back()[d]));
+        }
+      const double near = 4. * std::numeric_limits<float>::epsilon() * largest;
+
+      const auto               tree = pack_rtree_of_indices(points);
+      std::vector<std::size_t> first(points.size());
+      std::size_t              n_merged = 0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          BoundingBox<3> around({points[i], points[i]});
+          around.extend(near);
+          first[i] = i;
+          for (const auto k :
+               tree | boost::geometry::index::adaptors::queried(
+                        boost::geometry::index::intersects(around)))
+            if (k < first[i] && first[k] == k)
+              first[i] = k;
+          n_merged += first[i] != i;
+        }
+      for (std::vector<std::size_t> &polygon : soup.polygons)
+        for (std::size_t &vertex : polygon)
+          vertex = first[vertex];
+      return n_merged;
+    }
+  } // namespace
+
+  [[noreturn]] void
+  refuse(const NamedFile &file, const std::string &remedy)
+  {
+    throw InputError(file.key,
+                     file.name,
+                     "a closed surface that does not intersect itself, as an "
+                     "STL, OFF, PLY or OBJ file",
+                     remedy);
+  }
+
+  Edges
+  edges_of(const Soup &soup)
+  {
+    Edges edges;
+    for (const std::vector<std::size_t> &polygon : soup.polygons)
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        ++edges[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
+    return edges;
+  }
+
+  Soup
+  read_soup(const NamedFile &file)
+  {
+    const std::string ending = ending_of(file), content = content_of(file);
+    if (std::ifstream(file.name))
+      check_kind(content, file);
+    Soup soup;
+    bool good = false;
+    if (!content.empty())
+      {
+        const std::string text = readable(content, ending);
+        if (ending == ".stl")
+          check_complete(text, file);
+        try
+          {
+            good = read_polygons(text, ending, soup);
+          }
+        catch (const std::exception &)
+          {
+            // a file that it could not parse is reported below
+          }
+      }
+    static const std::regex decimal_comma("[0-9],[0-9]");
+    if (!good && content.find('\0') == std::string::npos &&
+        std::regex_search(content, decimal_comma))
+      refuse(file,
+             "The file cannot be read: its numbers have commas. Write decimal "
+             "points, and blanks between numbers.");
+    if (!good)
+      refuse(file,
+             "The file cannot be read: check that it exists, that its name "
+             "ends with .stl, .off, .ply or .obj, that it is whole, and that "
+             "it holds numbers only.");
+    for (const std::vector<std::size_t> &polygon : soup.polygons)
+      for (const std::size_t vertex : polygon)
+        if (vertex >= soup.points.size())
+          refuse(file,
+                 "The file cannot be read: a polygon names a vertex that is "
+                 "none of the " +
+                   std::to_string(soup.points.size()) + " there.");
+    check_finite(soup, file);
+    Processing::repair_polygon_soup(soup.points, soup.polygons);
+    if (soup.polygons.empty())
+      refuse(file, "The file has no polygons: export the surface again.");
+    const Edges edges = edges_of(soup);
+    // A closed surface stays as it is.
+    if (std::any_of(edges.begin(), edges.end(), [](const auto &edge) {
+          return edge.second < 2;
+        }))
+      {
+        soup.n_merged = merge_vertices(soup);
+        if (soup.n_merged > 0)
+          Processing::repair_polygon_soup(soup.points, soup.polygons);
+      }
+    return soup;
+  }
+} // namespace Morula::MeshFile

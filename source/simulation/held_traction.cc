@@ -18,8 +18,10 @@ namespace Morula
 {
   namespace
   {
-    /** Change of the traction, relative to it, that needs no further turn. */
-    constexpr double tolerance = 0.01;
+    /** Change of the traction, relative to it, that needs no further turn; and
+     *  in units of Solver/Newton tolerance, so that who asks for more gets it.
+     */
+    constexpr double largest_change = 0.01, largest_in_tolerances = 1e4;
 
     /** The largest change of the traction in a turn, relative to it: where a
      *  load jumps, the stress of squeezed cells at the edge of a clamp tells
@@ -198,7 +200,9 @@ namespace Morula
     const double before = change;
     change =
       std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
-    if (!(change > tolerance))
+    if (change <=
+        std::min(largest_change,
+                 largest_in_tolerances * model.scene.solver.newton_tolerance))
       return false;
     // What is not settled is balanced all the same, with a gap that the step's
     // check of gaps judges.

@@ -18,7 +18,8 @@ namespace Morula
    * The traction of this rank's fixed and slip points from the stress of the
    * cells around them, doc/theory.md (4.6b), and what else of these cells their
    * term needs. It is constant while an equilibrium is found and taken anew
-   * there, until it changes by less than one per cent, or does not settle. Then
+   * there, until it changes by less than one per cent (or ten thousand
+   * times Solver/Newton tolerance, if that is less), or does not settle. Then
    * tissue is crushed at an edge, and stays as far from where it is held as the
    * last traction lets it. Keeps references to all that it is given.
    */

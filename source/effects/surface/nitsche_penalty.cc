@@ -9,14 +9,11 @@ namespace Morula
 {
   namespace
   {
-    /** Least penalty that keeps Nitsche's symmetric form definite, in units of
-     *  (λ + 2μ)/h, and what is added for squeezed tissue, in units of the
-     *  stiffness beyond that at rest by h: doc/theory.md (4.6). */
+    /** Least penalty of the forms with an energy, in units of (λ + 2μ)/h, and
+     *  what is added for squeezed tissue, in units of the stiffness beyond that
+     *  at rest by h: doc/theory.md (4.6). Less leaves the symmetric form
+     *  indefinite; in the bounded one evenly squeezed tissue becomes uneven. */
     constexpr double least_penalty = 20., squeezed_penalty = 100.;
-
-    /** What lets the turns of the bounded form contract, in the same units: for
-     *  all tissue, squeezed or not. */
-    constexpr double least_of_turns = 10.;
 
     NitscheForm
     form_called(const std::string &name)
@@ -32,10 +29,8 @@ namespace Morula
     : penalty("Boundary conditions/Nitsche penalty",
               20.,
               "Penalty of fixed and slip points; > 0. "
-              "The symmetric form uses at least " +
-                as_text(least_penalty) +
-                " (lambda + 2 mu)/h, the bounded one " +
-                as_text(least_of_turns) + ". Units: E/h.")
+              "The symmetric and the bounded form use at least " +
+                as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.")
     , form(
         "Boundary conditions/Nitsche form",
         "bounded",
@@ -108,14 +103,14 @@ namespace Morula
                           const double           h) const
   {
     const double at_rest = lame.lambda + 2. * lame.mu;
-    const double more    = std::max(0., stiffness - at_rest);
-    if (form_ == NitscheForm::bounded)
-      return std::max(relative * E, least_of_turns * (at_rest + more)) / h;
-    if (volumetric_form != VolumetricStrain::pointwise)
+    if (form_ != NitscheForm::bounded &&
+        volumetric_form != VolumetricStrain::pointwise)
       return relative * at_rest / h;
-    const double least = form_ == NitscheForm::symmetric ?
-                           least_penalty * at_rest + squeezed_penalty * more :
-                           0.;
+    const double least =
+      form_ == NitscheForm::unsymmetric ?
+        0. :
+        least_penalty * at_rest +
+          squeezed_penalty * std::max(0., stiffness - at_rest);
     return std::max(relative * E, least) / h;
   }
 

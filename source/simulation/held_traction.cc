@@ -23,9 +23,9 @@ namespace Morula
      */
     constexpr double largest_change = 0.01, largest_in_tolerances = 1e4;
 
-    /** The largest change of the traction in a turn, relative to it: where a
-     *  load jumps, the stress of squeezed cells at the edge of a clamp tells
-     * far too much of the traction that will be needed. */
+    /** The largest part of the traction that a turn may change, if it may not
+     *  change all: where a load jumps, the stress of squeezed cells at the edge
+     * of a clamp tells far too much of the traction that will be needed. */
     constexpr double largest_step = 0.3;
 
     /** After so many turns a change of more than this part of the one before
@@ -78,12 +78,14 @@ namespace Morula
                                   const Tissue<dim>            &tissue,
                                   const SplineSpace<dim>       &space,
                                   const DevelopmentOfStep<dim> &growth,
-                                  const double typical_stiffness)
+                                  const double typical_stiffness,
+                                  const bool   in_parts)
     : model(model)
     , tissue(tissue)
     , space(space)
     , growth(growth)
     , typical_stiffness(typical_stiffness)
+    , in_parts(in_parts)
     , surroundings(held_places(tissue, space), tissue)
   {
     const std::vector<unsigned int> points = held_groups(tissue, space).points;
@@ -206,10 +208,10 @@ namespace Morula
       return false;
     // What is not settled is balanced all the same, with a gap that the step's
     // check of gaps judges.
-    if (++n_turns >= patient_turns && change > settling * before)
+    if (in_parts && ++n_turns >= patient_turns && change > settling * before)
       return false;
     // In its place, as the term keeps a reference.
-    const double part = std::min(1., largest_step / change);
+    const double part = in_parts ? std::min(1., largest_step / change) : 1.;
     for (std::size_t k = 0; k < held.size(); ++k)
       T[k] += part * (now[k] - T[k]);
     return true;

@@ -89,7 +89,12 @@ namespace Morula
       {
         const TimerOutput::Scope section(timer, "nitsche");
         everywhere(comm, [&]() {
-          traction.emplace(model, tissue, space, attempt.growth, stiffness);
+          traction.emplace(model,
+                           tissue,
+                           space,
+                           attempt.growth,
+                           stiffness,
+                           !attempt.halve_first);
         });
       }
     const TermList list =

@@ -19,20 +19,25 @@ namespace Morula
    * cells around them, doc/theory.md (4.6b), and what else of these cells their
    * term needs. It is constant while an equilibrium is found and taken anew
    * there, until it changes by less than one per cent (or ten thousand
-   * times Solver/Newton tolerance, if that is less), or does not settle. Then
-   * tissue is crushed at an edge, and stays as far from where it is held as the
-   * last traction lets it. Keeps references to all that it is given.
+   * times Solver/Newton tolerance, if that is less). Where it is changed in
+   * parts it need not settle: then tissue is crushed at an edge, and stays as
+   * far from where it is held as the last traction lets it, which the step's
+   * check of gaps judges. Keeps references to all that it is given.
    */
   template <int dim>
   class HeldTraction : public TurnParticipant
   {
   public:
-    /** That of the state at t. @param typical_stiffness kPa. Collective. */
+    /** That of the state at t. Collective.
+     *  @param typical_stiffness kPa
+     *  @param in_parts whether a turn may change the traction by a part of what
+     *         the cells say only, as where a load jumps */
     HeldTraction(const TissueModel<dim>       &model,
                  const Tissue<dim>            &tissue,
                  const SplineSpace<dim>       &space,
                  const DevelopmentOfStep<dim> &growth,
-                 const double                  typical_stiffness);
+                 const double                  typical_stiffness,
+                 const bool                    in_parts);
 
     /** M T per area of the configuration at t, kPa, by held_groups(). Stays
      *  where it is as long as this object. */
@@ -70,6 +75,7 @@ namespace Morula
     const SplineSpace<dim>       &space;
     const DevelopmentOfStep<dim> &growth;
     const double                  typical_stiffness;
+    const bool                    in_parts;
     std::vector<Held>             held;
     const Surroundings<dim>       surroundings;
     std::vector<Tensor<1, dim>>   T;

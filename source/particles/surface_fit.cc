@@ -13,10 +13,31 @@ namespace Morula
 {
   namespace
   {
+    /** The largest distance from these points to the cells nearest to them, µm.
+     *  Collective. */
+    template <int dim>
+    double
+    largest_distance_of(const std::vector<Point<dim>> &points,
+                        const Tissue<dim>             &tissue)
+    {
+      const Cells<dim> &cells   = tissue.cells();
+      const auto        nearest = nearest_values(
+        points,
+        cells,
+        [&cells](const unsigned int p) { return cells.position(p); },
+        Ties::lowest_id,
+        tissue.grid());
+      double largest = 0.;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        largest = std::max(largest, points[k].distance(nearest[k]));
+      return Utilities::MPI::max(largest, tissue.communicator());
+    }
+
     /**
      * The largest distance from a boundary point to its nearest cell, µm. Only
-     * the points that have no cell within some distance are asked for theirs;
-     * this distance is halved until there are any.
+     * the points that have no cell of their rank within some distance are asked
+     * for theirs; this distance is halved until one of them is as far away. All
+     * others are nearer then, whatever the ranks. Collective.
      */
     template <int dim>
     double
@@ -24,29 +45,18 @@ namespace Morula
     {
       const std::vector<Point<dim>> points =
         tissue.boundary_points().positions();
-      const double              h = tissue.grid().box().spacing();
-      std::vector<unsigned int> far;
-      double                    near = 0.5 * h;
+      const double h       = tissue.grid().box().spacing();
+      double       near    = 0.5 * h;
+      double       largest = 0.;
       do
         {
           near = near > h / 64. ? 0.5 * near : 0.; // then these are all points
-          far  = points_without_cell(points, tissue, near);
-      } while (near > 0. && !Utilities::MPI::logical_or(!far.empty(),
-                                                        tissue.communicator()));
-      std::vector<Point<dim>> queries;
-      for (const unsigned int p : far)
-        queries.push_back(points[p]);
-      const Cells<dim> &cells   = tissue.cells();
-      const auto        nearest = nearest_values(
-        queries,
-        cells,
-        [&cells](const unsigned int p) { return cells.position(p); },
-        Ties::lowest_id,
-        tissue.grid());
-      double largest = 0.;
-      for (std::size_t k = 0; k < queries.size(); ++k)
-        largest = std::max(largest, queries[k].distance(nearest[k]));
-      return Utilities::MPI::max(largest, tissue.communicator());
+          std::vector<Point<dim>> far;
+          for (const unsigned int p : points_without_cell(points, tissue, near))
+            far.push_back(points[p]);
+          largest = largest_distance_of(far, tissue);
+      } while (near > 0. && largest < near);
+      return largest;
     }
   } // namespace
 

@@ -101,7 +101,7 @@ namespace Morula
     state.next_id    = data.number("next_id");
     state.n_steps    = data.number("steps");
     state.n_rejected = data.number("rejected_steps");
-    if (has_boundary_ids)
+    if (has_boundary_ids && data.numbers.count("next_boundary_id") > 0)
       state.next_boundary_id = data.number("next_boundary_id");
     if (has_lumen)
       state.lumen = LumenMemory{data.number("lumen_at_start"),

@@ -136,7 +136,8 @@ namespace Morula
     return snapshot_of(tissue,
                        time_steps.state(),
                        run_state,
-                       model.scene.tissue.refine_surface);
+                       model.scene.tissue.refine_surface ||
+                         model.scene.material.relaxes());
   }
 
   template class Simulation<2>;

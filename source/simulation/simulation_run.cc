@@ -88,7 +88,8 @@ namespace Morula
                   tissue.boundary_points().columns(),
                   comm);
     run_state = saved_run_state(*resumed_from,
-                                model.scene.tissue.refine_surface,
+                                model.scene.tissue.refine_surface ||
+                                  model.scene.material.relaxes(),
                                 model.boundary_conditions.lumen() != nullptr);
     time_steps.restore(saved_time_steps(*resumed_from));
     restore_tissue(*resumed_from, tissue);

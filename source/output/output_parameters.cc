@@ -94,7 +94,8 @@ namespace Morula
                       "steps.",
                     "Raise it to the step, or shorten the step.");
     const double steps = interval / step;
-    if (steps > 1. && std::abs(steps - std::round(steps)) > 1e-9 * steps)
+    if (review.has_set(interval) && steps > 1. &&
+        std::abs(steps - std::round(steps)) > 1e-9 * steps)
       {
         std::string times;
         for (unsigned int n = 1; n <= 3; ++n)

@@ -42,6 +42,9 @@ WARNED["showcase/cortex.prm"] = ["Grid/Spacing"]
 WARNED["showcase/spheroid.prm"] = ["Time/Step"]
 WARNED["examples/turnover.prm"] = ["Time/Step"]
 
+# Its states follow its days, not its steps.
+WARNED["showcase/organoid.prm"] = ["Output/Interval"]
+
 # Only its own program knows its growth law: tests/steps runs it.
 OTHERS = {"step-7.prm"}
 

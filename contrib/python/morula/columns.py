@@ -13,7 +13,8 @@ STATISTICS = {
     "max_energy_density": STRESS, "min_elastic_volume_ratio": NUMBER,
     "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER,
     "held_at_checkpoint": NUMBER, "xmin": LENGTH, "xmax": LENGTH,
-    "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH, "zmax": LENGTH}
+    "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH, "zmax": LENGTH,
+    "surface_distance": LENGTH, "enclosed_volume": VOLUME}
 
 
 

@@ -86,6 +86,17 @@ class Folds(ProgramTest):
         self.assertIn("a lumen whose volume is given", text)
         self.assertIn("founders grow unequally", text)
 
+    def test_a_patch_between_walls(self):
+        """Held points are squeezed where a layer folds at its walls: the energy
+        stays that of an elastic body, and no step is halved."""
+        self.execute(HARD / "folding-patch.prm", *overrides(
+            {"Tissue/Size": "60, 60, 80", "Tissue/Cell spacing": "7.5",
+             "Grid/Spacing": "22", "Time/End time": "0.5",
+             "Boundary conditions/Slip where":
+                 "abs(X) > 29.9 || abs(Y) > 29.9"}))
+        self.assertEqual(self.rows()["rejected_steps"].sum(), 0)
+        self.assertGreater(self.rows("newton")["energy"].min(), 0)
+
 
 if __name__ == "__main__":
     main()

@@ -53,6 +53,7 @@ namespace Morula
     /** How often each edge belongs to a polygon; 2 if the surface is closed. */
     using Edges = std::map<std::pair<std::size_t, std::size_t>, unsigned int>;
 
+    /** Counts the edges of all polygons. */
     Edges
     edges_of(const Soup &soup);
 

@@ -25,6 +25,7 @@ namespace Morula
   class ConvergenceTest : public NOX::StatusTest::Generic
   {
   public:
+    /** Where the method ends. */
     struct Bounds
     {
       double       residual;     // kPa µm^(dim-1)

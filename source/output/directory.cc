@@ -54,7 +54,7 @@ namespace Morula
     {
       static const std::regex pattern(
         "(?:parameters\\.prm|log\\.txt|(?:cells|surface)\\.pvd|"
-        "(?:condition|events|lineage|statistics|timings)\\.csv|"
+        "(?:condition|events|lineage|newton|statistics|timings)\\.csv|"
         "snapshot\\.h5)(?:\\.tmp)?");
       return series_number(name) >= 0 || std::regex_match(name, pattern);
     }

@@ -307,6 +307,8 @@ namespace Morula
                     const PointsFormat &format,
                     LineProblem        &problem)
   {
+    if (text.size() > longest_line)
+      return false;
     const auto entries = fields(text, format.separator);
     if (entries.size() != format.columns.size())
       return false;

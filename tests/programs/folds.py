@@ -1,54 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Loads that jump, rings that fold: equilibria that halved steps do not find."""
+"""Rings and layers that fold: equilibria that halved steps do not find."""
 import numpy
 
 from program import TESTS, ProgramTest, main, overrides, read_csv
 
 HARD = TESTS.parent / "prm/hard"
-JUMP = HARD / "jumping-pressure.prm"
 RING = HARD / "folding-ring.prm"
 
 
 class Folds(ProgramTest):
     def rows(self, name="statistics"):
         return read_csv(self.work / f"output/{name}.csv")
-
-    def test_a_pressure_that_jumps(self):
-        """It is found along a proximal path, once, and the run says so."""
-        text = self.execute(JUMP).stdout
-        rows = self.rows()
-        self.assertEqual(rows["proximal_paths"].sum(), 1)
-        self.assertEqual(text.count("Newton's method alone did not find"), 1)
-        trace = self.rows("newton")
-        path = trace[trace["proximity"] > 0]
-        self.assertEqual(len(set(path["step"])), 1)
-        # The last solve of that step has no friction any more.
-        step = trace[trace["step"] == path["step"][0]]
-        self.assertEqual(step["proximity"][-1], 0)
-        # With a ramp no path is needed.
-        self.execute(JUMP, "--replace", *overrides(
-            {"Boundary conditions/Pressure": "1.5*ramp(t, 0.2, 0.8)"}))
-        self.assertEqual(self.rows()["proximal_paths"].sum(), 0)
-
-    def test_the_same_on_ranks_and_resumed(self):
-        """Nothing of the path outlives its step."""
-        keys = overrides({"Output/Formats": "csv", "Output/Interval": "0"})
-        cells = []
-        for name, ranks, ends in (("one", 1, ["1"]), ("two", 2, ["1"]),
-                                  ("resumed", 1, ["0.4", "1"])):
-            output = self.work / name
-            for i, end in enumerate(ends):
-                self.execute(JUMP, *keys, *overrides({"Time/End time": end}),
-                             *(["--resume"] if i else []), ranks=ranks,
-                             output=output)
-            cells.append(read_csv(sorted(output.glob("cells-*.csv"))[-1]))
-        for other, tolerance in zip(cells[1:], (1e-3, 0)):
-            self.assertEqual(list(other["id"]), list(cells[0]["id"]))
-            for axis in "xy":
-                difference = numpy.abs(other[axis] - cells[0][axis]).max()
-                self.assertLessEqual(difference, tolerance)
 
     def test_a_ring_folds(self):
         """Without friction it takes two lobes, with friction more, wherever the

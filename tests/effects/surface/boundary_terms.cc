@@ -46,13 +46,6 @@ namespace
     TractionParameters traction;
     PressureParameters pressure;
     NitscheParameters  nitsche;
-
-    /** The paper's form. */
-    Given()
-    {
-      nitsche.form    = "symmetric";
-      nitsche.penalty = 1e3;
-    }
   };
 
   template <int dim>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace Morula
 {
@@ -26,6 +27,8 @@ namespace Morula
     /** unless one of the last so many has failed: the longer one would fail,
      *  too, and failures cost most. */
     constexpr unsigned int parts_after_failure = 4;
+    /** A path of more parts does not come to an end. */
+    constexpr unsigned int most_parts = 200;
     /** Iterations of a path in those of Solver/Newton iterations. */
     constexpr unsigned int budget = 2;
   } // namespace
@@ -134,7 +137,11 @@ namespace Morula
     unsigned int        wait = 0; // parts until c may fall again
     const unsigned int  most =
       report.newton_iterations + budget * parameters.newton_iterations;
-    while (true)
+    std::string reason = "it does not come to an end";
+    for (unsigned int n_parts = 0;
+         n_parts < most_parts && report.newton_iterations <= most &&
+         c <= most_proximity;
+         ++n_parts)
       try
         {
           const unsigned int before = report.newton_iterations;
@@ -142,13 +149,11 @@ namespace Morula
           report.place.proximity = c;
           const Equilibrium::Evaluation evaluation =
             solve(nearby, linear_problem, of_parts, limited, timer, u, report);
-          centre = u;
+          centre                 = u;
+          report.place.proximity = 0.;
           nearby.use_growth_at_end();
           if (c == 0.)
-            {
-              report.place.proximity = 0.;
-              return evaluation;
-            }
+            return evaluation;
           if (wait > 0)
             --wait;
           else if (report.newton_iterations - before <= few_iterations)
@@ -158,15 +163,12 @@ namespace Morula
         }
       catch (const StepFailed &failure)
         {
-          c    = c == 0. ? 4. * least_proximity : 4. * c;
-          wait = parts_after_failure;
-          if (c > most_proximity || report.newton_iterations > most)
-            {
-              report.place.proximity = 0.;
-              throw StepFailed(failure.what() +
-                               std::string("; this was on a proximal path"));
-            }
-          u = centre;
+          reason                 = failure.what();
+          report.place.proximity = 0.;
+          c                      = c == 0. ? 4. * least_proximity : 4. * c;
+          wait                   = parts_after_failure;
+          u                      = centre;
         }
+    throw StepFailed(reason + "; this was on a proximal path");
   }
 } // namespace Morula

@@ -94,7 +94,7 @@ namespace Morula
                       "steps.",
                     "Raise it to the step, or shorten the step.");
     const double steps = interval / step;
-    if (review.has_set(interval) && steps > 1. &&
+    if ((review.has_set(interval) || !interval.is_default()) && steps > 1. &&
         std::abs(steps - std::round(steps)) > 1e-9 * steps)
       {
         std::string times;

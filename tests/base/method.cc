@@ -41,7 +41,7 @@ TEST(Method, PaperLeavesTheDefaults)
 TEST(Method, ConsistentSetsWhatTheSceneDoesNot)
 {
   const Scene scene = read(consistent);
-  EXPECT_EQ(scene.nitsche.form, "unsymmetric");
+  EXPECT_EQ(scene.nitsche.form, "bounded");
   EXPECT_EQ(scene.nitsche.penalty, 20.);
   // as a default does: the user has not written it
   EXPECT_EQ(scene.as_written.size(), 1u);
@@ -57,7 +57,7 @@ TEST(Method, GivesWayToTheSceneWhereverThatSetsAKey)
         read(penalty, {"Method=consistent"}),
         read(consistent, {"Boundary conditions/Nitsche penalty=77"})})
     {
-      EXPECT_EQ(scene.nitsche.form, "unsymmetric");
+      EXPECT_EQ(scene.nitsche.form, "bounded");
       EXPECT_EQ(scene.nitsche.penalty, 77.);
     }
 }
@@ -69,7 +69,7 @@ TEST(Method, IsThereAgainInTheParametersOfARun)
   const Scene again = read(scene.parameters());
   EXPECT_EQ(again.parameters(), scene.parameters());
   EXPECT_EQ(again.method, "consistent");
-  EXPECT_EQ(again.nitsche.form, "unsymmetric");
+  EXPECT_EQ(again.nitsche.form, "bounded");
   EXPECT_EQ(again.nitsche.penalty, 77.);
 
   // what a program has changed since the scene was read

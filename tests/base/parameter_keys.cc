@@ -25,7 +25,7 @@ TEST(ParameterKeys, KnowUnitsAndChoices)
   EXPECT_EQ(by_path.at("Body force/Force density")->unit(), "kPa/um");
   EXPECT_EQ(by_path.at("Material/Poisson's ratio")->unit(), "");
   EXPECT_EQ(by_path.at("Boundary conditions/Nitsche form")->choices(),
-            (Words{"symmetric", "unsymmetric"}));
+            (Words{"symmetric", "unsymmetric", "bounded"}));
   EXPECT_EQ(by_path.at("Output/Formats")->choices(),
             (Words{"vtu", "csv", "none"}));
   EXPECT_TRUE(by_path.at("Time/Step")->choices().empty());

@@ -18,6 +18,10 @@ namespace Morula
      *  for some iterations, and its lowest value still falls within ten. */
     constexpr int patience = 20;
 
+    /** A residual that is lower by less than this part is no progress: without
+     *  an energy it can creep down for ever towards a state that is none. */
+    constexpr double least_fall = 0.01;
+
     /** An iteration with a tangent of its own ends far below the bound of
      *  displacements, one with a kept tangent anywhere below: it has to reach
      *  this part of the bound. */
@@ -83,9 +87,12 @@ namespace Morula
     const double norm      = group.getNormF();
     const double energy    = group.evaluation().energy;
     const int    iteration = solver.getNumIterations();
-    if (norm < lowest_norm || (has_energy && energy < lowest_energy))
+    // Many small falls add up: the lowest residual stays until it is beaten.
+    const bool falls = norm < (1. - least_fall) * lowest_norm;
+    if (falls || (has_energy && energy < lowest_energy))
       progress_at = iteration;
-    lowest_norm   = std::min(lowest_norm, norm);
+    if (falls)
+      lowest_norm = norm;
     lowest_energy = std::min(lowest_energy, energy);
     has_risen     = has_risen || norm > last_norm;
     last_norm     = norm;

@@ -73,7 +73,8 @@ namespace Morula
     const bool      has_energy;
     NewtonReport   &report;
     double          last_norm     = std::numeric_limits<double>::infinity();
-    double          lowest_norm   = std::numeric_limits<double>::infinity();
+    double          lowest_norm   = // that counted as progress, N
+      std::numeric_limits<double>::infinity();
     double          lowest_energy = std::numeric_limits<double>::infinity();
     int             progress_at   = 0; // the iteration that brought the lowest
     bool            has_risen     = false; // the residual, in any iteration

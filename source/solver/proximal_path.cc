@@ -107,12 +107,12 @@ namespace Morula
 
   // Each part starts where the last one has ended, and is as long as Newton's
   // method can do it at ease: c falls after a part of few iterations, and rises
-  // where one fails, which is then tried again, and stays for some parts. A part
-  // that moves further than a grid spacing has failed, too: it may have left the
-  // way on which the tissue glides, for one that rounding decides. Once
-  // c is so small that it no longer counts, the equilibrium itself is solved
-  // for; where that fails, parts go on from there. The parts need not be solved
-  // more accurately than the step itself.
+  // where one fails, which is then tried again, and stays for some parts. A
+  // part that moves further than a grid spacing has failed, too: it may have
+  // left the way on which the tissue glides, for one that rounding decides.
+  // Once c is so small that it no longer counts, the equilibrium itself is
+  // solved for; where that fails, parts go on from there. The parts need not be
+  // solved more accurately than the step itself.
   Equilibrium::Evaluation
   follow_proximal_path(Equilibrium            &problem,
                        const LinearProblem    &linear_problem,
@@ -155,7 +155,7 @@ namespace Morula
           if (centre.linfty_norm() > scales.length)
             {
               centre += u;
-              throw StepFailed("it moves too far at once");
+              throw StepFailed("the tissue moves too far at once");
             }
           centre                 = u;
           report.place.proximity = 0.;

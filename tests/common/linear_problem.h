@@ -152,6 +152,32 @@ namespace Morula
 
     Matrix K;
   };
+
+
+  /** @p n unknowns, all alike and uncoupled. */
+  inline ChainProblem
+  alike(const unsigned int                   n,
+        const std::function<double(double)> &energy,
+        const std::function<double(double)> &force,
+        const std::function<double(double)> &stiffness)
+  {
+    ChainProblem problem(n);
+    problem.energy = [=](const std::vector<double> &u) {
+      double sum = 0.;
+      for (const double x : u)
+        sum += energy(x);
+      return sum;
+    };
+    problem.force = [=](const unsigned int i, const std::vector<double> &u) {
+      return force(u[i]);
+    };
+    problem.stiffness = [=](const unsigned int         i,
+                            const unsigned int         j,
+                            const std::vector<double> &u) {
+      return i == j ? stiffness(u[i]) : 0.;
+    };
+    return problem;
+  }
 } // namespace Morula
 
 #endif

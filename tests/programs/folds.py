@@ -1,10 +1,12 @@
 #!/usr/bin/python3
+# ranks: 2
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Rings and layers that fold: equilibria that halved steps do not find."""
 import numpy
 
-from program import TESTS, ProgramTest, main, overrides, read_csv
+from program import (TESTS, ProgramTest, main, overrides, read_csv,
+                     without_wall_time)
 
 HARD = TESTS.parent / "prm/hard"
 RING = HARD / "folding-ring.prm"
@@ -60,6 +62,38 @@ class Folds(ProgramTest):
                  "abs(X) > 29.9 || abs(Y) > 29.9"}))
         self.assertEqual(self.rows()["rejected_steps"].sum(), 0)
         self.assertGreater(self.rows("newton")["energy"].min(), 0)
+
+    def test_a_pressure_that_jumps(self):
+        """One proximal path finds the same state on any ranks, and after a run
+        was resumed."""
+        jump = HARD / "jumping-pressure.prm"
+        whole, resumed = self.work / "whole", self.work / "resumed"
+        self.execute(jump, output=whole)
+        rows = read_csv(whole / "statistics.csv")
+        self.assertEqual(rows["proximal_paths"].sum(), 1)
+        self.execute(jump, *overrides({"Time/End time": "0.4"}),
+                     output=resumed)
+        self.execute(jump, "--resume", output=resumed)
+        self.assertEqual(*[without_wall_time(run) for run in (whole, resumed)])
+        self.execute(jump, ranks=2)
+        for column in ("total_volume", "mean_energy_density", "ymax"):
+            numpy.testing.assert_allclose(
+                self.rows()[column][-1], rows[column][-1], rtol=1e-5)
+
+    def test_jumps_of_all_kinds(self):
+        """A traction, a clamp and growth that jump are found, too."""
+        base = {"Boundary conditions/Pressure where": "",
+                "Boundary conditions/Pressure": "0"}
+        for kind in (
+                {"Boundary conditions/Traction where": "Y > 49.9",
+                 "Boundary conditions/Traction": "0; -0.3*(t > 0.45)"},
+                {"Boundary conditions/Fixed where": "abs(Y) > 49.9",
+                 "Boundary conditions/Displacement":
+                 "0; -40*(t > 0.45)*(Y > 0)"},
+                {"Growth/Law": "isotropic",
+                 "Growth/Isotropic/Stretch": "1 + (t > 0.45)"}):
+            self.execute(HARD / "jumping-pressure.prm", "--replace",
+                         *overrides({**base, **kind}))
 
 
 if __name__ == "__main__":

@@ -99,30 +99,6 @@ namespace
     result.u = problem.gathered(u);
     return result;
   }
-
-  /** All unknowns alike and uncoupled. */
-  ChainProblem
-  alike(const std::function<double(double)> &energy,
-        const std::function<double(double)> &force,
-        const std::function<double(double)> &stiffness)
-  {
-    ChainProblem problem(n);
-    problem.energy = [=](const std::vector<double> &u) {
-      double sum = 0.;
-      for (const double x : u)
-        sum += energy(x);
-      return sum;
-    };
-    problem.force = [=](const unsigned int i, const std::vector<double> &u) {
-      return force(u[i]);
-    };
-    problem.stiffness = [=](const unsigned int         i,
-                            const unsigned int         j,
-                            const std::vector<double> &u) {
-      return i == j ? stiffness(u[i]) : 0.;
-    };
-    return problem;
-  }
 } // namespace
 
 
@@ -202,6 +178,7 @@ TEST(Newton, KeepsACostlyTangentWhileTheResidualFalls)
 TEST(Newton, KeepsNoTangentWhoseStepWasShortened)
 {
   ChainProblem problem = alike(
+    n,
     [](double u) {
       return u < 1. ? 0.5 * u * u - 0.8 * u :
                       std::numeric_limits<double>::infinity();
@@ -217,10 +194,12 @@ TEST(Newton, KeepsNoTangentWhoseStepWasShortened)
 // Too stiff a tangent: each iteration leaves 0.19 of the error.
 TEST(Newton, KeepsNoTangentInALongRow)
 {
-  ChainProblem problem = alike([](double u) { return 0.5 * u * u - u; },
-                               [](double u) { return u - 1.; },
-                               [](double) { return 1. / 0.81; });
-  const Result result  = solved(problem, 1e-12, "direct");
+  ChainProblem problem = alike(
+    n,
+    [](double u) { return 0.5 * u * u - u; },
+    [](double u) { return u - 1.; },
+    [](double) { return 1. / 0.81; });
+  const Result result = solved(problem, 1e-12, "direct");
   ASSERT_GT(result.report.newton_iterations, 12u);
   EXPECT_EQ(problem.tangents.size(), result.report.newton_iterations - 9);
 }
@@ -229,19 +208,22 @@ TEST(Newton, KeepsNoTangentInALongRow)
 TEST(Newton, DoesNothingAtEquilibrium)
 {
   {
-    ChainProblem problem = alike([](double u) { return 0.5 * u * u; },
-                                 [](double u) { return u; },
-                                 [](double) { return 1.; });
-    const Result result  = solved(problem, 1e-6);
+    ChainProblem problem = alike(
+      n,
+      [](double u) { return 0.5 * u * u; },
+      [](double u) { return u; },
+      [](double) { return 1.; });
+    const Result result = solved(problem, 1e-6);
     EXPECT_EQ(result.report.newton_iterations, 0u);
     EXPECT_EQ(result.report.residual, 0.);
   }
   {
     // Forces far below those that count in the scene.
-    ChainProblem problem =
-      alike([](double u) { return 0.5 * u * u - 1e-9 * u; },
-            [](double u) { return u - 1e-9; },
-            [](double) { return 1.; });
+    ChainProblem problem = alike(
+      n,
+      [](double u) { return 0.5 * u * u - 1e-9 * u; },
+      [](double u) { return u - 1e-9; },
+      [](double) { return 1.; });
     problem.scales.small_force = 1.;
     EXPECT_EQ(solved(problem, 1e-6).report.newton_iterations, 0u);
     problem.scales.small_force = 1e-9;
@@ -279,6 +261,7 @@ TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
 TEST(Newton, StepsBackFromInversion)
 {
   ChainProblem problem = alike(
+    n,
     [](double u) {
       return u < 1. ? -std::log(1. - u) - 20. * u :
                       std::numeric_limits<double>::infinity();
@@ -294,10 +277,11 @@ TEST(Newton, StepsBackFromInversion)
 // A double well, started on the hill between: the tangent is negative.
 TEST(Newton, GoesDownFromAHill)
 {
-  ChainProblem problem =
-    alike([](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
-          [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
-          [](double u) { return 12. * u * u - 4.; });
+  ChainProblem problem = alike(
+    n,
+    [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
+    [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
+    [](double u) { return 12. * u * u - 4.; });
   const Result result = solved(problem, 1e-10);
   // Where one was indefinite none is kept.
   EXPECT_EQ(problem.tangents.size(), result.report.newton_iterations);
@@ -312,21 +296,26 @@ TEST(Newton, GoesDownFromAHill)
 TEST(Newton, FailsWithoutASolution)
 {
   // The energy has no minimum.
-  ChainProblem endless = alike([](double u) { return -0.5 * u * u - u; },
-                               [](double u) { return -u - 1.; },
-                               [](double) { return -1.; });
+  ChainProblem endless = alike(
+    n,
+    [](double u) { return -0.5 * u * u - u; },
+    [](double u) { return -u - 1.; },
+    [](double) { return -1.; });
   EXPECT_THROW(solved(endless, 1e-6), StepFailed);
 
-  ChainProblem inverted =
-    alike([](double) { return std::numeric_limits<double>::infinity(); },
-          [](double) { return 1.; },
-          [](double) { return 1.; });
+  ChainProblem inverted = alike(
+    n,
+    [](double) { return std::numeric_limits<double>::infinity(); },
+    [](double) { return 1.; },
+    [](double) { return 1.; });
   EXPECT_THROW(solved(inverted, 1e-6), StepFailed);
 
   // Without energy: |R| has a minimum where R is not zero.
-  ChainProblem stuck     = alike([](double) { return 0.; },
-                             [](double u) { return u * u - u + 1.; },
-                             [](double u) { return 2. * u - 1.; });
+  ChainProblem stuck = alike(
+    n,
+    [](double) { return 0.; },
+    [](double u) { return u * u - u + 1.; },
+    [](double u) { return 2. * u - 1.; });
   stuck.linear.symmetric = false;
   EXPECT_THROW(solved(stuck, 1e-6), StepFailed);
 }
@@ -337,6 +326,7 @@ TEST(Newton, FailsWithoutASolution)
 TEST(Newton, EndsWithASearchThatFindsNothing)
 {
   ChainProblem problem = alike(
+    n,
     [](double u) {
       return u == 0. ? 0. : std::numeric_limits<double>::infinity();
     },
@@ -396,9 +386,11 @@ TEST(Newton, FailsWhereNoxGivesUp)
 // Downhill without end: the curvature is that of the diagonal itself.
 TEST(Newton, ReportsNegativeCurvature)
 {
-  ChainProblem        problem = alike([](double u) { return -std::exp(u); },
-                               [](double u) { return -std::exp(u); },
-                               [](double u) { return -std::exp(u); });
+  ChainProblem problem = alike(
+    n,
+    [](double u) { return -std::exp(u); },
+    [](double u) { return -std::exp(u); },
+    [](double u) { return -std::exp(u); });
   QuietTimer          timer;
   NewtonReport        report;
   Equilibrium::Vector u = problem.zero();

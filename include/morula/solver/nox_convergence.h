@@ -72,13 +72,13 @@ namespace Morula
     const Tangents &tangents;
     const bool      has_energy;
     NewtonReport   &report;
-    double          last_norm     = std::numeric_limits<double>::infinity();
-    double          lowest_norm   = // that counted as progress, N
+    double          last_norm   = std::numeric_limits<double>::infinity();
+    double          lowest_norm = // that counted as progress, N
       std::numeric_limits<double>::infinity();
-    double          lowest_energy = std::numeric_limits<double>::infinity();
-    int             progress_at   = 0; // the iteration that brought the lowest
-    bool            has_risen     = false; // the residual, in any iteration
-    std::string     reason = "no part of Newton's step has a lower energy";
+    double      lowest_energy = std::numeric_limits<double>::infinity();
+    int         progress_at   = 0;     // the iteration that brought the lowest
+    bool        has_risen     = false; // the residual, in any iteration
+    std::string reason        = "no part of Newton's step has a lower energy";
     NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
   };
 } // namespace Morula

@@ -1,0 +1,175 @@
+// ranks: 1 2
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+// When Newton's method goes on, when it ends, and what it notes down.
+#include <morula/solver/newton.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/linear_problem.h"
+
+using namespace Morula;
+
+namespace
+{
+  constexpr unsigned int n_unknowns = 12;
+
+  struct Outcome
+  {
+    std::vector<double> u;
+    NewtonReport        report;
+    std::string         failure; // empty where it has converged
+  };
+
+  Outcome
+  outcome(ChainProblem      &problem,
+          const double       tolerance,
+          const std::string &linear_solver = "automatic",
+          const unsigned int iterations = SolverParameters().newton_iterations)
+  {
+    problem.linear.costly = false;
+    QuietTimer       timer;
+    SolverParameters parameters;
+    parameters.newton_tolerance  = tolerance;
+    parameters.linear_solver     = linear_solver;
+    parameters.newton_iterations = iterations;
+    Equilibrium::Vector u        = problem.zero();
+    Outcome             result;
+    result.report.wants_trace = true;
+    try
+      {
+        solve(problem,
+              problem.linear,
+              problem.scales,
+              parameters,
+              timer,
+              u,
+              result.report);
+      }
+    catch (const StepFailed &failure)
+      {
+        result.failure = failure.what();
+      }
+    result.u = problem.gathered(u);
+    return result;
+  }
+} // namespace
+
+
+// Rosenbrock's valley in each pair of unknowns: a search that must lower the
+// energy in every iteration follows its bend in shorter steps.
+TEST(NewtonProgress, GoesOnAlongACurvedValley)
+{
+  ChainProblem     problem(n_unknowns);
+  constexpr double stiff = 1e4;
+  const auto pair = [](const unsigned int i, const std::vector<double> &u) {
+    return std::make_pair(u[i - i % 2] - 1.2, u[i - i % 2 + 1] + 1.);
+  };
+  problem.energy = [&](const std::vector<double> &u) {
+    double sum = 0.;
+    for (unsigned int i = 0; i < n_unknowns; i += 2)
+      {
+        const auto [x, y] = pair(i, u);
+        sum += stiff * std::pow(y - x * x, 2) + std::pow(1. - x, 2);
+      }
+    return sum;
+  };
+  problem.force = [&](const unsigned int i, const std::vector<double> &u) {
+    const auto [x, y]   = pair(i, u);
+    const double across = 2. * stiff * (y - x * x);
+    return i % 2 == 1 ? across : -2. * x * across - 2. * (1. - x);
+  };
+  problem.stiffness = [&](const unsigned int         i,
+                          const unsigned int         j,
+                          const std::vector<double> &u) {
+    const auto [x, y] = pair(i, u);
+    if (i / 2 != j / 2)
+      return 0.;
+    if (i != j)
+      return -4. * stiff * x;
+    return i % 2 == 1 ? 2. * stiff : 12. * stiff * x * x - 4. * stiff * y + 2.;
+  };
+  const Outcome result = outcome(problem, 1e-10, "direct");
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.report.newton_iterations, 30u);
+  EXPECT_LT(result.report.newton_iterations, 65u);
+  for (unsigned int i = 0; i < n_unknowns; ++i)
+    EXPECT_NEAR(result.u[i], i % 2 == 0 ? 2.2 : 0., 1e-8);
+}
+
+
+// The energy's rounding hides that nothing gets better.
+TEST(NewtonProgress, EndsWithoutIt)
+{
+  ChainProblem problem = alike(
+    n_unknowns,
+    [](double) { return 1e14; },
+    [](double) { return 1.; },
+    [](double) { return 1.; });
+  const Outcome result = outcome(problem, 1e-6);
+  EXPECT_NE(result.failure.find("20 iterations"), std::string::npos);
+  EXPECT_EQ(result.report.newton_iterations, 20u);
+}
+
+
+// Without an energy the residual falls for ever, by less than a hundredth in
+// twenty iterations.
+TEST(NewtonProgress, IsMoreThanAResidualThatCreeps)
+{
+  ChainProblem problem = alike(
+    n_unknowns,
+    [](double) { return 0.; },
+    [](double u) { return 1. + 1. / (1. + u); },
+    [](double) { return -3000.; });
+  problem.linear.symmetric = false;
+  const Outcome result     = outcome(problem, 1e-6);
+  EXPECT_NE(result.failure.find("20 iterations"), std::string::npos);
+  const auto &trace = result.report.trace;
+  ASSERT_EQ(trace.size(), 21u);
+  for (std::size_t k = 1; k < trace.size(); ++k)
+    EXPECT_LT(trace[k].residual, trace[k - 1].residual);
+}
+
+
+// The energy falls for ever.
+TEST(NewtonProgress, EndsAtTheLimitOfIterations)
+{
+  ChainProblem problem = alike(
+    n_unknowns,
+    [](double u) { return -u; },
+    [](double) { return -1.; },
+    [](double) { return 1.; });
+  const Outcome result = outcome(problem, 1e-6, "automatic", 37);
+  EXPECT_NE(result.failure.find("Solver/Newton iterations = 37"),
+            std::string::npos);
+  EXPECT_EQ(result.report.newton_iterations, 37u);
+}
+
+
+TEST(NewtonProgress, IsNotedDown)
+{
+  ChainProblem problem = alike(
+    n_unknowns,
+    [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
+    [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
+    [](double u) { return 12. * u * u - 4.; });
+  const Outcome result = outcome(problem, SolverParameters().newton_tolerance);
+  const auto   &trace  = result.report.trace;
+  ASSERT_EQ(trace.size(), result.report.newton_iterations + 1);
+  EXPECT_NEAR(trace[0].evaluation.energy, n_unknowns, 1e-12);
+  EXPECT_NEAR(trace[0].residual, 0.1 * std::sqrt(n_unknowns), 1e-12);
+  // On the hill all directions have the diagonal's own curvature.
+  EXPECT_NEAR(trace[1].curvature, -1., 1e-9);
+  EXPECT_GT(trace[1].motion, 0.);
+  for (std::size_t k = 1; k < trace.size(); ++k)
+    {
+      EXPECT_EQ(trace[k].iteration, k);
+      EXPECT_GT(trace[k].part, 0.);
+    }
+  EXPECT_EQ(trace.back().curvature, 0.);
+}

@@ -66,11 +66,11 @@ namespace Morula
 
   Scene::Scene(const Catalogue &catalogue)
     : method("Method",
-             "paper",
+             "consistent",
              "Defaults of the keys that say 'With Method'; those that "
-             "the scene sets keep their values. paper: the paper's. "
-             "consistent: much more exact beside the edge of a fixed "
-             "surface (doc/accuracy-and-cost.md says when not).",
+             "the scene sets keep their values. consistent: held points "
+             "whose energy has a lower bound, much more exact beside the "
+             "edge of a fixed surface. paper: the paper's.",
              {"paper|consistent"})
     , dimension("Dimension",
                 3,

@@ -14,7 +14,7 @@ namespace Morula
 {
   namespace
   {
-    /** Method = consistent in a file that sets, to other values, all that it
+    /** Method = paper in a file that sets, to other values, all that it
      *  stands for, as one made of the output of --parameters does. */
     void
     review_method(const Scene &scene, Review &review)

@@ -98,7 +98,15 @@ namespace Morula
         held.push_back(
           {projection(point), area / area.norm(), area.norm(), attached[k]});
       }
-    T = tractions_of(nullptr);
+    T.resize(held.size());
+  }
+
+
+  template <int dim>
+  void
+  HeldTraction<dim>::predict(const Equilibrium::Vector &u)
+  {
+    T = tractions_of(u);
   }
 
 
@@ -137,34 +145,25 @@ namespace Morula
 
   template <int dim>
   std::vector<Tensor<1, dim>>
-  HeldTraction<dim>::tractions_of(
-    const DisplacementField<dim> *displacement) const
+  HeldTraction<dim>::tractions_of(const Equilibrium::Vector &u) const
   {
-    const std::string &kernel = model.scene.solver.kernel;
-    // J_e of the grid cell, if that makes the pressure. The committed F have
-    // it.
-    std::vector<double>           volumes;
-    std::vector<PointMotion<dim>> motions;
-    if (displacement != nullptr)
-      {
-        volumes = elastic_volumes(
-          tissue, space, growth, model.material, kernel, *displacement);
-        motions =
-          point_motions(tissue.cells(),
-                        *displacement,
-                        motion_kernel<dim>(model.material.material(), kernel));
-      }
+    const std::string           &kernel = model.scene.solver.kernel;
+    const DisplacementField<dim> displacement(space, u, tissue.communicator());
+    // J_e of the grid cell, if that makes the pressure.
+    const std::vector<double> volumes = elastic_volumes(
+      tissue, space, growth, model.material, kernel, displacement);
+    const std::vector<PointMotion<dim>> motions =
+      point_motions(tissue.cells(),
+                    displacement,
+                    motion_kernel<dim>(model.material.material(), kernel));
     // (W / V_t) τ f⁻ᵀ of the cells
     const auto P = surroundings.values([&](const unsigned int p) {
-      const auto     cell = tissue.cells()[p];
-      Tensor<2, dim> F_g  = cell.growth();
-      if (growth.present)
-        F_g = displacement != nullptr ? growth.current[p] : growth.previous[p];
-      const Tensor<2, dim> f   = displacement != nullptr ?
-                                   motions[p].f :
-                                   Tensor<2, dim>(unit_symmetric_tensor<dim>());
-      const Tensor<2, dim> F_e = f * cell.F() * invert(F_g);
-      const double         theta =
+      const auto           cell = tissue.cells()[p];
+      const Tensor<2, dim> F_g =
+        growth.present ? growth.current[p] : cell.growth();
+      const Tensor<2, dim> &f   = motions[p].f;
+      const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
+      const double          theta =
         std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
       const ElasticPoint<dim> point(F_e,
                                     lame_of(model, growth, cell, p),
@@ -186,9 +185,7 @@ namespace Morula
   bool
   HeldTraction<dim>::renew(const Equilibrium::Vector &u)
   {
-    const MPI_Comm                    comm = tissue.communicator();
-    const DisplacementField<dim>      displacement(space, u, comm);
-    const std::vector<Tensor<1, dim>> now = tractions_of(&displacement);
+    const std::vector<Tensor<1, dim>> now = tractions_of(u);
     double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
     for (std::size_t k = 0; k < held.size(); ++k)
       {
@@ -197,7 +194,7 @@ namespace Morula
         sums[2] += held[k].area;
       }
     double totals[3];
-    Utilities::MPI::sum(sums, comm, totals);
+    Utilities::MPI::sum(sums, tissue.communicator(), totals);
     const double least  = least_traction * typical_stiffness;
     const double before = change;
     change =

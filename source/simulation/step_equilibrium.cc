@@ -106,6 +106,8 @@ namespace Morula
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
     Solution solution{start(attempt).value_or(balance.rest()), attempt.lumen};
+    if (traction)
+      traction->predict(solution.u);
     std::optional<LumenPressure<dim>> pressure;
     std::vector<TurnParticipant *>    participants;
     if (lumen)

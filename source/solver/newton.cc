@@ -100,9 +100,12 @@ namespace Morula
     const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, scales.small_force),
                                   rounding);
-    report.residual    = first > 0. ? 1. : 0.;
     if (report.first_residual == 0.)
       report.first_residual = first;
+    const auto relative = [&](const double norm) {
+      return norm > 0. ? norm / report.first_residual : 0.;
+    };
+    report.residual = relative(first);
     if (first <= bound)
       return group->evaluation();
 
@@ -139,7 +142,7 @@ namespace Morula
         reason += error.what();
       }
     u               = values_of(group->getX());
-    report.residual = group->getNormF() / first;
+    report.residual = relative(group->getNormF());
     // Converged already: a failed line search does not matter.
     if (group->isF() && std::isfinite(group->evaluation().energy) &&
         group->getNormF() <= bound)

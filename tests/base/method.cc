@@ -22,42 +22,42 @@ namespace
     return scene;
   }
 
-  const std::string consistent = "set Method = consistent\n";
+  const std::string paper = "set Method = paper\n";
   const std::string penalty =
     "subsection Boundary conditions\n set Nitsche penalty = 77\nend\n";
 } // namespace
 
 
-TEST(Method, PaperLeavesTheDefaults)
+TEST(Method, ConsistentLeavesTheDefaults)
 {
   const Scene silent = read("");
-  EXPECT_EQ(silent.method, "paper");
-  EXPECT_EQ(silent.nitsche.form, "symmetric");
-  EXPECT_EQ(silent.nitsche.penalty, 1000.);
-  EXPECT_EQ(read("set Method = paper").parameters(), silent.parameters());
+  EXPECT_EQ(silent.method, "consistent");
+  EXPECT_EQ(silent.nitsche.form, "bounded");
+  EXPECT_EQ(silent.nitsche.penalty, 20.);
+  EXPECT_EQ(read("set Method = consistent").parameters(), silent.parameters());
 }
 
 
-TEST(Method, ConsistentSetsWhatTheSceneDoesNot)
+TEST(Method, PaperSetsWhatTheSceneDoesNot)
 {
-  const Scene scene = read(consistent);
-  EXPECT_EQ(scene.nitsche.form, "bounded");
-  EXPECT_EQ(scene.nitsche.penalty, 20.);
+  const Scene scene = read(paper);
+  EXPECT_EQ(scene.nitsche.form, "symmetric");
+  EXPECT_EQ(scene.nitsche.penalty, 1000.);
   // as a default does: the user has not written it
   EXPECT_EQ(scene.as_written.size(), 1u);
-  EXPECT_EQ(read("", {"Method=consistent"}).parameters(), scene.parameters());
+  EXPECT_EQ(read("", {"Method=paper"}).parameters(), scene.parameters());
 }
 
 
 TEST(Method, GivesWayToTheSceneWhereverThatSetsAKey)
 {
   for (const Scene &scene :
-       {read(consistent + penalty),
-        read(penalty + consistent),
-        read(penalty, {"Method=consistent"}),
-        read(consistent, {"Boundary conditions/Nitsche penalty=77"})})
+       {read(paper + penalty),
+        read(penalty + paper),
+        read(penalty, {"Method=paper"}),
+        read(paper, {"Boundary conditions/Nitsche penalty=77"})})
     {
-      EXPECT_EQ(scene.nitsche.form, "bounded");
+      EXPECT_EQ(scene.nitsche.form, "symmetric");
       EXPECT_EQ(scene.nitsche.penalty, 77.);
     }
 }
@@ -65,17 +65,17 @@ TEST(Method, GivesWayToTheSceneWhereverThatSetsAKey)
 
 TEST(Method, IsThereAgainInTheParametersOfARun)
 {
-  const Scene scene = read(consistent + penalty);
+  const Scene scene = read(paper + penalty);
   const Scene again = read(scene.parameters());
   EXPECT_EQ(again.parameters(), scene.parameters());
-  EXPECT_EQ(again.method, "consistent");
-  EXPECT_EQ(again.nitsche.form, "bounded");
+  EXPECT_EQ(again.method, "paper");
+  EXPECT_EQ(again.nitsche.form, "symmetric");
   EXPECT_EQ(again.nitsche.penalty, 77.);
 
   // what a program has changed since the scene was read
-  Scene changed        = read(consistent);
-  changed.nitsche.form = "symmetric";
-  EXPECT_EQ(read(changed.parameters()).nitsche.form, "symmetric");
+  Scene changed        = read(paper);
+  changed.nitsche.form = "bounded";
+  EXPECT_EQ(read(changed.parameters()).nitsche.form, "bounded");
 }
 
 

@@ -114,7 +114,7 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
   EXPECT_GE(n_keys, 49u);
   for (const char *part : {"subsection Cell cycle",
                            "set Spacing = 50",
-                           "# With Method = consistent: 20\n",
+                           "# With Method = paper: 1000\n",
                            "Allowed: a number >= 0",
                            "Allowed: any one of none, cell cycle.",
                            "kPa",

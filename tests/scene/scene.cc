@@ -124,7 +124,7 @@ TEST(Scene, HasTheDefaultsOfTheContract)
     {"Boundary conditions/Traction", "0; 0; 0"},
     {"Boundary conditions/Pressure where", ""},
     {"Boundary conditions/Pressure", "0"},
-    {"Boundary conditions/Nitsche penalty", "1000"},
+    {"Boundary conditions/Nitsche penalty", "20"},
     {"Body force/Force density", "0; 0; 0"},
     {"Solver/Newton tolerance", "1e-06"},
     {"Solver/Linear solver", "automatic"},

@@ -325,6 +325,7 @@ TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
 {
   // 20 (1 - nu) / ((1 + nu) (1 - 2 nu)) = 42.857 at nu = 0.4
   Scene scene           = good_scene();
+  scene.nitsche.form    = "symmetric";
   scene.nitsche.penalty = 42.;
   EXPECT_TRUE(warnings_of<3>(scene).empty()); // the default's value: not chosen
   scene.as_written["Boundary conditions/Nitsche penalty"] = "42";
@@ -361,21 +362,21 @@ TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
 TEST(SceneWarnings, OfAMethodThatChangesNothing)
 {
   Scene scene                                          = good_scene();
-  scene.method                                         = "consistent";
-  scene.as_written["Boundary conditions/Nitsche form"] = "symmetric";
+  scene.method                                         = "paper";
+  scene.as_written["Boundary conditions/Nitsche form"] = "bounded";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "20";
   expect_warning(scene,
-                 {"Method = 'consistent'",
+                 {"Method = 'paper'",
                   "changes nothing",
                   "Nitsche form",
                   "Nitsche penalty",
                   "Remove"});
   // one of them has the method's value: a choice
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "20.0";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.method                                            = "paper";
   scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.method                                            = "consistent";
+  scene.as_written["Boundary conditions/Nitsche penalty"] = "20";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 

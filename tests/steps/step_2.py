@@ -10,14 +10,17 @@ class Step2(StepTest):
     def test_orders(self):
         errors, = tables(self.step())
         self.assertEqual(errors["cells"], [1976, 7860, 31428, 125676])
-        # Third order of displacement and gap, second of its gradient.
-        self.assertGreater(min(errors["displacement rate"][1:]), 2.8)
+        # Third order of displacement and gap, second of its gradient. Coarse
+        # grids do better than that, so that the mean rate is above it, too.
+        rates = errors["displacement rate"][1:]
+        self.assertGreater(sum(rates) / len(rates), 3)
+        self.assertGreater(min(rates), 2.6)
         self.assertGreater(min(errors["gap rate"][1:]), 2.7)
-        self.assertGreater(min(errors["deformation rate"][1:]), 1.9)
+        self.assertGreater(min(errors["deformation rate"][1:]), 1.85)
         self.assert_near(errors["displacement"],
-                         [1.245, 0.1084, 7.558e-3, 9.889e-4], 0.01)
+                         [0.8406, 0.05699, 5.961e-3, 9.171e-4], 0.01)
         self.assert_near(errors["deformation"],
-                         [3.841e-2, 7.573e-3, 1.417e-3, 3.563e-4], 0.01)
+                         [3.385e-2, 5.675e-3, 1.312e-3, 3.511e-4], 0.01)
 
     def test_few_cells(self):
         """Five cells to a grid spacing are the limit on the finest grid."""

@@ -16,8 +16,8 @@ RENAMES = {}
 @dataclass(frozen=True)
 class Key:
     """path: full, separated by '/'. allowed: a noun phrase, or empty for
-    expressions and texts. former: paths that it had. consistent: its default
-    with Method = consistent, or None where that is the same."""
+    expressions and texts. former: paths that it had. paper: its default
+    with Method = paper, or None where that is the same."""
 
     path: str
     default: str
@@ -25,18 +25,18 @@ class Key:
     allowed: str
     meaning: str
     former: tuple
-    consistent: str = None
+    paper: str = None
 
 
 def parse_keys(text):
     """All keys of the output of `morula --parameters`, in order."""
-    keys, sections, comment, former, consistent = [], [], [], [], None
-    mark = "# With Method = consistent:"
+    keys, sections, comment, former, paper = [], [], [], [], None
+    mark = "# With Method = paper:"
     for line in map(str.strip, text.splitlines()):
         if line.startswith("# Formerly: "):
             former.append(line[len("# Formerly: "):])
         elif line.startswith(mark):
-            consistent = line[len(mark):].strip()
+            paper = line[len(mark):].strip()
         elif line.startswith("#"):
             comment.append(line[1:].strip())
         elif line.startswith("subsection "):
@@ -50,15 +50,15 @@ def parse_keys(text):
                 " ".join(comment))
             keys.append(Key("/".join([*sections, name.strip()]),
                             default.strip(), match[2] or "", match[3] or "",
-                            match[1], tuple(former), consistent))
-            comment, former, consistent = [], [], None
+                            match[1], tuple(former), paper))
+            comment, former, paper = [], [], None
     return keys
 
 
 def defaults_with(keys, method):
     """Path -> default of the keys for a value of the key Method."""
-    return {key.path: key.consistent if method == "consistent"
-            and key.consistent is not None else key.default for key in keys}
+    return {key.path: key.paper if method == "paper"
+            and key.paper is not None else key.default for key in keys}
 
 
 def keys_of(morula):

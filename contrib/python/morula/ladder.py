@@ -106,7 +106,7 @@ def check_method(plan):
     """Refuses Method beside a key that it stands for: a value that is not
     varied would be the scene's own for one and the method's for the other."""
     both = [key.path for key in plan.scene.known
-            if key.consistent is not None and key.path in plan.keys]
+            if key.paper is not None and key.path in plan.keys]
     if "Method" in plan.keys and both:
         raise Refused("--vary", f"Method and {both[0]}", "one of them",
                       "Method stands for that key: vary Method alone, or the "

@@ -83,8 +83,8 @@ def page(keys):
                          "| key | default | unit | allowed | meaning |\n"
                          "| --- | --- | --- | --- | --- |\n")
         default = f"`{key.default}`" if key.default else "(empty)"
-        if key.consistent is not None:
-            default += f"; `Method = consistent`: `{key.consistent}`"
+        if key.paper is not None:
+            default += f"; `Method = paper`: `{key.paper}`"
         former = "".join(f" Formerly `{path}`." for path in key.former)
         lines.append(f"| `{path}` | {cell(default)} | {key.unit or '—'} | "
                      f"{allowed(key)} | {cell(key.meaning)}{former} |\n")

@@ -28,7 +28,7 @@ namespace Morula
   class HeldTraction : public TurnParticipant
   {
   public:
-    /** That of the state at t. Collective.
+    /** Zero before it is predicted. Collective.
      *  @param typical_stiffness kPa
      *  @param in_parts whether a turn may change the traction by a part of what
      *         the cells say only, as where a load jumps */
@@ -38,6 +38,12 @@ namespace Morula
                  const DevelopmentOfStep<dim> &growth,
                  const double                  typical_stiffness,
                  const bool                    in_parts);
+
+    /** Sets the traction with which a step begins: that of the increment @p u
+     *  of its start, µm, with the growth at t + dt. Tissue that cannot move has
+     *  it at the end. Collective. */
+    void
+    predict(const Equilibrium::Vector &u);
 
     /** M T per area of the configuration at t, kPa, by held_groups(). Stays
      *  where it is as long as this object. */
@@ -65,10 +71,10 @@ namespace Morula
       double         fraction;   // of the traction that counts
     };
 
-    /** The tractions of the state after a @p displacement with the growth at
-     *  t + dt, or, without one, of that at t. */
+    /** The tractions of the state after an increment u, with the growth at
+     *  t + dt. */
     std::vector<Tensor<1, dim>>
-    tractions_of(const DisplacementField<dim> *displacement) const;
+    tractions_of(const Equilibrium::Vector &u) const;
 
     const TissueModel<dim>       &model;
     const Tissue<dim>            &tissue;

@@ -45,7 +45,7 @@ namespace Morula
     unsigned int linear_iterations = 0;
     unsigned int turns             = 0; // equilibria with frozen quantities
     unsigned int proximal_paths    = 0; // that were needed
-    /** |R| relative to the first residual of the last solve. */
+    /** |R| of the last solve relative to first_residual. */
     double residual = 0.;
     /** |R| where the first solve has begun since this was 0, kPa µm^(dim-1). */
     double first_residual = 0.;

@@ -27,13 +27,13 @@ namespace Morula
 
   NitscheParameters::NitscheParameters()
     : penalty("Boundary conditions/Nitsche penalty",
-              1e3,
+              20.,
               "Penalty of fixed and slip points; > 0. "
               "The symmetric and the bounded form use at least " +
                 as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.")
     , form(
         "Boundary conditions/Nitsche form",
-        "symmetric",
+        "bounded",
         "symmetric: the paper's, for large penalties. unsymmetric: stable for "
         "any penalty, but without an energy. bounded: the traction of held "
         "points comes from the cells around them, is constant in a solve and "
@@ -42,12 +42,12 @@ namespace Morula
         "surface.",
         {"symmetric|unsymmetric|bounded"})
   {
-    penalty.with("consistent", "20")
+    penalty.with("paper", "1000")
       .require([](const double beta) { return beta > 0.; },
                "a number > 0, in units of E/h",
                "1e3 is a good choice for the symmetric Nitsche form, 20 "
                "for the others.");
-    form.with("consistent", "bounded");
+    form.with("paper", "symmetric");
   }
 
 

@@ -38,9 +38,15 @@ namespace
     return TissueMaterial(parameters);
   }
 
-  /** The keys of the conditions. */
+  /** The keys of the conditions, with the paper's form. */
   struct Given
   {
+    Given()
+    {
+      nitsche.form    = "symmetric";
+      nitsche.penalty = 1e3;
+    }
+
     FixedParameters    fixed;
     SlipParameters     slip;
     TractionParameters traction;

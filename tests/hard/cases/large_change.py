@@ -17,8 +17,11 @@ GROWN = Limit("Their grown volume is right to {at_most:g} of it.",
 STEPS = Limit("Very short steps, and one long step, end where usual ones do, "
               "to {at_most:g} of volume, energy and height.", at_most=0.02)
 CLAMP = Limit("Held points stay within {at_most:g} grid spacings of their "
-              "places when tissue grows to three times its width or withers.",
-              at_most=0.1)
+              "places when tissue grows to three times its width or withers "
+              "(Method = paper).", at_most=0.1)
+SOFT_CLAMP = Limit("With Method = consistent, whose penalty is a fiftieth, and "
+                   "whose energy is nearer to that of finite elements, they "
+                   "stay within {at_most:g} grid spacings.", at_most=0.15)
 
 
 def energy(stretches):
@@ -67,11 +70,14 @@ def enclosed(runs):
 # quadrature points' = 0 for the growth: volume / R³ and mean energy density in
 # kPa. With 1 to 4 levels of refinement at the edge, or twice as fine all over,
 # the volume at a stretch of 3 varies by 0.4 %, the energy by 3 %.
-HALF_FIXED = {"growth": (92.5, 0.636), "withering": (0.411, 2.218)}
+GROWN_SPHERE = (92.5, 0.636)
+HALF_FIXED = {"growth": GROWN_SPHERE, "growth-consistent": GROWN_SPHERE,
+              "withering": (0.411, 2.218)}
 
 
 def half_fixed(runs):
-    limits = {"growth": (0.04, 0.2), "withering": (0.15, 0.25)}
+    limits = {"growth": (0.04, 0.2), "growth-consistent": (0.04, 0.1),
+              "withering": (0.15, 0.25)}
     for name, (volume, energy_density) in HALF_FIXED.items():
         results = runs[name].results
         last = results.statistics()[-1]
@@ -85,7 +91,8 @@ def half_fixed(runs):
         surface = results.last_surface()
         fixed = surface[surface["condition"] == 1]
         gap = max(numpy.abs(fixed[x] - fixed[x.upper()]).max() for x in "xyz")
-        yield CLAMP.found(f"{name}: largest gap of a fixed point / h",
+        clamp = SOFT_CLAMP if name.endswith("consistent") else CLAMP
+        yield clamp.found(f"{name}: largest gap of a fixed point / h",
                           gap / results.number("Grid/Spacing"))
 
 
@@ -162,9 +169,11 @@ CASE = Case(
     cure="a first tangent at the old growth, a line search on the energy, "
          "shifts where the curvature is negative, a grid without a rim, held "
          "positions instead of increments",
-    judge=judge, limits=(DIVISIONS, GROWN, STEPS, CLAMP),
+    judge=judge, limits=(DIVISIONS, GROWN, STEPS, CLAMP, SOFT_CLAMP),
     trials=[
         Trial("growth", "large-growth.prm", keys=EACH, quick=SMALL),
+        Trial("growth-consistent", "large-growth.prm",
+              keys={**EACH, "Method": "consistent"}, quick=SMALL),
         Trial("withering", "large-growth.prm", keys={**EACH, **WITHER},
               quick=SMALL),
         Trial("enclosed", "enclosed-sphere.prm", keys=TRIMMED,

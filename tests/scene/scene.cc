@@ -82,7 +82,7 @@ TEST(Scene, HasTheDefaultsOfTheContract)
     }
   const std::map<std::string, std::string> contract = {
     {"Dimension", "3"},
-    {"Method", "paper"},
+    {"Method", "consistent"},
     {"Output directory", ""},
     {"Random seed", "1"},
     {"Time/End time", "1"},

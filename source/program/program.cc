@@ -79,7 +79,7 @@ namespace Morula
               scene.proliferation_law = "cell cycle";
               scene.tissue.radius     = 40.;
               scene.time.end_time     = 0.05;
-              scene.output.formats    = "csv";
+              scene.output.formats = std::vector<std::string>{"csv"};
               scene.output_directory  = place + "/" + std::to_string(dim);
               scene.check();
               simulate(scene, false);

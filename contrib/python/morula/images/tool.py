@@ -112,12 +112,16 @@ def _types(options, cells, words):
 
 def scene_keys(dimension, length, surface, types):
     """The keys of a scene of cells of this mean length, um."""
-    keys = {"Dimension": dimension, "Time/End time": 5, "Time/Step": 0.1,
+    keys = {"Dimension": dimension, "Output directory": "",
+            "Time/End time": 5, "Time/Step": 0.1,
             "Tissue/Shape": "points", "Tissue/Points file": "cells.csv",
             "Tissue/Points surface": surface,
             "Tissue/Cell spacing": f"{length:.4g}",
             "Tissue/Refine surface": "true",
             "Grid/Spacing": f"{2.02 * length:.4g}", "Grid/Points per cell": 2,
+            # for cells that grow unequally (--explain, Folds)
+            "Material/Energy per": "grown volume",
+            "Material/Volumetric strain": "pooled",
             "Proliferation/Law": "cell cycle",
             "Proliferation/Cell cycle/Duration": 1,
             "Proliferation/Cell cycle/G0 exit rate": 0.2,
@@ -167,6 +171,7 @@ def _lumen(parts, words):
 
 def _finish(options, directory, keys, length, n, volumes, words):
     dim = keys["Dimension"]
+    keys["Output directory"] = f"output/{directory.resolve().name}"
     write(directory / "scene.prm", prm(keys, [
         f"From {options.file.name} by contrib/import; lengths in um, times in "
         "days.", "Growth and mechanics are examples: set your own."]))

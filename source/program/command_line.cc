@@ -73,7 +73,8 @@ namespace Morula
       const std::string value = found[option].as<std::string>();
       if (value != "text" && value != "json")
         throw wrong_command_line(all,
-                                 "--" + option + " takes no value but json and text.");
+                                 "--" + option +
+                                   " takes no value but json and text.");
       return value == "json";
     }
 

@@ -145,89 +145,89 @@ namespace Morula
 
       EffectRows out;
       add_effect(out,
-                   "growth",
-                   scene.has_growth(),
-                   scene.law_of_growth() +
-                     details_of(catalogue.growth_laws, scene.law_of_growth()));
+                 "growth",
+                 scene.has_growth(),
+                 scene.law_of_growth() +
+                   details_of(catalogue.growth_laws, scene.law_of_growth()));
       add_effect(out,
-                   "proliferation",
-                   divides,
-                   "cell cycle, T = " + cycle.duration.text() +
-                     " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
-                     of_founders(n_proliferating,
-                                 n_founders,
-                                 cycle.where.text()));
+                 "proliferation",
+                 divides,
+                 "cell cycle, T = " + cycle.duration.text() +
+                   " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
+                   of_founders(n_proliferating,
+                               n_founders,
+                               cycle.where.text()));
       add_effect(out,
-                   "size checkpoint",
-                   has_checkpoint(scene),
-                   "J_th = " + cycle.size_checkpoint.text());
+                 "size checkpoint",
+                 has_checkpoint(scene),
+                 "J_th = " + cycle.size_checkpoint.text());
       add_effect(out,
-                   "division (Voronoi)",
-                   divides,
-                   "axis = " + cycle.division_axis +
-                     details_of(catalogue.division_rules, cycle.division_axis) +
-                     (cycle.axis_follows_rotation ? ", follows rotation" : "") +
-                     (cycle.stay_inside ? ", inside the surface" : ""));
+                 "division (Voronoi)",
+                 divides,
+                 "axis = " + cycle.division_axis +
+                   details_of(catalogue.division_rules, cycle.division_axis) +
+                   (cycle.axis_follows_rotation ? ", follows rotation" : "") +
+                   (cycle.stay_inside ? ", inside the surface" : ""));
       add_effect(out,
-                   "contraction",
-                   scene.has_contraction(),
-                   "gamma = " + scene.contraction.stretch.text() + ", along " +
-                     scene.contraction.direction.text() +
-                     (scene.contraction.keep_volume ? ", keeps volume" : ""));
+                 "contraction",
+                 scene.has_contraction(),
+                 "gamma = " + scene.contraction.stretch.text() + ", along " +
+                   scene.contraction.direction.text() +
+                   (scene.contraction.keep_volume ? ", keeps volume" : ""));
       add_effect(out,
-                   "death",
-                   scene.has_death(),
-                   "rate = " + scene.death.rate.text() +
-                     " /day, when = " + scene.death.when.text() +
-                     ", shrinking time = " + scene.death.shrinking_time.text() +
-                     " day");
+                 "death",
+                 scene.has_death(),
+                 "rate = " + scene.death.rate.text() +
+                   " /day, when = " + scene.death.when.text() +
+                   ", shrinking time = " + scene.death.shrinking_time.text() +
+                   " day");
       add_fields(out, scene);
       for (const auto &choice : catalogue.fates)
         add_effect(out,
-                     topic_of(choice),
-                     choice.keys().is_on(),
-                     choice.keys().details());
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
       for (const auto &choice : catalogue.boundary_conditions)
         {
           const types::particle_index n     = counts.acting.at(choice.name());
           const AnyKey *const         where = choice.keys().switch_key();
           add_effect(out,
-                       topic_of(choice),
-                       n > 0,
-                       "at " + std::to_string(n) + " boundary points" +
-                         (where == nullptr ? "" : ", where " + where->text()) +
-                         choice.keys().details());
+                     topic_of(choice),
+                     n > 0,
+                     "at " + std::to_string(n) + " boundary points" +
+                       (where == nullptr ? "" : ", where " + where->text()) +
+                       choice.keys().details());
         }
       for (const auto &choice : catalogue.forces)
         add_effect(out,
-                     topic_of(choice),
-                     choice.keys().is_on(),
-                     choice.keys().details());
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
       add_effect(out,
-                   "heterogeneous stiffness",
-                   !scene.material.youngs_modulus.expression(scene.dimension)
-                      .is_constant(),
-                   "E = " + scene.material.youngs_modulus.text() + " kPa");
+                 "heterogeneous stiffness",
+                 !scene.material.youngs_modulus.expression(scene.dimension)
+                    .is_constant(),
+                 "E = " + scene.material.youngs_modulus.text() + " kPa");
       add_effect(out,
-                   "relaxation",
-                   scene.material.relaxes(),
-                   "tau = " + scene.material.relaxation_time.text() +
-                     " day, yield stress = " +
-                     scene.material.yield_stress.text() + " kPa");
+                 "relaxation",
+                 scene.material.relaxes(),
+                 "tau = " + scene.material.relaxation_time.text() +
+                   " day, yield stress = " +
+                   scene.material.yield_stress.text() + " kPa");
       add_effect(out,
-                   "surface refinement",
-                   scene.tissue.refine_surface,
-                   "patches longer than " + half_a_grid_cell.str() +
-                     " um are split");
+                 "surface refinement",
+                 scene.tissue.refine_surface,
+                 "patches longer than " + half_a_grid_cell.str() +
+                   " um are split");
       add_effect(out,
-                   "projected volume",
-                   scene.material.volumetric_form() ==
-                     VolumetricStrain::projected,
-                   "one mean of ln J_e a grid cell");
+                 "projected volume",
+                 scene.material.volumetric_form() ==
+                   VolumetricStrain::projected,
+                 "one mean of ln J_e a grid cell");
       add_effect(out,
-                   "pooled volume",
-                   scene.material.volumetric_form() == VolumetricStrain::pooled,
-                   "one sum of volumes a grid cell");
+                 "pooled volume",
+                 scene.material.volumetric_form() == VolumetricStrain::pooled,
+                 "one sum of volumes a grid cell");
       return out;
     }
 
@@ -344,12 +344,14 @@ namespace Morula
       result.free = free_growth(scene, tissue.founders, tissue.surface, comm);
       if (result.free && !result.free->known_before)
         result.growth = result.free->mean;
-      result.size = estimated_size(
-        scene, tissue.founders, comm, n_unknowns, result.growth);
+      result.size =
+        estimated_size(scene, tissue.founders, comm, n_unknowns, result.growth);
       result.memory     = physical_memory(comm);
-      result.n_of_types = founders_of_types(
-        scene, tissue.founders.positions, comm, tissue.founders.types);
-      result.effects = effect_rows(scene,
+      result.n_of_types = founders_of_types(scene,
+                                            tissue.founders.positions,
+                                            comm,
+                                            tissue.founders.types);
+      result.effects    = effect_rows(scene,
                                    tissue.counts,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
@@ -394,20 +396,18 @@ namespace Morula
     {
       std::vector<std::string> effects, columns, types;
       for (const EffectRow &row : found.effects)
-        effects.push_back(
-          Json::object({{"name", Json::text(row.name)},
-                        {"on", Json::truth(row.on)},
-                        {"description",
-                         Json::text(row.description +
-                                    (row.further.empty() ? "" : "\n") +
-                                    row.further)}}));
+        effects.push_back(Json::object(
+          {{"name", Json::text(row.name)},
+           {"on", Json::truth(row.on)},
+           {"description",
+            Json::text(row.description + (row.further.empty() ? "" : "\n") +
+                       row.further)}}));
       const CellColumns<dim> used = effects_of<dim>(scene).columns;
       for (const Columns::Entry &column : used.entries())
-        columns.push_back(
-          Json::object({{"name", Json::text(column.name)},
-                        {"numbers", Json::number(column.n)},
-                        {"meaning", Json::text(column.meaning)},
-                        {"unit", Json::text(column.unit)}}));
+        columns.push_back(Json::object({{"name", Json::text(column.name)},
+                                        {"numbers", Json::number(column.n)},
+                                        {"meaning", Json::text(column.meaning)},
+                                        {"unit", Json::text(column.unit)}}));
       for (std::size_t i = 0; i < found.n_of_types.size(); ++i)
         types.push_back(Json::object(
           {{"name", Json::text(scene.cell_types.types[i].name)},

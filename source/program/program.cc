@@ -67,7 +67,7 @@ namespace Morula
       std::string place =
         (std::filesystem::temp_directory_path() / "morula-XXXXXX").string();
       if (mkdtemp(place.data()) == nullptr)
-        return; // then forks are slower
+        return;                   // then forks are slower
       std::ostringstream    said; // standard output is for those who ask
       std::streambuf *const out = std::cout.rdbuf(said.rdbuf());
       for (const unsigned int dim : {2, 3})
@@ -79,7 +79,7 @@ namespace Morula
               scene.proliferation_law = "cell cycle";
               scene.tissue.radius     = 40.;
               scene.time.end_time     = 0.05;
-              scene.output.formats = std::vector<std::string>{"csv"};
+              scene.output.formats    = std::vector<std::string>{"csv"};
               scene.output_directory  = place + "/" + std::to_string(dim);
               scene.check();
               simulate(scene, false);
@@ -214,14 +214,20 @@ namespace Morula
     if (words != std::vector<std::string>{"--serve"} ||
         Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       return run_words(words, stop_signal);
-    warm_up(catalogue, dimension);
-    serve([this](const std::vector<std::string> &command) {
-      int       signal = 0;
-      const int code   = run_words(command, signal);
-      if (signal != 0)
-        std::raise(signal);
-      return code;
-    });
+    unsigned int n_asked = 0;
+    serve(
+      [&]() {
+        // not for a single run: a start is as quick
+        if (++n_asked == 3)
+          warm_up(catalogue, dimension);
+      },
+      [this](const std::vector<std::string> &command) {
+        int       signal = 0;
+        const int code   = run_words(command, signal);
+        if (signal != 0)
+          std::raise(signal);
+        return code;
+      });
     return 0;
   }
 

@@ -74,12 +74,14 @@ namespace Morula
 
 
   void
-  serve(const std::function<int(const std::vector<std::string> &)> &run)
+  serve(const std::function<void()>                                &prepare,
+        const std::function<int(const std::vector<std::string> &)> &run)
   {
     for (Words request = next_request(); !request.empty();
          request       = next_request())
       {
-        const auto  begin = std::chrono::steady_clock::now();
+        const auto begin = std::chrono::steady_clock::now();
+        prepare();
         const pid_t child = fork();
         if (child == 0)
           do_run(request, run);

@@ -183,9 +183,10 @@ namespace Morula
       std::ifstream stream(file.value());
       stream.peek(); // a directory opens, but cannot be read
       if (stream.fail() && !stream.eof())
-        file.refuse("a file that can be read",
-                    "Check its name, seen from the directory in which Morula is "
-                    "started or from that of the scene, and its permissions.");
+        file.refuse(
+          "a file that can be read",
+          "Check its name, seen from the directory in which Morula is "
+          "started or from that of the scene, and its permissions.");
     }
 
     /** A file given if and only if the shape is @p shape_with_file. */

@@ -12,8 +12,8 @@ namespace Morula
 {
   template <int dim>
   void
-  refuse_outside(const Key<std::string>                          &file,
-                 const std::vector<Point<dim>>                   &cells,
+  refuse_outside(const Key<std::string>                        &file,
+                 const std::vector<Point<dim>>                 &cells,
                  const std::function<bool(const Point<dim> &)> &is_inside)
   {
     std::size_t        n = 0;
@@ -32,8 +32,7 @@ namespace Morula
 
 
   ClosedSurface<3>
-  read_surface(const Key<std::string>      &file,
-               const std::vector<Point<3>> &cells)
+  read_surface(const Key<std::string> &file, const std::vector<Point<3>> &cells)
   {
     const SurfaceMesh mesh(file.path(), file);
     refuse_outside<3>(file, cells, [&mesh](const Point<3> &x) {

@@ -28,14 +28,14 @@ namespace Morula
     Body
     read_polygons(const Key<std::string> &file)
     {
-      std::ifstream     stream(file.value());
-      std::string       text{std::istreambuf_iterator<char>(stream), {}};
+      std::ifstream stream(file.value());
+      std::string   text{std::istreambuf_iterator<char>(stream), {}};
       // Boost takes blanks for the ends of words, and no other white space
       std::replace_if(text.begin(), text.end(), boost::is_space(), ' ');
       boost::trim(text);
-      const auto        refuse = [&file](const std::string &why) {
+      const auto refuse = [&file](const std::string &why) {
         file.refuse("a file with one POLYGON or MULTIPOLYGON of well-known "
-                           "text (WKT) in um",
+                    "text (WKT) in um",
                     why + " Correct the file, or write it anew.");
       };
       Body body;
@@ -70,7 +70,7 @@ namespace Morula
     append(const Ring &ring, ClosedSurface<2> &surface)
     {
       const auto begin = static_cast<unsigned int>(surface.vertices.size());
-      const auto n = static_cast<unsigned int>(ring.size() - 1);
+      const auto n     = static_cast<unsigned int>(ring.size() - 1);
       for (unsigned int i = 0; i < n; ++i)
         {
           surface.vertices.emplace_back(ring[i].x(), ring[i].y());
@@ -81,8 +81,7 @@ namespace Morula
 
 
   ClosedSurface<2>
-  read_surface(const Key<std::string>      &file,
-               const std::vector<Point<2>> &cells)
+  read_surface(const Key<std::string> &file, const std::vector<Point<2>> &cells)
   {
     const Body body = read_polygons(file);
     refuse_outside<2>(file, cells, [&body](const Point<2> &x) {

@@ -132,8 +132,7 @@ namespace Morula
         review.warn(tissue.points_surface.path(),
                     tissue.points_surface,
                     "it becomes " + std::to_string(surface.n_global) +
-                      " boundary points, where " +
-                      as_text(std::round(wished)) +
+                      " boundary points, where " + as_text(std::round(wished)) +
                       " are as large as a cell: patches end at edges sharper "
                       "than 30 degrees, such as those of voxels.",
                     "Smooth the surface; contrib/import does so with images.");

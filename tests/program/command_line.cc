@@ -120,7 +120,8 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
 {
   std::stringstream out;
   print_parameters(out);
-  EXPECT_THROW(print_parameters(out, CommandLine::parse({"--parameters", "xyz"})),
+  EXPECT_THROW(print_parameters(out,
+                                CommandLine::parse({"--parameters", "xyz"})),
                InputError);
   std::ostringstream few;
   print_parameters(few, CommandLine::parse({"--parameters", "LUMEN", "gas"}));

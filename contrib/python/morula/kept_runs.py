@@ -11,6 +11,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from .command_line import tell
 from .execute import Processes
 from .record import Record
 from .refusal import Refused
@@ -70,7 +71,7 @@ class KeptRuns:
         refused = set()
         with self._servers_for(left):
             for number, job in enumerate(left, 1):
-                self.say(f"checking {number} of {len(left)} ...")
+                tell(f"checking {number} of {len(left)} ...")
                 server = self._a_server()
                 try:
                     self.scene.program.explain(self.scene.path, job.overrides,

@@ -26,10 +26,10 @@ namespace Morula
     /** With @ref parameters: only keys that have all of these words. */
     std::vector<std::string> words;
     /** Whether @ref explain or @ref parameters print JSON. */
-    bool                     json       = false;
-    bool                     serve      = false;
-    bool                     version    = false;
-    bool                     help       = false;
+    bool json    = false;
+    bool serve   = false;
+    bool version = false;
+    bool help    = false;
 
     /**
      * Parses the words of the command line, without the program's name.
@@ -48,8 +48,8 @@ namespace Morula
   print_version(std::ostream &out);
 
   /** Prints every key with meaning, unit, allowed values and default, as a .prm
-   *  file or as JSON; also the keys of the types and fields that the scene of @p
-   *  command names, if there is one; only those with its words.
+   *  file or as JSON; also the keys of the types and fields that the scene of
+   * @p command names, if there is one; only those with its words.
    *  @throws InputError for a scene that cannot be read, and for words that no
    *  key has */
   void

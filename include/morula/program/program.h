@@ -19,8 +19,8 @@ namespace Morula
 
   /**
    * The main() of Morula, and of programs that do other work with a scene. It
-   * handles MPI, command line, --help, --version, --parameters, --explain and --serve,
-   * and turns errors into messages and exit codes.
+   * handles MPI, command line, --help, --version, --parameters, --explain and
+   * --serve, and turns errors into messages and exit codes.
    */
   struct Program
   {

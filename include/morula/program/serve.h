@@ -20,13 +20,16 @@ namespace Morula
    * A run is asked for by the number of words that follow, its working
    * directory, the files that get its standard output and standard error, the
    * file for what it cost (or nothing), and its command line, each ended by a
-   * null byte. Printed are the run's process id at once, and at its end the exit
-   * code, or minus the number of the signal that ended it, and its peak memory
-   * in kB. The run leads a session of its own. The end of the input ends this.
+   * null byte. Printed are the run's process id at once, and at its end the
+   * exit code, or minus the number of the signal that ended it, and its peak
+   * memory in kB. The run leads a session of its own. The end of the input ends
+   * this.
+   * @param prepare is called in this process before each fork
    * @param run runs the program with a command line and returns the exit code
    */
   void
-  serve(const std::function<int(const std::vector<std::string> &)> &run);
+  serve(const std::function<void()>                                &prepare,
+        const std::function<int(const std::vector<std::string> &)> &run);
 } // namespace Morula
 
 #endif

@@ -69,6 +69,10 @@ def scene_of_image(options, directory):
     (write_off if labels.ndim == 3 else write_wkt)(directory / surface, parts)
     words += _about_parts(parts, labels.ndim)
     keys = scene_keys(cells.places.shape[1], cells.length, surface, kinds)
+    # patches half as long as a cell: those of a small cavity are curved
+    keys["Tissue/Boundary points"] = round(
+        sum(part.area for part in parts) / (0.5 * cells.length)
+        ** (labels.ndim - 1))
     keys |= _lumen(parts, words)
     return _finish(options, directory, keys, cells.length, len(cells.volumes),
                    cells.volumes, words)
@@ -117,7 +121,7 @@ def scene_keys(dimension, length, surface, types):
             "Tissue/Shape": "points", "Tissue/Points file": "cells.csv",
             "Tissue/Points surface": surface,
             "Tissue/Cell spacing": f"{length:.4g}",
-            "Tissue/Refine surface": "true",
+            "Tissue/Boundary points": 0, "Tissue/Refine surface": "true",
             "Grid/Spacing": f"{2.02 * length:.4g}", "Grid/Points per cell": 2,
             # for cells that grow unequally (--explain, Folds)
             "Material/Energy per": "grown volume",

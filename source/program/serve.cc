@@ -40,7 +40,7 @@ namespace Morula
       Words words(std::strtoul(number.c_str(), nullptr, 10));
       for (std::string &word : words)
         std::getline(std::cin, word, '\0');
-      return std::cin && words.size() > n_places ? words : Words();
+      return std::cin && words.size() >= n_places ? words : Words();
     }
 
     /** Lets a descriptor of this process mean a file. */

@@ -52,14 +52,15 @@ namespace Morula
       catch (const geometry::exception &error)
         {
           const std::string reason = error.what();
-          refuse("It says: " + reason.substr(0, reason.find(" in '")) + ".");
+          refuse("It cannot be read as such: " +
+                 reason.substr(0, reason.find(" in '")) + ".");
         }
       geometry::correct(body);
       std::string reason;
       if (!geometry::is_valid(body, reason))
-        refuse("It has none: " + reason + ".");
+        refuse("It has none that can be used: " + reason + ".");
       if (body.empty())
-        refuse("It has none.");
+        refuse("It has none that can be used.");
       return body;
     }
 

@@ -47,11 +47,11 @@ class KeptRuns:
     wall times are those of one execution."""
 
     def __init__(self, scene, directory, ranks=1, n_at_a_time=1, repeats=1,
-                 again=False, resume=False, say=print, servers=None):
+                 again=False, resume=False, say=print, servers=None, name="morula"):
         self.scene, self.directory = scene, Path(directory)
         self.ranks, self.n_at_a_time = ranks, n_at_a_time
         self.repeats, self.again, self.resume = repeats, again, resume
-        self.say = say
+        self.say, self.name = say, name
         self.digest = scene.program.digest
         self._processes, self._lock = Processes(), None
         self._given = servers  # served.Server, or None to start some
@@ -71,7 +71,7 @@ class KeptRuns:
         refused = set()
         with self._servers_for(left):
             for number, job in enumerate(left, 1):
-                tell(f"checking {number} of {len(left)} ...")
+                tell(f"{self.name}: checking {number} of {len(left)} ...")
                 server = self._a_server()
                 try:
                     self.scene.program.explain(self.scene.path, job.overrides,

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import math
 import weakref
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -34,9 +35,10 @@ class Function:
                      lambda run: run.statistics["cells"].iloc[-1])
         f(rate=0.5), f(0.5), f([0.5]), f({"rate": 0.5})
 
-    parameters: names and the paths of keys, or paths alone. A tuple of paths
-    changes several keys together; a callable makes a dictionary of keys of the
-    value, for units and logarithms. measure(run) returns a number or an array.
+    parameters: names and the paths of keys, or paths alone; a tuple of paths
+    changes several keys together. Or a function of the parameters, by its
+    arguments' names, that returns a dictionary of keys: for units, logarithms,
+    and expressions of several parameters. measure(run) returns a number or an array.
     Runs are kept in `directory`: the same point is not run twice, by nobody, and
     what was interrupted goes on. A run that fails, or that the program refuses,
     gives nan of the shape of the others; a measure that throws is not caught.
@@ -45,10 +47,14 @@ class Function:
     points with the same seed are compared with common random numbers."""
 
     def __init__(self, scene: Scene,
-                 parameters: Mapping[str, Any] | Sequence[str],
+                 parameters: Mapping[str, Any] | Sequence[str]
+                 | Callable[..., Mapping[str, Any]],
                  measure: Callable[[Run], Any], *,
                  directory: str | Path | None = None, ranks: int = 1):
         self.scene = scene
+        self._keys = parameters if callable(parameters) else None
+        if self._keys:
+            parameters = list(inspect.signature(self._keys).parameters)
         self.parameters = dict(parameters) if isinstance(
             parameters, Mapping) else {path: path for path in parameters}
         self.measure = measure
@@ -58,9 +64,8 @@ class Function:
         self._shape: tuple[int, ...] = ()
         self._servers: list[Server] = []
         weakref.finalize(self, _close, self._servers)
-        for name, target in self.parameters.items():
-            for path in ([target] if isinstance(target, str) else
-                         () if callable(target) else target):
+        for target in () if self._keys else self.parameters.values():
+            for path in [target] if isinstance(target, str) else target:
                 scene.about(path)
 
     def __call__(self, *values: Any, **named: Any) -> Any:
@@ -106,14 +111,11 @@ class Function:
 
     def keys_at(self, point: Mapping[str, Any]) -> dict[str, str]:
         """The keys that a point changes, with their values as text."""
-        keys: dict[str, Any] = {}
-        for name, value in point.items():
+        keys: dict[str, Any] = dict(self._keys(**point)) if self._keys else {}
+        for name, value in () if self._keys else point.items():
             target = self.parameters[name]
-            if callable(target):
-                keys.update(target(value))
-            else:
-                keys.update(dict.fromkeys(
-                    [target] if isinstance(target, str) else target, value))
+            keys.update(dict.fromkeys(
+                [target] if isinstance(target, str) else target, value))
         return {scenes.clean_path(key): _plain(value)
                 for key, value in keys.items()}
 

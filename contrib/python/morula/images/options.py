@@ -17,7 +17,7 @@ the smooth closed surface of the tissue with its cavities, scene.prm.
     contrib/import labels.npy --voxel 1,1 --output disc
     contrib/import spots.csv --frame 0
 
-doc/images.md explains what it does, and what it says of the image.
+doc/from-an-image.md explains what it does, and what it says of the image.
 """
 
 

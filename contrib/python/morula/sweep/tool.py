@@ -19,7 +19,7 @@ def main(words=None):
     """Exit code 0; 1 for what makes no sense; 2 if a run failed."""
     def tool():
         options = parser().parse_args(words)
-        tell(f"asking the program about {options.scene} ...")
+        tell(f"sweep: asking the program about {options.scene} ...")
         options.words = sys.argv[1:] if words is None else words
         return sweep(Request(options))
     return run_tool("sweep", tool)
@@ -32,7 +32,7 @@ def sweep(request):
     runs = [request.run(point, seed) for point in points for seed in seeds]
     kept = KeptRuns(request.scene, request.output / "runs", request.ranks,
                     request.jobs, again=request.options.again, resume=True,
-                    say=_say)
+                    say=_say, name="sweep")
     allowed = set(kept.check(runs[::len(seeds)], request.options.skip_refused))
     points = [point for point, run in zip(points, runs[::len(seeds)])
               if run in allowed]

@@ -89,7 +89,7 @@ endforeach()
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${pages_directory})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
-  FILES_MATCHING PATTERN "*.md"
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.ipynb"
   PATTERN changes EXCLUDE
   PATTERN data EXCLUDE
   PATTERN images EXCLUDE

@@ -23,7 +23,7 @@ namespace Morula
     bool                     replace    = false;
     bool                     explain    = false;
     bool                     parameters = false;
-    /** With @ref parameters: only keys that have all of these words. */
+    /** Only keys that have all of these words, for @ref parameters. */
     std::vector<std::string> words;
     /** Whether @ref explain or @ref parameters print JSON. */
     bool json    = false;

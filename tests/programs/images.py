@@ -62,8 +62,8 @@ class Images(ProgramTest):
             np.testing.assert_allclose(np.sort(cells["volume"]),
                                        np.sort(sizes) * voxel.prod(), 0.02)
             scene = self.work / name[:-4] / "scene.prm"
-            self.execute(scene, output=self.work / "run")
-            run = Run(self.work / "run")
+            self.execute(scene, output=self.work / f"run-{dim}")
+            run = Run(self.work / f"run-{dim}")
             first, last = run.statistics.iloc[0], run.statistics.iloc[-1]
             total = sizes.sum() * voxel.prod()
             self.assertEqual(first["cells"], len(sizes))

@@ -44,8 +44,11 @@ def call(words, *, cwd=None, timeout=None, **options):
 
 
 def is_program(morula):
-    """Whether this is the program itself, no script in its place."""
-    if os.path.basename(morula) != "morula" or not os.path.isfile(morula):
+    """Whether this is the program itself where it was built: no script in its
+    place, and no copy, which a test may want to change."""
+    tests = os.path.join(os.path.dirname(morula), "tests")
+    if (os.path.basename(morula) != "morula" or not os.path.isfile(morula)
+            or not os.path.isdir(tests)):
         return False
     with open(morula, "rb") as file:
         return file.read(4) == b"\x7fELF"

@@ -38,11 +38,11 @@ namespace Morula
         "delete the run in the output directory, also one of another scene or "
         "one that is not finished")(
         "explain",
-        options::value<std::string>()->value_name("json"),
+        options::value<std::string>()->value_name("[=json]"),
         "check the scene, print what it will simulate, and stop; "
         "--explain=json for programs")(
         "parameters",
-        options::value<std::string>()->value_name("json"),
+        options::value<std::string>()->value_name("[=json]"),
         "print every key with default, units and allowed values; with a scene "
         "also those of its types of cells, fields and obstacles; with a WORD "
         "those that have it in path or meaning; --parameters=json for "

@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS mpi-default-bin)
 
 set(recommended
   python3 python3-numpy python3-scipy python3-pandas python3-jinja2
-  python3-matplotlib python3-pil xvfb
+  python3-matplotlib python3-pil python3-skimage python3-tifffile xvfb
   "python3-vtk9 | python3-paraview" libjs-three
   libdeal.ii-dev cmake make g++ libcgal-dev libgmp-dev libmpfr-dev
   libboost-program-options-dev)

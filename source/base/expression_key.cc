@@ -177,6 +177,13 @@ namespace Morula
   }
 
 
+  unsigned int
+  ExpressionKey::components() const
+  {
+    return n_components;
+  }
+
+
   bool
   ExpressionKey::is_of_cells() const
   {

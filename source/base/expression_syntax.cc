@@ -120,9 +120,17 @@ namespace Morula::ExpressionSyntax
   bool
   uses(const std::string &text, const std::string &name)
   {
-    return std::regex_search(text,
-                             std::regex("(^|[^A-Za-z_0-9])" + name +
-                                        "($|[^A-Za-z_0-9])"));
+    // No regular expression: to make one costs more than the search, and a run
+    // asks some hundred times before its first step.
+    for (auto i = text.find(name); i != std::string::npos;
+         i      = text.find(name, i + 1))
+      {
+        const std::size_t end = i + name.size();
+        if ((i == 0 || !is_of_name(text[i - 1])) &&
+            (end == text.size() || !is_of_name(text[end])))
+          return true;
+      }
+    return false;
   }
 
 

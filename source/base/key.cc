@@ -105,6 +105,13 @@ namespace Morula
   }
 
 
+  bool
+  AnyKey::names_file() const
+  {
+    return names_file_;
+  }
+
+
   void
   AnyKey::check(const unsigned int) const
   {}
@@ -304,6 +311,15 @@ namespace Morula
   Key<T>::formerly(const std::string &path)
   {
     former_paths_.push_back(path);
+    return *this;
+  }
+
+
+  template <typename T>
+  Key<T> &
+  Key<T>::of_file()
+  {
+    names_file_ = true;
     return *this;
   }
 

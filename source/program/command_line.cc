@@ -9,8 +9,11 @@
 #include <deal.II/base/config.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <boost/algorithm/string.hpp>
 #include <boost/program_options.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 namespace Morula
@@ -34,10 +37,18 @@ namespace Morula
         "replace",
         "delete the run in the output directory, also one of another scene or "
         "one that is not finished")(
-        "explain", "check the scene, print what it will simulate, and stop")(
+        "explain",
+        options::value<std::string>()->value_name("[=json]"),
+        "check the scene, print what it will simulate, and stop; "
+        "--explain=json for programs")(
         "parameters",
+        options::value<std::string>()->value_name("[=json]"),
         "print every key with default, units and allowed values; with a scene "
-        "also those of its types of cells, fields and obstacles")(
+        "also those of its types of cells, fields and obstacles; with a WORD "
+        "those that have it in path or meaning; --parameters=json for "
+        "programs")("serve",
+                    "do runs as standard input asks for them, each in a fork "
+                    "of this process (contrib/python/morula/served.py)")(
         "version", "print the version")("help,h", "print this text");
       return result;
     }
@@ -49,6 +60,31 @@ namespace Morula
                         words,
                         usage,
                         remedy + " 'morula --help' explains the options.");
+    }
+    /** Whether an option is to print JSON.
+     *  @throws InputError for another value than json */
+    bool
+    is_json(const options::variables_map &found,
+            const std::string            &option,
+            const std::string            &all)
+    {
+      if (found.count(option) == 0)
+        return false;
+      const std::string value = found[option].as<std::string>();
+      if (value != "text" && value != "json")
+        throw wrong_command_line(all,
+                                 "--" + option +
+                                   " takes no value but json and text.");
+      return value == "json";
+    }
+
+    /** Whether a word beside --parameters names a scene. */
+    bool
+    is_scene(const std::string &word)
+    {
+      std::error_code error;
+      return boost::ends_with(word, ".prm") ||
+             std::filesystem::is_regular_file(word, error);
     }
   } // namespace
 
@@ -65,11 +101,18 @@ namespace Morula
     options::positional_options_description positions;
     positions.add("scene", -1);
 
+    // The value of an option stands behind '=': a word beside --parameters is
+    // one to look for.
+    std::vector<std::string> given = words;
+    for (std::string &word : given)
+      if (word == "--explain" || word == "--parameters")
+        word += "=text";
+
     options::variables_map found;
     try
       {
         using namespace options::command_line_style;
-        options::store(options::command_line_parser(words)
+        options::store(options::command_line_parser(given)
                          .options(every)
                          .positional(positions)
                          .style(unix_style & ~allow_guessing)
@@ -88,15 +131,25 @@ namespace Morula
     result.parameters = found.count("parameters") > 0;
     result.version    = found.count("version") > 0;
     result.help       = found.count("help") > 0;
+    result.serve      = found.count("serve") > 0;
+    result.json =
+      is_json(found, "explain", all) || is_json(found, "parameters", all);
     if (result.resume && result.replace)
       throw wrong_command_line(all,
                                "Either go on with the run, or replace it: "
                                "leave one of the two out.");
     if (found.count("set") > 0)
       result.overrides = found["set"].as<std::vector<std::string>>();
-    const auto scenes = found.count("scene") > 0 ?
-                          found["scene"].as<std::vector<std::string>>() :
-                          std::vector<std::string>();
+    auto scenes = found.count("scene") > 0 ?
+                    found["scene"].as<std::vector<std::string>>() :
+                    std::vector<std::string>();
+    if (result.parameters)
+      {
+        const auto words =
+          std::stable_partition(scenes.begin(), scenes.end(), is_scene);
+        result.words.assign(words, scenes.end());
+        scenes.erase(words, scenes.end());
+      }
     if (scenes.size() > 1)
       throw wrong_command_line(all,
                                "Name one scene, not '" + scenes[0] + "' and '" +
@@ -104,7 +157,8 @@ namespace Morula
                                  "'; quote a -s option that has blanks.");
     if (!scenes.empty())
       result.scene_file = scenes[0];
-    else if (!result.parameters && !result.version && !result.help)
+    else if (!result.parameters && !result.version && !result.help &&
+             !result.serve)
       throw wrong_command_line(all, "Name the scene.");
     return result;
   }
@@ -140,6 +194,26 @@ namespace Morula
       scene.declare_sections(
         Scene::read(command.scene_file, command.overrides, catalogue)
           .as_written);
-    ParameterKeys(scene.list()).print(out);
+    KeyList keys = scene.list();
+    for (const std::string &word : command.words)
+      {
+        keys.erase(std::remove_if(keys.begin(),
+                                  keys.end(),
+                                  [&word](const AnyKey *key) {
+                                    return !boost::icontains(
+                                      key->path() + ' ' + key->documentation(),
+                                      word);
+                                  }),
+                   keys.end());
+        if (keys.empty())
+          throw wrong_command_line(
+            "--parameters " + boost::join(command.words, " "),
+            "No key has '" + word + "' in its path or meaning" +
+              (command.words.size() > 1 ? ", and the words before it." : "."));
+      }
+    if (command.json)
+      ParameterKeys(keys).print_json(out);
+    else
+      ParameterKeys(keys).print(out);
   }
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/json.h>
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
 #include <morula/program/explain_cells.h>
@@ -24,15 +25,35 @@ namespace Morula
 {
   namespace
   {
+    /** An effect: its name, whether it is on, what it is, and further lines. */
+    struct EffectRow
+    {
+      std::string name;
+      bool        on;
+      std::string description;
+      std::string further = {};
+    };
+
+    using EffectRows = std::vector<EffectRow>;
+
+    /** Adds an effect to those of the scene. */
+    void
+    add_effect(EffectRows        &rows,
+               const std::string &name,
+               const bool         on,
+               const std::string &description,
+               const std::string &further = "")
+    {
+      rows.push_back({name, on, on ? description : "", further});
+    }
+
     /** One line: a name, 'on' or 'off', and what it is. */
     void
-    print_effect(std::ostream      &out,
-                 const std::string &name,
-                 const bool         on,
-                 const std::string &description)
+    print(std::ostream &out, const EffectRow &row)
     {
-      out << "  " << std::left << std::setw(24) << name
-          << (on ? "on   " + description : "off") << '\n';
+      out << "  " << std::left << std::setw(24) << row.name
+          << (row.on ? "on   " + row.description : "off") << '\n'
+          << row.further;
     }
 
     /** Which founders proliferate. */
@@ -77,9 +98,9 @@ namespace Morula
     }
 
     void
-    print_fields(std::ostream &out, const Scene &scene)
+    add_fields(EffectRows &rows, const Scene &scene)
     {
-      print_effect(out, "fields", scene.fields.present(), scene.fields.names);
+      std::ostringstream out; // a line a field
       for (const FieldKeys &field : scene.fields.fields)
         {
           out << "    " << std::left << std::setw(22) << field.name
@@ -98,6 +119,8 @@ namespace Morula
                 << field.flux_where.text();
           out << '\n';
         }
+      add_effect(
+        rows, "fields", scene.fields.present(), scene.fields.names, out.str());
     }
 
     bool
@@ -107,12 +130,11 @@ namespace Morula
              !scene.cell_cycle.size_checkpoint.is_default();
     }
 
-    void
-    print_effects(std::ostream               &out,
-                  const Scene                &scene,
-                  const ConditionCounts      &counts,
-                  const types::particle_index n_founders,
-                  const types::particle_index n_proliferating)
+    EffectRows
+    effect_rows(const Scene                &scene,
+                const ConditionCounts      &counts,
+                const types::particle_index n_founders,
+                const types::particle_index n_proliferating)
     {
       const CellCycleParameters &cycle     = scene.cell_cycle;
       const Catalogue           &catalogue = scene.catalogue;
@@ -121,91 +143,92 @@ namespace Morula
       std::ostringstream half_a_grid_cell;
       half_a_grid_cell << 0.5 * scene.grid.spacing;
 
-      out << "Effects\n";
-      print_effect(out,
-                   "growth",
-                   scene.has_growth(),
-                   scene.law_of_growth() +
-                     details_of(catalogue.growth_laws, scene.law_of_growth()));
-      print_effect(out,
-                   "proliferation",
-                   divides,
-                   "cell cycle, T = " + cycle.duration.text() +
-                     " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
-                     of_founders(n_proliferating,
-                                 n_founders,
-                                 cycle.where.text()));
-      print_effect(out,
-                   "size checkpoint",
-                   has_checkpoint(scene),
-                   "J_th = " + cycle.size_checkpoint.text());
-      print_effect(out,
-                   "division (Voronoi)",
-                   divides,
-                   "axis = " + cycle.division_axis +
-                     details_of(catalogue.division_rules, cycle.division_axis) +
-                     (cycle.axis_follows_rotation ? ", follows rotation" : "") +
-                     (cycle.stay_inside ? ", inside the surface" : ""));
-      print_effect(out,
-                   "contraction",
-                   scene.has_contraction(),
-                   "gamma = " + scene.contraction.stretch.text() + ", along " +
-                     scene.contraction.direction.text() +
-                     (scene.contraction.keep_volume ? ", keeps volume" : ""));
-      print_effect(out,
-                   "death",
-                   scene.has_death(),
-                   "rate = " + scene.death.rate.text() +
-                     " /day, when = " + scene.death.when.text() +
-                     ", shrinking time = " + scene.death.shrinking_time.text() +
-                     " day");
-      print_fields(out, scene);
+      EffectRows out;
+      add_effect(out,
+                 "growth",
+                 scene.has_growth(),
+                 scene.law_of_growth() +
+                   details_of(catalogue.growth_laws, scene.law_of_growth()));
+      add_effect(out,
+                 "proliferation",
+                 divides,
+                 "cell cycle, T = " + cycle.duration.text() +
+                   " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
+                   of_founders(n_proliferating,
+                               n_founders,
+                               cycle.where.text()));
+      add_effect(out,
+                 "size checkpoint",
+                 has_checkpoint(scene),
+                 "J_th = " + cycle.size_checkpoint.text());
+      add_effect(out,
+                 "division (Voronoi)",
+                 divides,
+                 "axis = " + cycle.division_axis +
+                   details_of(catalogue.division_rules, cycle.division_axis) +
+                   (cycle.axis_follows_rotation ? ", follows rotation" : "") +
+                   (cycle.stay_inside ? ", inside the surface" : ""));
+      add_effect(out,
+                 "contraction",
+                 scene.has_contraction(),
+                 "gamma = " + scene.contraction.stretch.text() + ", along " +
+                   scene.contraction.direction.text() +
+                   (scene.contraction.keep_volume ? ", keeps volume" : ""));
+      add_effect(out,
+                 "death",
+                 scene.has_death(),
+                 "rate = " + scene.death.rate.text() +
+                   " /day, when = " + scene.death.when.text() +
+                   ", shrinking time = " + scene.death.shrinking_time.text() +
+                   " day");
+      add_fields(out, scene);
       for (const auto &choice : catalogue.fates)
-        print_effect(out,
-                     topic_of(choice),
-                     choice.keys().is_on(),
-                     choice.keys().details());
+        add_effect(out,
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
       for (const auto &choice : catalogue.boundary_conditions)
         {
           const types::particle_index n     = counts.acting.at(choice.name());
           const AnyKey *const         where = choice.keys().switch_key();
-          print_effect(out,
-                       topic_of(choice),
-                       n > 0,
-                       "at " + std::to_string(n) + " boundary points" +
-                         (where == nullptr ? "" : ", where " + where->text()) +
-                         choice.keys().details());
+          add_effect(out,
+                     topic_of(choice),
+                     n > 0,
+                     "at " + std::to_string(n) + " boundary points" +
+                       (where == nullptr ? "" : ", where " + where->text()) +
+                       choice.keys().details());
         }
       for (const auto &choice : catalogue.forces)
-        print_effect(out,
-                     topic_of(choice),
-                     choice.keys().is_on(),
-                     choice.keys().details());
-      print_effect(out,
-                   "heterogeneous stiffness",
-                   !scene.material.youngs_modulus.expression(scene.dimension)
-                      .is_constant(),
-                   "E = " + scene.material.youngs_modulus.text() + " kPa");
-      print_effect(out,
-                   "relaxation",
-                   scene.material.relaxes(),
-                   "tau = " + scene.material.relaxation_time.text() +
-                     " day, yield stress = " +
-                     scene.material.yield_stress.text() + " kPa");
-      print_effect(out,
-                   "surface refinement",
-                   scene.tissue.refine_surface,
-                   "patches longer than " + half_a_grid_cell.str() +
-                     " um are split");
-      print_effect(out,
-                   "projected volume",
-                   scene.material.volumetric_form() ==
-                     VolumetricStrain::projected,
-                   "one mean of ln J_e a grid cell");
-      print_effect(out,
-                   "pooled volume",
-                   scene.material.volumetric_form() == VolumetricStrain::pooled,
-                   "one sum of volumes a grid cell");
+        add_effect(out,
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
+      add_effect(out,
+                 "heterogeneous stiffness",
+                 !scene.material.youngs_modulus.expression(scene.dimension)
+                    .is_constant(),
+                 "E = " + scene.material.youngs_modulus.text() + " kPa");
+      add_effect(out,
+                 "relaxation",
+                 scene.material.relaxes(),
+                 "tau = " + scene.material.relaxation_time.text() +
+                   " day, yield stress = " +
+                   scene.material.yield_stress.text() + " kPa");
+      add_effect(out,
+                 "surface refinement",
+                 scene.tissue.refine_surface,
+                 "patches longer than " + half_a_grid_cell.str() +
+                   " um are split");
+      add_effect(out,
+                 "projected volume",
+                 scene.material.volumetric_form() ==
+                   VolumetricStrain::projected,
+                 "one mean of ln J_e a grid cell");
+      add_effect(out,
+                 "pooled volume",
+                 scene.material.volumetric_form() == VolumetricStrain::pooled,
+                 "one sum of volumes a grid cell");
+      return out;
     }
 
     /** @param used  the scene's
@@ -226,7 +249,7 @@ namespace Morula
             std::string name = column.name;
             std::replace(name.begin(), name.end(), '_', ' ');
             if (columns == &known)
-              print_effect(out, name, false, "");
+              print(out, {name, false, ""});
             else
               out << "  " << std::left << std::setw(24) << name << std::setw(5)
                   << column.n << column.meaning
@@ -294,62 +317,163 @@ namespace Morula
           << "(doc/performance.md)\n";
     }
 
+    /** Everything that is known of a scene before it runs, on rank 0. */
     template <int dim>
-    void
-    explain_scene(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+    struct Explanation
+    {
+      SeededTissue<dim>                  tissue;
+      std::optional<FreeGrowth>          free;
+      std::optional<double>              growth; // see estimated_size()
+      SizeEstimate                       size;
+      double                             memory; // bytes of the machine
+      std::vector<types::particle_index> n_of_types;
+      EffectRows                         effects;
+    };
+
+    template <int dim>
+    Explanation<dim>
+    explanation_of(const Scene &scene, const MPI_Comm comm)
     {
       check_memory(scene, initial_size(scene), comm);
-      const SeededTissue<dim> tissue = seed_tissue<dim>(scene, comm);
+      Explanation<dim> result;
+      result.tissue                   = seed_tissue<dim>(scene, comm);
+      const SeededTissue<dim> &tissue = result.tissue;
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
         Simulation<dim>(scene, comm, tissue).n_unknowns();
-      const std::optional<FreeGrowth> free =
-        free_growth(scene, tissue.founders, tissue.surface, comm);
-      std::optional<double> growth; // where the estimate does not know it
-      if (free && !free->known_before)
-        growth = free->mean;
-      const SizeEstimate size =
-        estimated_size(scene, tissue.founders, comm, n_unknowns, growth);
-      const double available = physical_memory(comm);
-      const std::vector<types::particle_index> n_of_types = founders_of_types(
-        scene, tissue.founders.positions, comm, tissue.founders.types);
-      if (Utilities::MPI::this_mpi_process(comm) != 0)
-        return;
+      result.free = free_growth(scene, tissue.founders, tissue.surface, comm);
+      if (result.free && !result.free->known_before)
+        result.growth = result.free->mean;
+      result.size =
+        estimated_size(scene, tissue.founders, comm, n_unknowns, result.growth);
+      result.memory     = physical_memory(comm);
+      result.n_of_types = founders_of_types(scene,
+                                            tissue.founders.positions,
+                                            comm,
+                                            tissue.founders.types);
+      result.effects    = effect_rows(scene,
+                                   tissue.counts,
+                                   tissue.founders.n_global,
+                                   tissue.n_proliferating);
+      return result;
+    }
 
-      std::ostringstream text;
+    template <int dim>
+    void
+    print_text(std::ostream           &text,
+               const Scene            &scene,
+               const Explanation<dim> &found)
+    {
       text << "The scene is valid.\nTissue\n"
            << "  " << scene.tissue.shape << " in " << dim << "-D, "
-           << tissue.founders.n_global << " cells, " << tissue.counts.points
-           << " boundary points\n  grid spacing " << scene.grid.spacing
-           << " um, cell spacing " << scene.tissue.cell_spacing << " um\n"
+           << found.tissue.founders.n_global << " cells, "
+           << found.tissue.counts.points << " boundary points\n  grid spacing "
+           << scene.grid.spacing << " um, cell spacing "
+           << scene.tissue.cell_spacing << " um\n"
            << "  until " << scene.time.end_time << " day in steps of "
            << scene.time.step << " day\n";
       print_method(text, scene);
-      print_effects(text,
-                    scene,
-                    tissue.counts,
-                    tissue.founders.n_global,
-                    tissue.n_proliferating);
-      print_types(text, scene, n_of_types);
+      text << "Effects\n";
+      for (const EffectRow &row : found.effects)
+        print(text, row);
+      print_types(text, scene, found.n_of_types);
       print_cell_expressions(text, scene);
-      print_folds(text, scene, free);
+      print_folds(text, scene, found.free);
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);
-      print_size(text, scene, size, growth, available);
-      for (const std::string &warning : tissue.warnings)
+      print_size(text, scene, found.size, found.growth, found.memory);
+      for (const std::string &warning : found.tissue.warnings)
         text << warning << '\n';
+    }
+
+    /** The same as JSON: an object a line. */
+    template <int dim>
+    void
+    print_json(std::ostream           &out,
+               const Scene            &scene,
+               const Explanation<dim> &found)
+    {
+      std::vector<std::string> effects, columns, types;
+      for (const EffectRow &row : found.effects)
+        effects.push_back(Json::object(
+          {{"name", Json::text(row.name)},
+           {"on", Json::truth(row.on)},
+           {"description",
+            Json::text(row.description + (row.further.empty() ? "" : "\n") +
+                       row.further)}}));
+      const CellColumns<dim> used = effects_of<dim>(scene).columns;
+      for (const Columns::Entry &column : used.entries())
+        columns.push_back(Json::object({{"name", Json::text(column.name)},
+                                        {"numbers", Json::number(column.n)},
+                                        {"meaning", Json::text(column.meaning)},
+                                        {"unit", Json::text(column.unit)}}));
+      for (std::size_t i = 0; i < found.n_of_types.size(); ++i)
+        types.push_back(Json::object(
+          {{"name", Json::text(scene.cell_types.types[i].name)},
+           {"founders", Json::number(double(found.n_of_types[i]))}}));
+      std::vector<std::pair<std::string, std::string>> keys;
+      for (const AnyKey *key : scene.list())
+        keys.emplace_back(key->path(), Json::text(key->text()));
+      std::ostringstream folds;
+      print_folds(folds, scene, found.free);
+      const SizeEstimate &size = found.size;
+      out << Json::object(
+               {{"dimension", Json::number(dim)},
+                {"shape", Json::text(scene.tissue.shape)},
+                {"cells", Json::number(double(found.tissue.founders.n_global))},
+                {"boundary points",
+                 Json::number(double(found.tissue.counts.points))},
+                {"proliferating",
+                 Json::number(double(found.tissue.n_proliferating))},
+                {"effects", Json::list(effects)},
+                {"types", Json::list(types)},
+                {"columns", Json::list(columns)},
+                {"folds", Json::text(folds.str())},
+                {"size",
+                 Json::object(
+                   {{"cells at the end", Json::number(std::round(size.cells))},
+                    {"unknowns at start", Json::number(size.unknowns_at_start)},
+                    {"unknowns at the end",
+                     Json::number(std::round(size.unknowns))},
+                    {"steps", Json::number(size.steps)},
+                    {"seconds", Json::number(size.seconds)},
+                    {"bytes", Json::number(size.memory)},
+                    {"bytes of the machine", Json::number(found.memory)}})},
+                {"warnings", Json::texts(found.tissue.warnings)},
+                {"keys", Json::object(keys)}})
+          << '\n';
+    }
+
+    template <int dim>
+    void
+    explain_scene(const Scene   &scene,
+                  std::ostream  &out,
+                  const MPI_Comm comm,
+                  const bool     json)
+    {
+      const Explanation<dim> found = explanation_of<dim>(scene, comm);
+      if (Utilities::MPI::this_mpi_process(comm) != 0)
+        return;
+      std::ostringstream text;
+      if (json)
+        print_json(text, scene, found);
+      else
+        print_text(text, scene, found);
       out << text.str();
     }
   } // namespace
 
 
   void
-  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm)
+  explain(const Scene   &scene,
+          std::ostream  &out,
+          const MPI_Comm comm,
+          const bool     json)
   {
     if (scene.dimension == 2)
-      explain_scene<2>(scene, out, comm);
+      explain_scene<2>(scene, out, comm, json);
     else
-      explain_scene<3>(scene, out, comm);
+      explain_scene<3>(scene, out, comm, json);
   }
 } // namespace Morula

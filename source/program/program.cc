@@ -10,6 +10,7 @@
 #include <morula/program/failure.h>
 #include <morula/program/open_mpi.h>
 #include <morula/program/program.h>
+#include <morula/program/serve.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -57,6 +59,38 @@ namespace Morula
       return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     }
 
+    /** Does once what libraries do on their first use, in a step of small
+     *  scenes, so that no fork need do it again. */
+    void
+    warm_up(const Catalogue &catalogue, const unsigned int dimension)
+    {
+      std::string place =
+        (std::filesystem::temp_directory_path() / "morula-XXXXXX").string();
+      if (mkdtemp(place.data()) == nullptr)
+        return;                   // then forks are slower
+      std::ostringstream    said; // standard output is for those who ask
+      std::streambuf *const out = std::cout.rdbuf(said.rdbuf());
+      for (const unsigned int dim : {2, 3})
+        if (dimension == 0 || dim == dimension)
+          try
+            {
+              Scene scene(catalogue);
+              scene.dimension         = dim;
+              scene.proliferation_law = "cell cycle";
+              scene.tissue.radius     = 40.;
+              scene.time.end_time     = 0.05;
+              scene.output.formats    = std::vector<std::string>{"csv"};
+              scene.output_directory  = place + "/" + std::to_string(dim);
+              scene.check();
+              simulate(scene, false);
+            }
+          catch (const std::exception &)
+            {} // then forks are slower
+      std::cout.rdbuf(out);
+      std::error_code error;
+      std::filesystem::remove_all(place, error);
+    }
+
     /** Prints help, version or keys if the command line asks for them.
      *  @return whether it does */
     bool
@@ -93,7 +127,7 @@ namespace Morula
                          "This program knows no other dimension.");
       if (command.explain)
         {
-          explain(scene, std::cout, MPI_COMM_WORLD);
+          explain(scene, std::cout, MPI_COMM_WORLD, command.json);
           return;
         }
       check_memory(scene, initial_size(scene), MPI_COMM_WORLD);
@@ -177,10 +211,41 @@ namespace Morula
     deal_II_exceptions::suppress_stacktrace_in_exceptions();
 
     const std::vector<std::string> words(argv + 1, argv + argc);
-    std::string                    resume_hint;
+    if (words != std::vector<std::string>{"--serve"} ||
+        Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      return run_words(words, stop_signal);
+    unsigned int n_asked = 0;
+    serve(
+      [&]() {
+        // not for a single run: a start is as quick
+        if (++n_asked == 3)
+          warm_up(catalogue, dimension);
+      },
+      [this](const std::vector<std::string> &command) {
+        int       signal = 0;
+        const int code   = run_words(command, signal);
+        if (signal != 0)
+          std::raise(signal);
+        return code;
+      });
+    return 0;
+  }
+
+
+  int
+  Program::run_words(const std::vector<std::string> &words,
+                     int                            &stop_signal) const
+  {
+    std::string resume_hint;
     try
       {
-        execute(CommandLine::parse(words), *this, resume_hint);
+        const CommandLine command = CommandLine::parse(words);
+        if (command.serve)
+          throw InputError("The command line",
+                           "--serve",
+                           "this option alone, on one rank",
+                           "It reads from standard input what to run.");
+        execute(command, *this, resume_hint);
         return 0;
       }
     catch (const InputError &error)

@@ -53,6 +53,24 @@ namespace Morula
              (file_of(before) == file_of(now) || file_of(before) == scene);
     }
 
+    /** A file that is not where its key says, seen from the working directory,
+     *  but is there seen from the scene's, is that one. */
+    void
+    find_files(Scene &scene)
+    {
+      namespace files   = std::filesystem;
+      const auto folder = files::path(scene.file).parent_path();
+      for (AnyKey *key : scene.list())
+        {
+          const files::path name = key->text();
+          std::error_code   error; // a text too long for a name, for instance
+          if (key->names_file() && !name.empty() && name.is_relative() &&
+              !files::exists(name, error) &&
+              files::is_regular_file(folder / name, error))
+            key->assign((folder / name).lexically_normal().string());
+        }
+    }
+
     /** Admits the names of all effects of a kind. */
     template <template <int> class Interface>
     void
@@ -321,6 +339,7 @@ namespace Morula
           key->assign(text);
     scene.apply_types();
     scene.file = file;
+    find_files(scene);
     if (scene.output_directory.empty())
       scene.output_directory =
         (std::filesystem::path("output") / std::filesystem::path(file).stem())

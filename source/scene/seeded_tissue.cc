@@ -15,7 +15,7 @@ namespace Morula
     if (!scene.tissue.is_points())
       return true;
     if (scene.tissue.points_surface != "automatic")
-      return scene.tissue.points_surface == "always";
+      return !scene.tissue.has_no_surface();
     if (effects_of<dim>(scene).state.needs_surface() ||
         scene.fields.have_surface())
       return true;

@@ -8,6 +8,7 @@
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/points_surface_mesh.h>
+#include <morula/seeding/surface_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -299,15 +300,16 @@ namespace Morula
       return {std::move(surface), n_parts, ratio};
     }
 
-    /** Refuses cells around which there is no common surface. */
+    /** The surface around cells, which are refused if they have no common one.
+     */
     template <int dim>
-    void
-    check_surface(const TissueParameters &parameters,
-                  const AllCells<dim>    &cells,
-                  const Enclosure<dim>   &enclosure)
+    ClosedSurface<dim>
+    checked_surface(const TissueParameters &parameters,
+                    const AllCells<dim>    &cells)
     {
+      const Enclosure<dim> enclosure = enclose(cells);
       if (enclosure.fits(cells.volumes.size()))
-        return;
+        return enclosure.surface;
       const std::size_t  n     = enclosure.n_parts;
       const double       ratio = enclosure.volume_ratio;
       std::ostringstream found;
@@ -393,13 +395,14 @@ namespace Morula
     const AllCells<dim> cells = gather(founders, comm);
     SurfacePatches<dim> all;
     on_root(comm, [&]() {
-      const Enclosure<dim> enclosure = enclose(cells);
-      check_surface(parameters, cells, enclosure);
-      all = tiled(enclosure.surface,
+      const ClosedSurface<dim> surface =
+        parameters.has_surface_file() ?
+          read_surface(parameters.points_surface, cells.positions) :
+          checked_surface(parameters, cells);
+      all = tiled(surface,
                   parameters.boundary_points > 0 ?
                     parameters.boundary_points :
-                    total_area(enclosure.surface) /
-                      std::pow(cells.length, dim - 1));
+                    total_area(surface) / std::pow(cells.length, dim - 1));
     });
     return shares(all, comm);
   }

@@ -53,15 +53,16 @@ namespace Morula
         "without it as Start says; type, a name in Cell types/Names or "
         "its number from 0 on, without it as Where says.")
     , points_surface(
-        "Tissue/Points surface",
+        TissueKeys::points_surface,
         "automatic",
         "For the shape points: whether there is a surface around the cells, "
         "with boundary points that can be held and loaded. automatic: where "
         "the scene has a boundary condition, or a key asks for the depth below "
         "the surface or its normal. always: also without one. It "
         "stands where the cells end, and encloses their volume. Gaps and "
-        "cavities narrower than four cells are closed.",
-        {"automatic|always|none"})
+        "cavities narrower than four cells are closed. Or the file of the "
+        "closed surface around the cells in um, cavities and all: STL, OFF, "
+        "PLY or OBJ; in 2-D polygons as well-known text, WKT.")
     , cell_spacing("Tissue/Cell spacing",
                    10.,
                    "L_p: cells sit on a regular lattice of this spacing, "
@@ -105,7 +106,10 @@ namespace Morula
         "Points that are held stay. 0: never. Needs Coarsen surface. Units: "
         "day.",
         {0.})
-  {}
+  {
+    for (Key<std::string> *key : {&surface_mesh, &points_file, &points_surface})
+      key->of_file();
+  }
 
 
   KeyList
@@ -173,6 +177,18 @@ namespace Morula
                                 "Choose one of them, or set Dimension = 3.");
     }
 
+    void
+    check_readable(const Key<std::string> &file)
+    {
+      std::ifstream stream(file.value());
+      stream.peek(); // a directory opens, but cannot be read
+      if (stream.fail() && !stream.eof())
+        file.refuse(
+          "a file that can be read",
+          "Check its name, seen from the directory in which Morula is "
+          "started or from that of the scene, and its permissions.");
+    }
+
     /** A file given if and only if the shape is @p shape_with_file. */
     void
     check_file(const Key<std::string> &file,
@@ -190,24 +206,48 @@ namespace Morula
       if (file.empty())
         file.refuse("a file, as Tissue/Shape = " + shape,
                     "Name the file, or choose another Shape.");
-      std::ifstream stream(file.value());
-      stream.peek(); // a directory opens, but cannot be read
-      if (stream.fail() && !stream.eof())
-        file.refuse("a file that can be read",
-                    "Check its name, from the directory in which Morula is "
-                    "started, and its permissions.");
+      check_readable(file);
+    }
+
+    /** The end of a file's name, from the last '.' on, in small letters. */
+    std::string
+    ending_of(const std::string &file)
+    {
+      std::string ending = file.substr(std::min(file.rfind('.'), file.size()));
+      std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      });
+      return ending;
+    }
+
+    bool
+    is_mesh_format(const std::string &ending)
+    {
+      return ending == ".stl" || ending == ".off" || ending == ".ply" ||
+             ending == ".obj";
+    }
+
+    void
+    check_points_surface(const Key<std::string> &surface,
+                         const unsigned int      dim)
+    {
+      const std::string ending = ending_of(surface);
+      if (dim == 2 ? ending != ".wkt" : !is_mesh_format(ending))
+        surface.refuse(
+          dim == 2 ?
+            "automatic, always, none or a file whose name ends with .wkt" :
+            "automatic, always, none or a file whose name ends with .stl, "
+            ".off, .ply or .obj",
+          dim == 2 && is_mesh_format(ending) ?
+            "In 2-D the surface is made of polygons, as well-known text." :
+            "Choose one of the words, or name the file of a surface.");
+      check_readable(surface);
     }
 
     void
     check_mesh_format(const Key<std::string> &file)
     {
-      std::string ending =
-        file->substr(std::min(file->rfind('.'), file.size()));
-      std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
-        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      });
-      if (ending != ".stl" && ending != ".off" && ending != ".ply" &&
-          ending != ".obj")
+      if (!is_mesh_format(ending_of(file)))
         file.refuse("a file whose name ends with .stl, .off, .ply or .obj",
                     "Convert the surface to one of these formats.");
     }
@@ -263,6 +303,13 @@ namespace Morula
     return is_points() && points_surface == "none";
   }
 
+  bool
+  TissueParameters::has_surface_file() const
+  {
+    return is_points() && points_surface != "automatic" &&
+           points_surface != "always" && points_surface != "none";
+  }
+
   void
   TissueParameters::check(const unsigned int dim) const
   {
@@ -291,6 +338,8 @@ namespace Morula
         require_positive(size, size[d]);
     if (is_mesh())
       check_mesh_format(surface_mesh);
+    if (has_surface_file())
+      check_points_surface(points_surface, dim);
     if (has_no_surface() && boundary_points > 0)
       boundary_points.refuse("0, as Tissue/Points surface = none",
                              "Set Boundary points = 0, or Points surface = "

@@ -103,6 +103,41 @@ namespace Morula
              Utilities::MPI::sum(cells, comm);
     }
 
+    /** So many times as many boundary points as cells of a smooth surface are
+     *  too many: they only cost time. */
+    constexpr double too_many = 3.;
+
+    /** Warns of a surface from a file whose edges are those of voxels. Patches
+     *  do not reach across sharp edges. */
+    template <int dim>
+    void
+    review_patches(const TissueParameters    &tissue,
+                   const Founders<dim>       &founders,
+                   const SurfacePatches<dim> &surface,
+                   const MPI_Comm             comm,
+                   Review                    &review)
+    {
+      if (!tissue.has_surface_file() || tissue.boundary_points > 0)
+        return;
+      double volume = 0., area = 0.;
+      for (const double V : founders.volumes)
+        volume += V;
+      for (const double A : surface.areas)
+        area += A;
+      const double patch =
+        std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global,
+                 double(dim - 1) / dim);
+      const double wished = Utilities::MPI::sum(area, comm) / patch;
+      if (surface.n_global > too_many * wished)
+        review.warn(tissue.points_surface.path(),
+                    tissue.points_surface,
+                    "it becomes " + std::to_string(surface.n_global) +
+                      " boundary points, where " + as_text(std::round(wished)) +
+                      " are as large as a cell: patches end at edges sharper "
+                      "than 30 degrees, such as those of voxels.",
+                    "Smooth the surface; contrib/import does so with images.");
+    }
+
     /** Largest distance of founders along an axis, and a cell. */
     template <int dim>
     double
@@ -164,6 +199,7 @@ namespace Morula
                         "by so many times that pressure.",
                       "Give each cell its volume in the file, or set "
                       "Tissue/Cell spacing to the length of the cells.");
+        review_patches(tissue, founders, surface, comm, review);
       }
     if (tissue.is_mesh())
       {

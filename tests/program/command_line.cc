@@ -59,6 +59,15 @@ TEST(CommandLine, KnowsItsOptions)
   EXPECT_FALSE(CommandLine::parse({"a.prm"}).replace);
   EXPECT_TRUE(CommandLine::parse({"--parameters"}).parameters);
   EXPECT_TRUE(CommandLine::parse({"--version"}).version);
+  EXPECT_TRUE(CommandLine::parse({"--serve"}).serve);
+  EXPECT_FALSE(CommandLine::parse({"a.prm", "--explain"}).json);
+  EXPECT_TRUE(CommandLine::parse({"a.prm", "--explain=json"}).json);
+  const CommandLine keys =
+    CommandLine::parse({"--parameters=json", "lumen", "a.prm", "volume"});
+  EXPECT_TRUE(keys.parameters && keys.json);
+  EXPECT_EQ(keys.scene_file, "a.prm");
+  EXPECT_EQ(keys.words, (std::vector<std::string>{"lumen", "volume"}));
+  EXPECT_EQ(CommandLine::parse({"--parameters", "a.prm"}).scene_file, "a.prm");
   EXPECT_TRUE(CommandLine::parse({"--help"}).help);
 }
 
@@ -74,6 +83,9 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow)
          {{"a.prm", "--res"}, "--res"},
          {{"a.prm", "--resume", "--replace"}, "leave one of the two out"},
          {{"a.prm", "-s"}, "required argument"},
+         {{"a.prm", "--explain=xml"}, "no value but json and text"},
+         {{"--parameters=xml"}, "no value but json and text"},
+         {{"--parameters", "a.prm", "b.prm"}, "'a.prm' and 'b.prm'"},
          {{"a.prm", "-x"}, "-x"}})
     {
       const std::string message = complaint(words);
@@ -108,6 +120,13 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
 {
   std::stringstream out;
   print_parameters(out);
+  EXPECT_THROW(print_parameters(out,
+                                CommandLine::parse({"--parameters", "xyz"})),
+               InputError);
+  std::ostringstream few;
+  print_parameters(few, CommandLine::parse({"--parameters", "LUMEN", "gas"}));
+  EXPECT_NE(few.str().find("Lumen pressure"), std::string::npos);
+  EXPECT_EQ(few.str().find("Lumen where"), std::string::npos);
   std::size_t n_keys = 0;
   for (const Statement &statement : read_statements(out, "output"))
     n_keys += statement.kind == Statement::set;

@@ -37,9 +37,9 @@ class Conditions(ProgramTest):
                                        out=np.full(4, -9.0)) > -1}.items():
             np.testing.assert_array_equal(
                 rows_where(text, columns, "--where"), expected, text)
-        for text in ("y > 0", "x >", "x.real", "__import__('os')", "x if x",
-                     "[x]", "'x'", "exp(x)", "sqrt(x, x)", "x < 0 ! id", ""):
-            with self.assertRaisesRegex(Refused, "allowed is numbers, col"):
+        for text in ("y > 0", "x >", "__import__('os')", "x if x", "[x]",
+                     "'x'", "x < 0 ! id", ""):
+            with self.assertRaisesRegex(Refused, "columns are x, id"):
                 rows_where(text, columns, "--where")
 
 

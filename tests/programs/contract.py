@@ -4,6 +4,7 @@
 """What other programs rely on: files, columns, number format, keys, options,
 and that effects which a scene does not call for are absent.
 """
+import json
 import re
 from pathlib import Path
 
@@ -268,8 +269,20 @@ class Contract(ProgramTest):
     def explained(self, scene):
         text = self.execute(scene, "--explain").stdout
         self.assertFalse((self.work / "output").exists())
-        found = re.findall(r"^  (\S.*?)  +(on|off)\b", text, re.MULTILINE)
-        return dict(found)
+        found = dict(re.findall(r"^  (\S.*?)  +(on|off)\b", text,
+                                re.MULTILINE))
+        said = json.loads(self.execute(scene, "--explain=json").stdout)
+        for effect in said["effects"]:
+            self.assertIn(f"  {effect['name']:<24}" + (
+                f"on   {effect['description']}" if effect["on"] else "off"),
+                text)
+        for column in said["columns"]:
+            self.assertIn(column["meaning"], text)
+        self.assertIn(f" {said['cells']} cells, {said['boundary points']} "
+                      "boundary points", text)
+        for warning in said["warnings"]:
+            self.assertIn(warning, text)
+        return found
 
     def test_explain_counts_founders(self):
         """Those that proliferate, and where."""

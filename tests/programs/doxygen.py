@@ -42,6 +42,10 @@ class Doxygen(ProgramTest):
         n = (ROOT / "doc/theory.md").read_text().count("```math")
         self.assertEqual(len(re.findall(r"\\tag\{", theory)), n)
         self.assertNotIn("```", theory)
+        reference = (output / "doc-python-reference.html").read_text()
+        for text in ("Scene.run", "Ctrl-C", "Function.map", "Lineage.tree",
+                     "Run.cells", "common random numbers"):
+            self.assertIn(text, reference)
         cases = (output / "doc-hard-cases.html").read_text()
         self.assertRegex(cases, r"disc, no extension\s*</td>")  # is measured
         self.assertNotIn("[Measured:", cases)

@@ -5,8 +5,9 @@
 import subprocess
 from pathlib import Path
 
-from morula.keys import RENAMES, keys_of, parse_keys
+from morula.keys import RENAMES, keys_of
 from morula.migrate import migrate
+from morula.prm import parse
 from program import ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -64,13 +65,48 @@ class Keys(ProgramTest):
             self.assertEqual(units[path], unit, path)
 
     def test_parsing(self):
-        key, = parse_keys("subsection A\n  # Long; > 0. Units:\n  # um. "
-                          "Allowed: a number.\n  # Formerly: A/C\n"
-                          "  set B = 1\nend\n")
-        self.assertEqual((key.path, key.default, key.unit, key.allowed,
-                          key.meaning, key.former),
-                         ("A/B", "1", "um", "a number", "Long; > 0.",
-                          ("A/C",)))
+        """The JSON says the same as the .prm file that people read."""
+        keys = {key.path: key for key in keys_of(self.options.morula)}
+        text = self.run_words([self.options.morula, "--parameters"]).stdout
+        written = parse(text)
+        self.assertEqual(list(keys), list(written))
+        said = " ".join(line.strip(" #") for line in text.splitlines())
+        for path, value in written.items():
+            key = keys[path]
+            self.assertEqual(key.default, value, path)
+            for part in (key.meaning, key.allowed):
+                self.assertIn(part, said, path)
+        E = keys["Material/Young's modulus"]
+        self.assertEqual((E.type, E.unit, E.components, E.evaluated),
+                         ("expression", "kPa", 1, "at each step"))
+        self.assertIn("generation", E.variables)
+        self.assertNotIn("pressure", E.variables)
+        self.assertEqual(
+            {path: keys[path].type for path in (
+                "Dimension", "Time/Step", "Grid/Extension", "Tissue/Center",
+                "Output/Formats", "Tissue/Points surface", "Method")},
+            {"Dimension": "integer", "Time/Step": "number",
+             "Grid/Extension": "boolean", "Tissue/Center": "list of numbers",
+             "Output/Formats": "list of words", "Method": "word",
+             "Tissue/Points surface": "file"})
+        self.assertEqual(keys["Method"].choices, ("paper", "consistent"))
+
+    def test_words(self):
+        """Keys that have all words, in path or meaning, and no others."""
+        def shown(*words):
+            return set(parse(self.run_words(
+                [self.options.morula, "--parameters", *words]).stdout))
+        every = {key.path: f"{key.path} {key.meaning}".lower()
+                 for key in keys_of(self.options.morula)}
+        for words in (("lumen",), ("LUMEN", "gas"), ("kpa",)):
+            found = shown(*words)
+            self.assertTrue(found)
+            if words != ("kpa",):  # stands in units, too
+                self.assertEqual(found, {
+                    path for path, text in every.items()
+                    if all(word.lower() in text for word in words)})
+        self.assertIn("'xyzzy'", self.run_words(
+            [self.options.morula, "--parameters", "xyzzy"], code=1).stderr)
 
     def test_table_of_renames_is_the_programs(self):
         keys = keys_of(self.options.morula)

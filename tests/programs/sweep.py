@@ -132,6 +132,57 @@ class Sweep(ProgramTest):
         self.assertEqual(self.sweep(*command).stdout.count("from before"), 12)
         self.assertEqual(self.rows("runs.csv"), runs)
 
+    def test_samples(self):
+        """A line of the table is a combination; those that the program refuses
+        are left out on request, and told; data files stand beside the scene."""
+        folder = self.work / "scene"
+        folder.mkdir()
+        (folder / "cells.csv").write_text("x,y\n" + "".join(
+            f"{10 * i},{10 * j}\n" for i in range(9) for j in range(9)))
+        scene = folder / "disc.prm"
+        scene.write_text(DISC + """
+subsection Tissue
+  set Shape = points
+  set Points file = cells.csv
+end
+""")
+        table = self.write("samples.csv", f'"{RATE}",Grid/Spacing\n'
+                           "1,40\n# a comment\n2,50\n3,-1\n2.5,45\n")
+        words = [scene, "--samples", table, "-s", "Time/End time=0.2"]
+        refused = self.sweep(*words, code=1).stderr
+        self.assertIn("Grid/Spacing=-1", refused)
+        self.assertIn("sweep: checking 3 of 4", refused)
+        said = self.sweep(*words, "--skip-refused").stdout
+        self.assertIn("is left out", said)
+        self.assertIn("3 of 3 runs finished", said)
+        self.assertEqual([(row[RATE], row["Grid/Spacing"])
+                          for row in self.rows("runs.csv")],
+                         [("1", "40"), ("2", "50"), ("2.5", "45")])
+        first = self.work / "found" / self.rows("runs.csv")[0]["directory"]
+        self.execute(scene, *overrides({"Time/End time": "0.2", RATE: "1",
+                                        "Grid/Spacing": "40"}))
+        self.assert_same_file(first / "lineage.csv",
+                              self.work / "output/lineage.csv")
+        for text, part in (("Grid/Spacing\n40\n40.0\n", "sample 1"),
+                           ("Grid/Spacing\n", "a line of values"),
+                           ("Grid/Spcing\n40\n", "Did you mean"),
+                           ("Grid/Spacing,Grid/Spacing\n4,5\n", "once"),
+                           ("Grid/Spacing,Time/Step\n40\n", "2 values"),
+                           ("Random seed\n4\n", "--seeds"),
+                           ("Grid/Spacing\n-1\n", "some that Morula")):
+            self.write("samples.csv", text)
+            self.assertIn(part, self.sweep(*words, "--skip-refused",
+                                           code=1).stderr)
+        self.assertIn("--vary", self.sweep(
+            *words, "--vary", "Grid/Spacing=3,4", code=1).stderr)
+
+    def test_output_in_the_working_directory(self):
+        scene = self.write("disc.prm", DISC)
+        self.run_words([ROOT / "contrib/sweep", scene, "--seeds", "1,2",
+                        "--morula", self.options.morula, "-s",
+                        "Time/End time=0.1"], cwd=self.work)
+        self.assertTrue((self.work / "output/sweep/disc/table.md").is_file())
+
     def test_types(self):
         """A key and a column that exist as the scene names types of cells."""
         scene = self.write("types.prm", DISC + """

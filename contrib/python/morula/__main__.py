@@ -12,7 +12,7 @@ from pathlib import Path
 
 TOOLS = {  # those of an installation, then those that need Morula's tree
     "accuracy": "morula.accuracy.tool", "cell-shapes": "morula.shapes.tool",
-    "migrate": "morula.migrate", "render": "morula.render.tool",
+    "import": "morula.images.tool", "migrate": "morula.migrate", "render": "morula.render.tool",
     "report": "morula.report.tool", "sweep": "morula.sweep.tool",
     "accuracy-ladders": "upkeep.accuracy", "parameters": "upkeep.parameters",
     "half-fixed-sphere": "upkeep.half_fixed_sphere",
@@ -26,7 +26,8 @@ PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "numpy": "python3-numpy", "scipy": "python3-scipy",
             "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
             "h5py": "python3-h5py", "pandas": "python3-pandas",
-            "jinja2": "python3-jinja2"}
+            "jinja2": "python3-jinja2", "skimage": "python3-skimage",
+            "tifffile": "python3-tifffile"}
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 

@@ -31,9 +31,14 @@ def add_run_options(add, directory):
     add("--again", action="store_true", help="do not use runs from before")
     add("--plan", action="store_true", help="check, list the runs, and stop")
     add("--output", type=Path, metavar="DIRECTORY",
-        help=f"default: {directory}")
+        help=f"default: {directory}, in the working directory")
     add("--morula", default=MORULA, help="the executable")
     add("--mpiexec", default="mpiexec")
+
+
+def tell(text):
+    """A word of progress, beside the results on standard output."""
+    print(text, file=sys.stderr, flush=True)
 
 
 def whole_number(option, text):

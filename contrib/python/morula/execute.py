@@ -75,12 +75,17 @@ class Processes:
         self._running, self._guard = set(), threading.Lock()
 
     def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE,
-             stderr=subprocess.PIPE, env=(), cost=None, pass_fds=()):
+             stderr=subprocess.PIPE, env=(), cost=None, pass_fds=(),
+             server=None):
         """Runs a command to its end; None after stop(). stdout and stderr are
         what subprocess takes, or the paths of files; `env` has variables
-        besides, `cost` is the file for what measure.py says of it. If this thread is interrupted, or the
-        timeout (s) is over, the command is ended first; the latter throws
+        besides, `cost` is the file for what measure.py says of it. A served.Server
+        does it in a fork, with stdout and stderr in files. If this thread is
+        interrupted, or the timeout (s) is over, the command is ended first; the latter throws
         subprocess.TimeoutExpired."""
+        if server:
+            return self._serve(server, words, cwd=cwd, stdout=stdout,
+                               stderr=stderr, cost=cost)
         with contextlib.ExitStack() as files:
             streams = {name: files.enter_context(open(to, "wb"))
                        if isinstance(to, (str, os.PathLike)) else to
@@ -111,6 +116,28 @@ class Processes:
                     self._running.discard(child)
             return None if self.stopped else Ended(
                 child.returncode, out or "", err or "")
+
+    def _serve(self, server, words, cost, **files):
+        if cost:
+            Path(cost).unlink(missing_ok=True)
+        runs = []
+
+        def begun(run):
+            with self._guard:
+                runs.append(run)
+                self._running.add(run)
+                late = self.stopped
+            if late:
+                end([run], PATIENCE)
+
+        if self.stopped:
+            return None
+        try:
+            ended = server.call(words, cost=cost, begun=begun, **files)
+        finally:
+            with self._guard:
+                self._running.difference_update(runs)
+        return None if self.stopped else ended
 
     def each(self, function, items, jobs):
         """function(item) of all items, so many at a time, in their order. If

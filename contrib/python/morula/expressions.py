@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Expressions that the user types: '10*(theta - 1)' of columns, or the
-condition 'generation >= 2 && Y < 0'. Nothing else that Python can do."""
+condition 'generation >= 2 && Y < 0', which is pandas'."""
 import ast
 import math
 import operator
@@ -14,11 +14,6 @@ ARITHMETIC = {ast.Add: operator.add, ast.Sub: operator.sub,
               ast.Mult: operator.mul, ast.Div: operator.truediv,
               ast.Pow: operator.pow, ast.USub: operator.neg,
               ast.UAdd: operator.pos}
-COMPARISONS = {ast.Lt: operator.lt, ast.LtE: operator.le,
-               ast.Gt: operator.gt, ast.GtE: operator.ge,
-               ast.Eq: operator.eq, ast.NotEq: operator.ne}
-FUNCTIONS = {"abs": np.abs, "sqrt": np.sqrt}
-
 # Characters; Python's own parser calls itself for each bracket and sign.
 LONGEST = 500
 
@@ -51,21 +46,26 @@ def evaluate(text, names, option):
 
 def rows_where(text, columns, option):
     """A mask of the rows for which a condition holds, from their columns by
-    name. && and || and ^ are those of a scene's expressions, or Python's; a
-    number is true where it is above 0, as with Fixed where."""
+    name: pandas' DataFrame.query. && and || and ^ are those of a scene's
+    expressions, too; a number is true where it is above 0, as with Fixed
+    where."""
+    import pandas
     plain = text.replace("&&", " and ").replace("||", " or ").replace("^", "**")
-    names = {name: np.asarray(values, dtype=float)
-             for name, values in columns.items()}
+    table = pandas.DataFrame({name: np.asarray(values)
+                              for name, values in columns.items()
+                              if np.ndim(values) == 1})
     try:
         with np.errstate(all="ignore"):
-            value = _condition(_parsed(plain), names)
-        return _true(np.broadcast_to(value, (len(next(iter(names.values()))),)))
-    except (SyntaxError, _NotAllowed) as error:
-        reason = error.args[0] if isinstance(error, _NotAllowed) else "syntax"
+            found = table.eval(plain.strip(), engine="python", local_dict={},
+                               global_dict={})
+        mask = np.asarray(found) > 0
+        if mask.shape != (len(table),) and mask.shape != ():
+            raise ValueError("it is no condition")
+    except Exception as error:  # pandas throws what Python does
         raise Refused(
-            option, text, "numbers, columns, + - * / ^, < <= > >= == !=, && ||,"
-            " abs, sqrt and brackets; the columns are " + ", ".join(columns),
-            f"Not so: {reason}.") from None
+            option, text, "what pandas' DataFrame.query takes, and && || ^; the "
+            "columns are " + ", ".join(columns), f"Not so: {error}.") from None
+    return np.broadcast_to(mask, (len(table),))
 
 
 class _NotAllowed(Exception):
@@ -74,10 +74,6 @@ class _NotAllowed(Exception):
 
 def _parsed(text):
     return ast.parse(text.strip(), mode="eval").body
-
-
-def _true(value):
-    return np.asarray(value) > 0
 
 
 def _arithmetic(node, names, part):
@@ -93,31 +89,3 @@ def _arithmetic(node, names, part):
     if isinstance(node, ast.UnaryOp) and type(node.op) in ARITHMETIC:
         return ARITHMETIC[type(node.op)](part(node.operand, names, part))
     raise _NotAllowed(ast.unparse(node))
-
-
-def _condition(node, names, _=None):
-    """Of a part of a condition: numbers, or truth as 0 and 1."""
-    if isinstance(node, ast.BoolOp):
-        combine = (np.logical_and if isinstance(node.op, ast.And)
-                   else np.logical_or)
-        parts = [_true(_condition(part, names)) for part in node.values]
-        return combine.reduce(np.broadcast_arrays(*parts)).astype(float)
-    if isinstance(node, ast.Compare):
-        return _comparison(node, names)
-    if (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-            and node.func.id in FUNCTIONS and len(node.args) == 1
-            and not node.keywords):
-        return FUNCTIONS[node.func.id](_condition(node.args[0], names))
-    return _arithmetic(node, names, _condition)
-
-
-def _comparison(node, names):
-    """Also of several, 0 < x < 10, which hold if all do."""
-    values = [_condition(part, names)
-              for part in (node.left, *node.comparators)]
-    result = 1.0
-    for kind, low, high in zip(node.ops, values, values[1:]):
-        if type(kind) not in COMPARISONS:
-            raise _NotAllowed(ast.unparse(node))
-        result = result * COMPARISONS[type(kind)](low, high)
-    return result

@@ -6,13 +6,19 @@ import contextlib
 import fcntl
 import hashlib
 import json
+import queue
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from .command_line import tell
 from .execute import Processes
 from .record import Record
 from .refusal import Refused
+from .served import Server
+
+FEW = 3  # runs a process, for which it is not worth its start
+LONGEST_NAME = 255  # of a file; expressions may be longer
 
 
 @dataclass(frozen=True)
@@ -41,13 +47,15 @@ class KeptRuns:
     wall times are those of one execution."""
 
     def __init__(self, scene, directory, ranks=1, n_at_a_time=1, repeats=1,
-                 again=False, resume=False, say=print):
+                 again=False, resume=False, say=print, servers=None, name="morula"):
         self.scene, self.directory = scene, Path(directory)
         self.ranks, self.n_at_a_time = ranks, n_at_a_time
         self.repeats, self.again, self.resume = repeats, again, resume
-        self.say = say
+        self.say, self.name = say, name
         self.digest = scene.program.digest
         self._processes, self._lock = Processes(), None
+        self._given = servers  # served.Server, or None to start some
+        self._servers = queue.LifoQueue()  # those that are idle
 
     def is_done(self, job):
         """Whether nothing is left to do for a job."""
@@ -55,16 +63,32 @@ class KeptRuns:
         return (not self.again and record.load(self._identity(job))
                 and bool(record.repeats) and not record.killed)
 
-    def check(self, jobs):
-        """Has the program judge the jobs that are not done; throws Refused
-        with its message."""
-        for job in jobs:
-            if not self.is_done(job):
-                self.scene.program.explain(self.scene.path, job.overrides)
+    def check(self, jobs, skip=False):
+        """Has the program judge the jobs that are not done. Throws Refused with
+        its message, or with `skip` tells it and leaves the job out: the rest is
+        returned."""
+        left = [job for job in jobs if not self.is_done(job)]
+        refused = set()
+        with self._servers_for(left):
+            for number, job in enumerate(left, 1):
+                tell(f"{self.name}: checking {number} of {len(left)} ...")
+                server = self._a_server()
+                try:
+                    self.scene.program.explain(self.scene.path, job.overrides,
+                                               server)
+                except Refused as refusal:
+                    if not skip:
+                        raise
+                    refused.add(job)
+                    self.say(f"{job.name} is left out: {refusal}")
+                finally:
+                    if server:
+                        self._servers.put(server)
+        return [job for job in jobs if job not in refused]
 
     def run(self, jobs):
         """The records of the jobs, in their order."""
-        with self._alone():
+        with self._alone(), self._servers_for(jobs):
             return self._processes.each(
                 lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
                 enumerate(jobs, 1), self.n_at_a_time)
@@ -84,6 +108,30 @@ class KeptRuns:
                               "directory.") from None
             self._lock = lock
             yield
+
+    @contextlib.contextmanager
+    def _servers_for(self, jobs):
+        """Lets runs on one rank be forks, if there are enough of them to be worth
+        the start of the processes that fork."""
+        n = min(self.n_at_a_time, len(jobs))
+        if self.ranks > 1 or self._given is not None or len(jobs) < FEW * n:
+            n = 0
+        fds = [self._lock.fileno()] if self._lock else []
+        own = [Server(self.scene.program.executable, fds) for _ in range(n)]
+        for server in own + (self._given or [] if self.ranks == 1 else []):
+            self._servers.put(server)
+        try:
+            yield
+        finally:
+            self._servers = queue.LifoQueue()
+            for server in own:
+                server.close()
+
+    def _a_server(self):
+        try:
+            return self._servers.get_nowait()
+        except queue.Empty:
+            return None
 
     def _one(self, job, counter):
         record = Record(self.directory / job.name)
@@ -124,11 +172,16 @@ class KeptRuns:
         # The directory is this object's own.
         words += ["--resume" if resumed else "--replace"]
         cost = record.directory / "cost.json"
-        ended = self._processes.call(
-            words, cost=cost, stdout=record.directory / "stdout",
-            stderr=record.directory / "stderr",
-            # a run that outlives this process keeps the directory locked
-            pass_fds=[self._lock.fileno()])
+        server = self._a_server()
+        try:
+            ended = self._processes.call(
+                words, cost=cost, stdout=record.directory / "stdout",
+                stderr=record.directory / "stderr", server=server,
+                # a run that outlives this process keeps the directory locked
+                pass_fds=[self._lock.fileno()])
+        finally:
+            if server:
+                self._servers.put(server)
         if ended is None:
             return
         if not cost.is_file():
@@ -147,8 +200,13 @@ class KeptRuns:
         name, the ranks, and what is kept of it."""
         keys = {**self.scene.keys, **dict(job.overrides)}
         keys.pop("Output directory", None)
-        files = {value: hashlib.sha256(Path(value).read_bytes()).hexdigest()
-                 for value in keys.values() if value and Path(value).is_file()}
+        # as the program does: here, or beside the scene
+        places = {value: next((path for path in (
+            Path(value), self.scene.path.parent / value) if value
+            and len(value) < LONGEST_NAME and path.is_file()), None)
+                  for value in keys.values()}
+        files = {value: hashlib.sha256(path.read_bytes()).hexdigest()
+                 for value, path in places.items() if path}
         text = json.dumps([self.digest, keys, files, self.ranks,
                            sorted(job.keep)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The keys that a program knows, from what `morula --parameters` prints."""
-import re
+"""The keys that a program knows, from what `morula --parameters=json` prints."""
+import json
 from dataclasses import dataclass
 
 from .execute import call
@@ -15,44 +15,34 @@ RENAMES = {}
 
 @dataclass(frozen=True)
 class Key:
-    """path: full, separated by '/'. allowed: a noun phrase, or empty for
-    expressions and texts. former: paths that it had. paper: its default
-    with Method = paper, or None where that is the same."""
+    """path: full, separated by '/'. type: a word of ParameterKeys::print_json:
+    number, expression, file, ... allowed: a noun phrase, or empty for expressions
+    and texts. choices: the words to choose from. former: paths that it had.
+    paper: its default with Method = paper, or None where that is the
+    same. evaluated, variables: of an expression."""
 
     path: str
     default: str
     unit: str
     allowed: str
     meaning: str
-    former: tuple
+    former: tuple = ()
     paper: str = None
+    type: str = "text"
+    choices: tuple = ()
+    components: int = 1
+    evaluated: str = ""
+    variables: tuple = ()
 
 
-def parse_keys(text):
-    """All keys of the output of `morula --parameters`, in order."""
-    keys, sections, comment, former, paper = [], [], [], [], None
-    mark = "# With Method = paper:"
-    for line in map(str.strip, text.splitlines()):
-        if line.startswith("# Formerly: "):
-            former.append(line[len("# Formerly: "):])
-        elif line.startswith(mark):
-            paper = line[len(mark):].strip()
-        elif line.startswith("#"):
-            comment.append(line[1:].strip())
-        elif line.startswith("subsection "):
-            sections.append(line[len("subsection "):])
-        elif line == "end":
-            sections.pop()
-        elif line.startswith("set "):
-            name, _, default = line[len("set "):].partition("=")
-            match = re.fullmatch(
-                r"(?s)(.*?)(?: Units: ([^.]*)\.)?(?: Allowed: (.*)\.)?",
-                " ".join(comment))
-            keys.append(Key("/".join([*sections, name.strip()]),
-                            default.strip(), match[2] or "", match[3] or "",
-                            match[1], tuple(former), paper))
-            comment, former, paper = [], [], None
-    return keys
+def read_keys(text):
+    """All keys of the output of `morula --parameters=json`, in order."""
+    return [Key(key["path"], key["default"], key["unit"], key["allowed"],
+                key["meaning"], tuple(key.get("formerly", ())),
+                key.get("default by method", {}).get("paper"),
+                key["type"], tuple(key.get("choices", ())),
+                key.get("components", 1), key.get("evaluated", ""),
+                tuple(key.get("variables", ()))) for key in json.loads(text)]
 
 
 def defaults_with(keys, method):
@@ -63,4 +53,4 @@ def defaults_with(keys, method):
 
 def keys_of(morula):
     """The keys of an executable."""
-    return parse_keys(call([morula, "--parameters"]).stdout)
+    return read_keys(call([morula, "--parameters=json"]).stdout)

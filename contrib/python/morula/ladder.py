@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Which keys take which values: ladders, the points they make, the seeds."""
+import csv
 import itertools
 import re
 from dataclasses import dataclass
@@ -200,3 +201,49 @@ class Plan:
         """What is special about a point."""
         return ", ".join(f"{key} = {value}" for key, value
                          in self.overrides(point)) or "the scene itself"
+
+
+class SamplesPlan(Plan):
+    """Points that a table gives, one a row, instead of ladders."""
+
+    def __init__(self, scene, keys, points):
+        super().__init__(scene, [], full_grid=True)
+        self.keys = list(keys)
+        self.own = tuple(scene[key] for key in keys)
+        self._exact = {}
+        self.points = [self._exact.setdefault(tuple(map(normal, point)), point)
+                       for point in points]
+
+
+def read_samples(file, scene):
+    """--samples: the keys, and a tuple of values a row. Lines that begin with
+    '#' are comments; equal rows are refused, as they would be one run."""
+    try:
+        with open(file, encoding="utf-8-sig", newline="") as stream:
+            rows = [row for row in csv.reader(
+                line for line in stream if line.strip()
+                and not line.startswith("#"))]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise Refused("--samples", file, "a CSV file that can be read",
+                      f"{error}.") from None
+    if len(rows) < 2:
+        raise Refused("--samples", file, "a line of keys and a line of values "
+                      "for each run")
+    keys = tuple(clean_path(key.strip()) for key in rows[0])
+    for key in keys:
+        scene.require_key(key, "--samples")
+    if len(set(keys)) < len(keys):
+        raise Refused("--samples", file, "each key once")
+    points = [tuple(value.strip() for value in row) for row in rows[1:]]
+    first = {}
+    for number, point in enumerate(points, 1):
+        if len(point) != len(keys) or not all(point):
+            raise Refused("--samples", f"{file}, sample {number}",
+                          f"{len(keys)} values")
+        same = tuple(map(normal, point))
+        if same in first:
+            raise Refused("--samples", f"{file}, sample {number}",
+                          f"other values than those of sample {first[same]}",
+                          "Equal samples are one run: --seeds repeats it.")
+        first[same] = number
+    return keys, points

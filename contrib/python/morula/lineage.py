@@ -96,6 +96,65 @@ class Lineage:
         return np.bincount(self.founder[self.living],
                            minlength=self.founders)
 
+    @cached_property
+    def clones(self):
+        """A data frame, a row a founder: cells that ever lived, and those alive
+        at the end of the run."""
+        import pandas
+        return pandas.DataFrame({
+            "cells": np.bincount(self.founder, minlength=self.founders),
+            "alive": self.clone_sizes}).rename_axis("founder")
+
+    def tree(self, cell):
+        """A cell's descendants as dictionaries of dictionaries: of each daughter
+        that of its own daughters."""
+        self.require(cell)
+        trees = {member: {} for member in self.clone(cell)}
+        for member in trees:
+            if member != cell:
+                trees[self.parent[member]][int(member)] = trees[member]
+        return trees[cell]
+
+    def plot(self, cell=0, axes=None, end=None):
+        """Draws the tree of a cell with matplotlib: time from left to right, a
+        line a cell; `end` (days) is that of the lines of living cells, by default
+        the last birth or death. Returns the axes."""
+        if axes is None:
+            from .style import plt
+            axes = plt.figure(layout="constrained").add_subplot()
+        if end is None:
+            ends = self.end_time[np.isfinite(self.end_time)]
+            end = max(self.birth_time.max(), ends.max(initial=0))
+        rows = {}
+        self._place(cell, self.tree(cell), rows, [0])
+        for member, row in rows.items():
+            stop = min(self.end_time[member], end)
+            colour = f"C{self.generation[member] % 10}"
+            axes.plot([self.birth_time[member], stop], [row, row], colour)
+            daughters = [rows[other] for other in rows
+                         if self.parent[other] == member]
+            if daughters:
+                axes.plot([stop, stop], [min(daughters), max(daughters)],
+                          colour)
+        axes.set(xlabel="time, day", yticks=[], title=f"cell {cell}")
+        return axes
+
+    def _place(self, cell, tree, rows, next_row):
+        """Rows of a tree's lines: those of cells without daughters follow each
+        other, a mother stands in the middle of hers. Not recursive: lineages
+        may be longer than Python's stack."""
+        stack = [(cell, tree, False)]
+        while stack:
+            member, below, done = stack.pop()
+            if not below:
+                rows[member] = next_row[0]
+                next_row[0] += 1
+            elif done:
+                rows[member] = np.mean([rows[other] for other in below])
+            else:
+                stack.append((member, below, True))
+                stack += [(*item, False) for item in below.items()]
+
     def _generations(self):
         """Ids of the cells of generation 1, 2, ..."""
         order = np.argsort(self.generation, kind="stable")

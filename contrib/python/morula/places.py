@@ -19,4 +19,4 @@ def _program():
 
 
 MORULA = _program()
-OUTPUT = Path("output") if INSTALLED else ROOT / "output"
+OUTPUT = Path("output")  # in the working directory

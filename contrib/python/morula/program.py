@@ -3,13 +3,19 @@
 """The executable: what it accepts, and how it is called."""
 import functools
 import hashlib
+import json
 import os
 import tempfile
 from pathlib import Path
 
 from . import execute
-from .keys import defaults_with, parse_keys
+from .keys import defaults_with, read_keys
 from .refusal import Refused
+
+
+@functools.lru_cache(maxsize=None)
+def _digest(file, *_):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 class Program:
@@ -26,12 +32,14 @@ class Program:
     def digest(self):
         """Tells this build of the program from every other one, now: somebody
         may build it anew while runs go on."""
-        return hashlib.sha256(self.executable.read_bytes()).hexdigest()
+        about = self.executable.stat()
+        return _digest(self.executable, about.st_ino, about.st_size,
+                       about.st_mtime_ns)
 
     @functools.cached_property
     def keys(self):
         """Every key, in order."""
-        return parse_keys(self._run("--parameters").stdout)
+        return read_keys(self._run("--parameters=json").stdout)
 
     @functools.cached_property
     def defaults(self):
@@ -41,8 +49,8 @@ class Program:
     def keys_with(self, scene, overrides=()):
         """The same, and those of the types, fields and obstacles that a scene
         names."""
-        return parse_keys(self._run("--parameters", scene,
-                                    *execute.overrides(overrides)).stdout)
+        return read_keys(self._run("--parameters=json", scene,
+                                   *execute.overrides(overrides)).stdout)
 
     def complete(self, written, keys=None):
         """All keys of a scene that sets these: path -> value as text."""
@@ -59,20 +67,21 @@ class Program:
                                *execute.overrides(overrides), ranks=ranks,
                                mpiexec=self.mpiexec)
 
-    def explain(self, scene, overrides=()):
+    def explain(self, scene, overrides=(), server=None):
         """Has the program check a scene; raises its own message if it does
-        not accept it, and returns what it says of it."""
+        not accept it, and returns what it says of it: --explain=json as a
+        dictionary. A served.Server answers sooner."""
         with tempfile.TemporaryDirectory() as scratch:
             directory = ("Output directory", f"{scratch}/output")
             words = self.command(scene, [*overrides, directory])
-            result = execute.call([*words, "--explain"])
+            result = (server or execute).call([*words, "--explain=json"])
         if result.code != 0:
             shown = ", ".join(f"{key}={value}" for key, value in overrides)
             message = result.stderr.strip().removeprefix("morula: ")
             raise Refused("The scene", f"{scene}"
                           + (f" with {shown}" if shown else ""),
                           "what Morula accepts", f"It says: {message}")
-        return result.stdout
+        return json.loads(result.stdout)
 
     def _run(self, *arguments):
         result = execute.call([self.executable, *arguments])

@@ -160,10 +160,12 @@ class Run:
             encoding="utf-8"))
 
     def number(self, key):
+        """The value of a key that is a number."""
         return float(self.keys[key])
 
     @property
     def dimension(self):
+        """2 or 3."""
         return int(self.keys["Dimension"])
 
     @cached_property

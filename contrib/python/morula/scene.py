@@ -4,7 +4,6 @@
 import difflib
 from pathlib import Path
 
-from .prm import parse
 from .refusal import Refused
 
 
@@ -18,11 +17,11 @@ class Scene:
             raise Refused("The scene", path, "a .prm file that can be read",
                           "Correct its name.")
         self.overrides = tuple(read_override(text) for text in overrides)
-        program.explain(self.path, self.overrides)
+        self.explained = program.explain(self.path, self.overrides)
         self.known = program.keys_with(self.path, self.overrides)
-        self.keys = program.complete({
-            **parse(self.path.read_text(), self.path.parent),
-            **dict(self.overrides)}, self.known)
+        self.keys = {**self.explained["keys"],
+                     "Output directory": dict(self.overrides).get(
+                         "Output directory", "")}
 
     @property
     def name(self):

@@ -98,6 +98,10 @@ namespace Morula
     Evaluated
     evaluated() const;
 
+    /** 1, or 3 for a vector. */
+    unsigned int
+    components() const;
+
     /** Whether it is evaluated for cells during the run. Then it may use their
      *  types, and may differ between types. */
     bool

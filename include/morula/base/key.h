@@ -89,6 +89,10 @@ namespace Morula
     virtual bool
     is_of_numbers() const;
 
+    /** Whether the value names a file, or may do so. */
+    bool
+    names_file() const;
+
     /**
      * Refuses a value that is wrong by itself, in @p dim dimensions.
      * @throws InputError
@@ -123,6 +127,7 @@ namespace Morula
     std::string                        symbol_;
     std::map<std::string, std::string> with_method;
     std::vector<std::string>           former_paths_;
+    bool                               names_file_ = false;
 
   private:
     std::string path_;
@@ -284,6 +289,10 @@ namespace Morula
     /** Names a path that the key had before. */
     Key &
     formerly(const std::string &path);
+
+    /** Says that the value names a file, or may do so. */
+    Key &
+    of_file();
 
     /** Admits one more word. */
     void

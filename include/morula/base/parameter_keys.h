@@ -42,6 +42,13 @@ namespace Morula
     void
     print(std::ostream &out) const;
 
+    /** Prints a list of all keys as JSON: path, type, unit, allowed, choices,
+     *  default, defaults by Method, meaning, former paths, and for expressions
+     *  the number of components, when they are evaluated and the variables that
+     *  they may use. */
+    void
+    print_json(std::ostream &out) const;
+
   private:
     bool
     has_section(const std::string &path) const;

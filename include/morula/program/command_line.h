@@ -15,15 +15,21 @@ namespace Morula
   /** What the command line asks for. */
   struct CommandLine
   {
-    /** May be empty only with @ref parameters, @ref version or @ref help. */
+    /** May be empty only with @ref parameters, @ref serve, @ref version or
+     *  @ref help. */
     std::string              scene_file;
     std::vector<std::string> overrides; // "Section/Key=value"
     bool                     resume     = false;
     bool                     replace    = false;
     bool                     explain    = false;
     bool                     parameters = false;
-    bool                     version    = false;
-    bool                     help       = false;
+    /** Only keys that have all of these words, for @ref parameters. */
+    std::vector<std::string> words;
+    /** Whether @ref explain or @ref parameters print JSON. */
+    bool json    = false;
+    bool serve   = false;
+    bool version = false;
+    bool help    = false;
 
     /**
      * Parses the words of the command line, without the program's name.
@@ -42,9 +48,10 @@ namespace Morula
   print_version(std::ostream &out);
 
   /** Prints every key with meaning, unit, allowed values and default, as a .prm
-   *  file; also the keys of the types and fields that the scene of @p command
-   *  names, if there is one.
-   *  @throws InputError for a scene that cannot be read */
+   *  file or as JSON; also the keys of the types and fields that the scene of
+   * @p command names, if there is one; only those with its words.
+   *  @throws InputError for a scene that cannot be read, and for words that no
+   *  key has */
   void
   print_parameters(std::ostream      &out,
                    const CommandLine &command   = {},

@@ -18,10 +18,14 @@ namespace Morula
    * and off, the columns of a cell, the expected cells and memory, estimates of
    * unknowns and time, and the warnings. Simulates nothing and writes no file.
    * Collective.
+   * @param json print it as a JSON object, with all keys as used
    * @throws InputError
    */
   void
-  explain(const Scene &scene, std::ostream &out, const MPI_Comm comm);
+  explain(const Scene   &scene,
+          std::ostream  &out,
+          const MPI_Comm comm,
+          const bool     json = false);
 } // namespace Morula
 
 #endif

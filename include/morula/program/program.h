@@ -8,6 +8,8 @@
 #include <morula/scene/scene.h>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -17,8 +19,8 @@ namespace Morula
 
   /**
    * The main() of Morula, and of programs that do other work with a scene. It
-   * handles MPI, command line, --help, --version, --parameters and --explain,
-   * and turns errors into messages and exit codes.
+   * handles MPI, command line, --help, --version, --parameters, --explain and
+   * --serve, and turns errors into messages and exit codes.
    */
   struct Program
   {
@@ -46,6 +48,10 @@ namespace Morula
   private:
     int
     run_with_mpi(int argc, char *argv[], int &stop_signal) const;
+
+    /** Runs the program with these words, without its name. */
+    int
+    run_words(const std::vector<std::string> &words, int &stop_signal) const;
   };
 } // namespace Morula
 

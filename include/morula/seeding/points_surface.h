@@ -24,9 +24,10 @@ namespace Morula
    * per ℓ² (2-D: ℓ), and their areas times normals add up to zero. Separate
    * bodies have surfaces of their own if an empty ball of radius 2ℓ passes
    * between them, and so have cavities with room for one. Rank 0 makes the
-   * surface: it does not depend on the number of ranks. Collective.
+   * surface: it does not depend on the number of ranks. Where Points surface
+   * names a file, the patches tile that surface. Collective.
    * @throws InputError if the surface encloses less than half or more than
-   * twice the cells' volume
+   * twice the cells' volume, or leaves cells of the file outside
    */
   template <int dim>
   SurfacePatches<dim>

@@ -26,8 +26,9 @@ namespace Morula
    *  more of the scene. */
   namespace TissueKeys
   {
-    inline const std::string surface_mesh = "Tissue/Surface mesh";
-    inline const std::string points_file  = "Tissue/Points file";
+    inline const std::string surface_mesh   = "Tissue/Surface mesh";
+    inline const std::string points_file    = "Tissue/Points file";
+    inline const std::string points_surface = "Tissue/Points surface";
   } // namespace TissueKeys
 
   /** Section "Tissue": the initial tissue. */
@@ -86,6 +87,10 @@ namespace Morula
     /** Whether there are no boundary points. */
     bool
     has_no_surface() const;
+
+    /** Whether the surface around the cells comes from a file, too. */
+    bool
+    has_surface_file() const;
   };
 
   /**

@@ -45,6 +45,7 @@ namespace Morula
                3)
   {
     place_in(list(), "Obstacles/" + name);
+    surface_mesh.of_file();
     stiffness.require([](const double value) { return value > 0.; },
                       "a value > 0, in units of E/h",
                       "100 lets tissue under the pressure E go in by h/100.");

@@ -34,7 +34,8 @@ class Accuracy:
         self.fixed = request.fixed_overrides()
         self.kept = KeptRuns(request.scene, request.output / "runs",
                              request.ranks, request.jobs, request.repeats,
-                             request.options.again, say=self._say)
+                             request.options.again, say=self._say,
+                             name="accuracy")
         self.records = {}  # (point, sample): Record
 
     def run(self):

@@ -3,6 +3,7 @@
 """The command contrib/render."""
 import sys
 
+from morula.command_line import tell
 from morula.draw.screen import on_virtual_screen, run_on_virtual_screen
 from morula.files import replaced
 from morula.refusal import Refused
@@ -32,8 +33,13 @@ def draw(request):
     frames = Frames(request)
     options = request.options
     if request.film:
+        def pictures():
+            for number, picture in frames:
+                tell(f"render: state {number + 1} of {len(request.states)}")
+                yield picture
+
         with replaced(request.path) as unfinished:
-            request.film((picture for _, picture in frames), unfinished)
+            request.film(pictures(), unfinished)
         print(f"render: {request.path}, {len(request.states)} states")
         return
     for number, picture in frames:

@@ -71,26 +71,16 @@ def effects(run, program):
 
 
 def said_by_program(run, program):
-    """The lines of --explain below "Effects"; None if the program does not
+    """The effects of --explain; None if the program does not
     say, as when a file that the scene names has gone."""
     if program is None:
         return None
     try:
-        lines = program.explain(run.directory / "parameters.prm").splitlines()
+        said = program.explain(run.directory / "parameters.prm")
     except (Refused, subprocess.SubprocessError, OSError):
         return None
-    if "Effects" not in lines:
-        return None
-    rows = []
-    for line in lines[lines.index("Effects") + 1:]:
-        if not line.startswith("  "):
-            break
-        for state in (" on ", " off"):
-            name, found, how = (line + " ").partition(state)
-            if found:
-                rows.append((name.strip(), state.strip(), how.strip()))
-                break
-    return rows
+    return [(effect["name"], "on" if effect["on"] else "off",
+             effect["description"]) for effect in said["effects"]]
 
 
 def switched_by_keys(run):

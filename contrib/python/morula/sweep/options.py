@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The words of the command line."""
 import argparse
+from pathlib import Path
 
 from morula.command_line import Parser, add_run_options
 
@@ -13,6 +14,7 @@ def parser():
         description="Runs a scene with every combination of values of some "
         "keys and with several\nrandom seeds, and tells mean and scatter.",
         epilog="""examples:
+  contrib/sweep bud.prm --samples latin-hypercube.csv --skip-refused
   contrib/sweep bud.prm --seeds 1-5 \\
       --vary "Proliferation/Cell cycle/Size checkpoint=0,0.9" \\
       --vary "Proliferation/Cell cycle/G0 exit rate=0.5,1,2" --jobs 2
@@ -24,6 +26,11 @@ doc/sweeps.md explains the results.""")
         help="values separated by commas ('|' where they contain some); "
         "KEY,KEY=VALUE:VALUE,... changes keys together; repeated, every "
         "combination is run")
+    add("--samples", type=Path, metavar="FILE.csv", help="instead of --vary: "
+        "a line of keys, and a line of values for each run, as latin "
+        "hypercubes and posterior samples are")
+    add("--skip-refused", action="store_true", help="leave out combinations "
+        "that the program refuses, with a word, instead of giving up")
     add("--seeds", metavar="1-5", help="random seeds of each combination; "
         "default: the scene's own")
     add("--columns", default="cells,total_volume", metavar="LIST",

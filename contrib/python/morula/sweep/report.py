@@ -30,7 +30,7 @@ def _rows_of_ends(request, ensembles):
             numbers = (end.mean, end.deviation, end.error, end.smallest,
                        end.largest)
             yield [*ensemble.point, column, unit(request, column), end.n,
-                   len(ensemble.records) - end.n,
+                   len(ensemble.records) - len(ensemble.tables),
                    *(format(number, ".10g") for number in numbers)]
 
 
@@ -42,7 +42,8 @@ def _rows_of_runs(request, ensembles):
             yield [*ensemble.point, seed,
                    record.output.relative_to(request.output),
                    record.repeats[-1]["exit"],
-                   *(format(table[column][-1] if record.finished else math.nan,
+                   *(format(table[column][-1] if record.finished
+                            and column in table.dtype.names else math.nan,
                             ".10g") for column in request.all_columns)]
 
 

@@ -6,8 +6,8 @@ import difflib
 from morula import columns
 from morula.command_line import output_directory, ranks_and_jobs
 from morula.kept_runs import Job, job_name
-from morula.ladder import (Plan, check_method, check_seeds, read_ladder,
-                           read_seeds)
+from morula.ladder import (Plan, SamplesPlan, check_method, check_seeds,
+                           read_ladder, read_samples, read_seeds)
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
@@ -31,7 +31,9 @@ class Request:
         program = Program(options.morula, options.mpiexec)
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
-        self.plan = Plan(self.scene, self._ladders(), full_grid=True)
+        self.plan = (SamplesPlan(self.scene, *self._samples())
+                     if options.samples else
+                     Plan(self.scene, self._ladders(), full_grid=True))
         self.results = self._results()
         self.columns = read_columns(options.columns, self.all_columns[1:])
         check_method(self.plan)
@@ -54,18 +56,30 @@ class Request:
         return {name: unit for name, unit in found[0].items()
                 if all(name in other for other in found)}
 
+    def _samples(self):
+        if self.options.vary:
+            raise Refused("--samples", self.options.samples, "nothing besides "
+                          "--vary", "Leave out one of the two.")
+        keys, points = read_samples(self.options.samples, self.scene)
+        for key in keys:
+            self._refuse_not_varied("--samples", key)
+        return keys, points
+
+    @staticmethod
+    def _refuse_not_varied(option, key):
+        if key in NOT_VARIED or key.startswith("Output/"):
+            raise Refused(option, key, "a key that changes results",
+                          NOT_VARIED.get(key, "-s sets it for all runs."))
+
     def _ladders(self):
         if not self.options.vary and not self.seeds:
-            raise Refused("--vary", "", "at least one key with its values, or "
-                          "--seeds", "For instance --vary "
+            raise Refused("--vary", "", "at least one key with its values, "
+                          "--samples, or --seeds", "For instance --vary "
                           '"Grid/Spacing=60,40" --seeds 1-5.')
         ladders = [read_ladder(text, self.scene) for text in self.options.vary]
         for ladder in ladders:
             for key in ladder.keys:
-                if key in NOT_VARIED or key.startswith("Output/"):
-                    raise Refused("--vary", key, "a key that changes results",
-                                  NOT_VARIED.get(key, "-s sets it for all "
-                                                      "runs."))
+                self._refuse_not_varied("--vary", key)
         return ladders
 
     def label(self, point):

@@ -3,8 +3,10 @@
 """From the request to tables and the picture."""
 import sys
 
-from morula.command_line import run_tool
+from morula.command_line import run_tool, tell
 from morula.kept_runs import KeptRuns
+
+from morula.refusal import Refused
 
 from .ensemble import Ensemble
 from .figure import draw
@@ -17,6 +19,7 @@ def main(words=None):
     """Exit code 0; 1 for what makes no sense; 2 if a run failed."""
     def tool():
         options = parser().parse_args(words)
+        tell(f"sweep: asking the program about {options.scene} ...")
         options.words = sys.argv[1:] if words is None else words
         return sweep(Request(options))
     return run_tool("sweep", tool)
@@ -29,8 +32,14 @@ def sweep(request):
     runs = [request.run(point, seed) for point in points for seed in seeds]
     kept = KeptRuns(request.scene, request.output / "runs", request.ranks,
                     request.jobs, again=request.options.again, resume=True,
-                    say=_say)
-    kept.check(runs[::len(seeds)])
+                    say=_say, name="sweep")
+    allowed = set(kept.check(runs[::len(seeds)], request.options.skip_refused))
+    points = [point for point, run in zip(points, runs[::len(seeds)])
+              if run in allowed]
+    runs = [request.run(point, seed) for point in points for seed in seeds]
+    if not runs:
+        raise Refused("--skip-refused", "all combinations", "some that Morula "
+                      "accepts")
     if request.options.plan:
         for run in runs:
             _say(run.name)
@@ -45,6 +54,7 @@ def sweep(request):
     for line in failures:
         print(f"sweep: {line}", file=sys.stderr)
     if len(failures) < len(records):
+        _say("drawing sweep.png ...")
         draw(request, ensembles, request.output / "sweep.png")
     _say(f"{len(records) - len(failures)} of {len(records)} runs finished; "
          f"tables and figure in {request.output}")

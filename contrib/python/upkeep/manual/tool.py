@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from upkeep.manual import python_reference
 from upkeep.manual.coverage import undocumented
 from upkeep.manual.header import comments_linked
 from upkeep.manual.markdown import PICTURES, ROOT, Page, pages
@@ -40,6 +41,8 @@ def convert(sources, output):
             text = Page(name, output).converted(shown(text, path.parent))
         (sources / name).parent.mkdir(parents=True, exist_ok=True)
         (sources / name).write_text(text, encoding="utf-8")
+    (sources / python_reference.PATH).write_text(python_reference.page(),
+                                                 encoding="utf-8")
 
 
 def make(output):

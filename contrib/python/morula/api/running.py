@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""How a scene of Python's is run by the program."""
+from __future__ import annotations
+
+import contextlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from morula import execute
+from morula.refusal import Refused
+from morula.scene import normal
+
+from .run import Run
+
+PATIENCE = 600.0  # s, for the step that a run is at: then it saves its state
+N_SNAPSHOTS = 10
+EVERY = 0.5  # s, between looks at how far it is
+
+
+@contextlib.contextmanager
+def scene_file(scene):
+    """The .prm file of a scene: its own, or an empty one for keys alone."""
+    if scene.path:
+        yield scene.path
+        return
+    with tempfile.TemporaryDirectory() as scratch:
+        file = Path(scratch) / f"{scene.name}.prm"
+        file.write_text("", encoding="utf-8")
+        yield file
+
+
+def state_of(scene, directory, keys):
+    """'none', 'finished', 'resumable', 'begun' (no snapshot yet) or 'other', of
+    the run in a directory; keys as --explain has them."""
+    if not (directory / "parameters.prm").is_file():
+        return "none"
+    try:
+        found = Run(directory)
+        there, done = found.keys, found.finished
+    except Refused:  # nothing was computed yet
+        return "begun"
+    same = all(normal(there.get(key, "")) == normal(value)
+               for key, value in keys.items()
+               if key != "Output directory")
+    if not same:
+        return "other"
+    if done:
+        return "finished"
+    return ("resumable" if (directory / "snapshot.h5").is_file() else "begun")
+
+
+def run_scene(scene, directory, ranks, progress, again):
+    """See Scene.run."""
+    keys = scene.explain()["keys"]
+    interval = "Output/Snapshot interval"
+    if float(keys[interval]) == 0:  # what an interruption may lose
+        keys[interval] = f"{float(keys['Time/End time']) / N_SNAPSHOTS:.6g}"
+    state = state_of(scene, directory, keys)
+    if state == "finished" and not again:
+        return Run(directory)
+    if state == "other" and not again:
+        raise Refused("The directory", directory, "one without a run of another "
+                      "scene", "Choose another one, or replace that run: "
+                      "again=True.")
+    how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])
+    if again and state != "none":
+        how = ["--replace"]
+    with scene_file(scene) as file:
+        overrides = [*scene._overrides(), (interval, keys[interval]),
+                     ("Output directory", directory)]
+        words = [*scene.program.command(file, overrides, ranks), *how]
+        code, said = _execute(words, directory, float(keys["Time/End time"]),
+                              progress)
+    if code == 1:
+        raise Refused("The scene", scene.name, "what Morula accepts",
+                      f"It says: {said}")
+    if code:
+        raise RuntimeError(f"The run in {directory} ended with exit code {code}:"
+                           f" {said}")
+    return Run(directory)
+
+
+def _execute(words, directory, end, progress):
+    """The exit code, and what was said to stderr. Ctrl-C is passed on as the
+    signal after which the program saves its state."""
+    with tempfile.TemporaryFile("w+") as errors:
+        child = subprocess.Popen(
+            words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=errors, start_new_session=True, env=execute.environment())
+        try:
+            while child.poll() is None:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    child.wait(EVERY)
+                if progress:
+                    _tell(directory, end)
+        except KeyboardInterrupt:
+            print("\nmorula: saving; the same call goes on ...",
+                  file=sys.stderr, flush=True)
+            execute.end([child], PATIENCE)
+            raise
+        finally:
+            if child.poll() is None:
+                execute.end([child], PATIENCE)
+            if progress:
+                print(file=sys.stderr, flush=True)
+        errors.seek(0)
+        return child.returncode, errors.read().strip().removeprefix("morula: ")
+
+
+def _tell(directory, end):
+    """A line, over the one before, of how far the run is."""
+    row = ["", "0"]
+    with contextlib.suppress(OSError, IndexError):
+        lines = (directory / "statistics.csv").read_text().splitlines()
+        names, row = lines[0].split(","), lines[-1].split(",")
+        row = [row[names.index("cells")], row[names.index("time")]]
+    with contextlib.suppress(ValueError):
+        text = (f"day {float(row[1]):g} of {end:g}, {row[0]} cells" if row[0]
+                else "placing the cells ...")
+        print(f"\r{text:<60}", end="", file=sys.stderr, flush=True)

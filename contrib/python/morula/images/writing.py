@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The files of a scene: cells, surface, .prm."""
+import numpy as np
+
+from morula.files import replaced, write, write_csv
+
+NAMES = "xyz"
+
+
+def poly_data(part):
+    """A closed part in VTK's form; the order of its coordinates stays."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    points, triangles, result = vtkPoints(), vtkCellArray(), vtkPolyData()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(part.vertices), deep=True))
+    rows = np.insert(part.facets, 0, 3, axis=1).astype(np.int64).ravel()
+    triangles.SetCells(len(part.facets), numpy_to_vtkIdTypeArray(rows, True))
+    result.SetPoints(points)
+    result.SetPolys(triangles)
+    return result
+
+
+def write_cells(file, places, volumes, types):
+    """cells.csv; places (n, dim) in the order x, y, z."""
+    names = [*NAMES[:places.shape[1]], "volume"]
+    rows = [[format(number, ".9g") for number in (*place, volume)]
+            for place, volume in zip(places, volumes)]
+    if types:
+        names.append("type")
+        rows = [[*row, kind] for row, kind in zip(rows, types)]
+    write_csv(file, [names, *rows])
+
+
+def write_off(file, parts):
+    """The parts as one OFF file."""
+    with replaced(file) as aside, aside.open("w", encoding="ascii") as stream:
+        stream.write(f"OFF\n{sum(len(part.vertices) for part in parts)} "
+                     f"{sum(len(part.facets) for part in parts)} 0\n")
+        for part in parts:
+            np.savetxt(stream, part.vertices[:, ::-1], "%.9g")
+        before = 0
+        for part in parts:
+            np.savetxt(stream, np.insert(part.facets + before, 0, 3, axis=1),
+                       "%d")
+            before += len(part.vertices)
+
+
+def write_wkt(file, parts):
+    """Outlines as a MULTIPOLYGON: each body with the cavities in it."""
+    from .surface import contains
+    bodies = [[part] for part in parts if part.volume > 0]
+    for cavity in (part for part in parts if part.volume < 0):
+        around = [body for body in bodies
+                  if contains(body[0], cavity.vertices[:1])[0]]
+        min(around, key=lambda body: body[0].volume).append(cavity)
+    text = ",\n".join("(" + ",\n ".join(map(_ring, body)) + ")"
+                      for body in bodies)
+    write(file, f"MULTIPOLYGON({text})\n")
+
+
+def _ring(part):
+    line = np.concatenate([part.vertices, part.vertices[:1]])[:, ::-1]
+    return "(" + ", ".join(f"{x:.9g} {y:.9g}" for x, y in line) + ")"
+
+
+def prm(keys, comments):
+    """A .prm text of keys by full path; comments stand at its begin."""
+    lines = [f"# {line}" for line in comments] + [""]
+    sections = []
+    for path, value in keys.items():
+        *wanted, name = path.split("/")
+        same = 0
+        while (same < min(len(sections), len(wanted))
+               and sections[same] == wanted[same]):
+            same += 1
+        while len(sections) > same:
+            sections.pop()
+            lines.append("  " * len(sections) + "end")
+        for section in wanted[same:]:
+            lines.append("  " * len(sections) + f"subsection {section}")
+            sections.append(section)
+        lines.append("  " * len(sections) + f"set {name} = {value}")
+    while sections:
+        sections.pop()
+        lines.append("  " * len(sections) + "end")
+    return "\n".join(lines) + "\n"

@@ -164,7 +164,7 @@ namespace Morula
             const Lame lame = cell.lame();
             rates.of_homeostasis.damping =
               dt * kappa * (2. * lame.mu + dim * lame.lambda);
-            rates.shape /= 1. + 2. * dt * kappa * lame.mu;
+            rates.shape *= mean_of_decay(2. * dt * kappa * lame.mu);
           }
       }
     return rates;

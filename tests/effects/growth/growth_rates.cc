@@ -67,7 +67,8 @@ namespace
         const GrowthFeedback feedback{-c * (g - f), c};
         const double         increment =
           // The bare formula, as the signs of both rates alternate here.
-          predicts ? (feedback.rate + c * (f - before)) / (1. + c) :
+          predicts ? f - before + (feedback.rate - (f - before)) *
+                                    mean_of_decay(c) :
                      feedback.rate;
         before = f;
         g += increment;
@@ -84,19 +85,26 @@ TEST(GrowthRates,
      GrowAsTheClosedForm){MORULA_BOTH_DIMENSIONS(check_closed_form)}
 
 
+// The exact solution of k' = -c (k - r), and its mean over a step.
 TEST(GrowthRates, PredictBetweenFreeAndHeld)
 {
-  const GrowthFeedback k{0.5, 3.};
-  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.), 0.125); // k / (1 + c)
-  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.5), 0.5);
-  EXPECT_DOUBLE_EQ(predicted_rate(k, k, 0.25), 0.3125);
+  const auto of = [](const double k, const double c, const double r) {
+    return predicted_rate({k, c}, {k, c}, r);
+  };
+  EXPECT_NEAR(of(1., 1., 0.), 0.632120558828558, 1e-15);
+  EXPECT_NEAR(of(1., 1e-9, 0.), 1. - 5e-10, 1e-15);
+  EXPECT_NEAR(of(1., 1e6, 0.), 1e-6, 1e-15);
+  EXPECT_NEAR(of(1., 9.999e-4, 0.), 0.9995002165917, 1e-13);
+  EXPECT_NEAR(of(1., 1.0001e-3, 0.), 0.9995001166583, 1e-13);
+  const double phi = -std::expm1(-3.) / 3.;
+  EXPECT_DOUBLE_EQ(of(0.5, 3., 0.), 0.5 * phi);
+  EXPECT_DOUBLE_EQ(of(0.5, 3., 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(of(0.5, 3., 0.25), 0.25 + 0.25 * phi);
   // A place that narrows does not turn growth into shrinkage.
-  EXPECT_DOUBLE_EQ(predicted_rate(k, k, -4.), 0.125);
-  const GrowthFeedback shrinks{-0.5, 3.};
-  EXPECT_DOUBLE_EQ(predicted_rate(shrinks, shrinks, -0.5), -0.5);
-  EXPECT_DOUBLE_EQ(predicted_rate(shrinks, shrinks, 0.5), -0.125);
-  const GrowthFeedback indifferent{0.5, 0.};
-  EXPECT_EQ(predicted_rate(indifferent, indifferent, 0.1), 0.5);
+  EXPECT_DOUBLE_EQ(of(0.5, 3., -4.), 0.5 * phi);
+  EXPECT_DOUBLE_EQ(of(-0.5, 3., -0.5), -0.5);
+  EXPECT_DOUBLE_EQ(of(-0.5, 3., 0.5), -0.5 * phi);
+  EXPECT_EQ(of(0.5, 0., 0.1), 0.5);
 }
 
 
@@ -105,6 +113,8 @@ TEST(GrowthRates, PredictPartsThatAddUp)
   const GrowthFeedback k{0.5, 1.}, h{0.1, 2.}, all{0.6, 3.};
   EXPECT_DOUBLE_EQ(predicted_rate(k, all, 0.2) + predicted_rate(h, all, 0.2),
                    predicted_rate(all, all, 0.2));
+  // What has no feedback is not damped by that of the other part.
+  EXPECT_EQ(predicted_rate({0.5, 0.}, {0.4, 7.}, 0.1), 0.5);
 }
 
 

@@ -81,11 +81,10 @@ namespace Morula
 
 
     /**
-     * v of relaxed() for backward Euler over @p dt: τ_r / (τ_r + dt), but with
-     * a yield stress the root of doc/theory.md (8.5). Between complete
-     * relaxation, where the stress is below the yield stress, and none, where
-     * it is above, there is a root, and only one where the stress falls as c
-     * relaxes.
+     * v of relaxed() for @p dt: exp(-dt / τ_r), but with a yield stress the
+     * root of backward Euler, doc/theory.md (8.5). Between complete relaxation,
+     * where the stress is below the yield stress, and none, where it is above,
+     * there is a root, and only one where the stress falls as c relaxes.
      */
     template <int dim>
     double
@@ -95,15 +94,18 @@ namespace Morula
                const double            dt)
     {
       const double tau = flow.relaxation_time;
-      const double v   = tau / (tau + dt);
       if (flow.yield_stress <= 0.)
-        return v;
+        return std::exp(-dt / tau);
+      const double v = tau / (tau + dt);
       if (stress(c) <= flow.yield_stress)
         return 1.;
       const auto residual = [&](const double v) {
         const double m = stress(relaxed<dim>(c, v));
         return (1. - v) * tau * m - v * dt * (m - flow.yield_stress);
       };
+      // A yield stress below rounding.
+      if (!(residual(v) > 0.))
+        return v;
       std::uintmax_t iterations = 100;
       const auto [below, above] = boost::math::tools::toms748_solve(
         residual,
@@ -116,6 +118,16 @@ namespace Morula
       return 0.5 * (below + above);
     }
   } // namespace
+
+
+  double
+  weight_of_end(const double gamma)
+  {
+    // Below this the difference has fewer digits than the series.
+    constexpr double small = 1e-3;
+    return gamma < small ? 0.5 + gamma / 12. :
+                           -1. / std::expm1(-gamma) - 1. / gamma;
+  }
 
 
   template <int dim>
@@ -151,9 +163,10 @@ namespace Morula
 
     Isochoric<dim>         after = before;
     const ShearStress<dim> stress(std::sqrt(product), lame, material);
-    for (unsigned int pass = 0; pass < flow.passes; ++pass)
+    const unsigned int     passes = flow.yield_stress > 0. ? flow.passes : 1;
+    for (unsigned int pass = 0; pass < passes; ++pass)
       {
-        const double v = what_stays<dim>(after, stress, flow, dt / flow.passes);
+        const double v = what_stays<dim>(after, stress, flow, dt / passes);
         if (v < 1.)
           after = relaxed<dim>(after, v);
       }

@@ -98,6 +98,10 @@ namespace Morula
 
     void
     step();
+    /** Finds what the last step missed, and how long the next one may be.
+     *  Collective. */
+    void
+    estimate_error();
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution

@@ -81,6 +81,22 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  GrowthLaw<dim>::follows_state() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  double
+  GrowthLaw<dim>::missed(const GrowingCell<dim> &) const
+  {
+    return 0.;
+  }
+
+
+  template <int dim>
   void
   GrowthLaw<dim>::check(const Preview<dim> &scene) const
   {

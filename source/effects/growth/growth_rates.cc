@@ -71,8 +71,18 @@ namespace Morula
                  const GrowthFeedback &all,
                  const double          widening)
   {
+    return part.rate -
+           part.damping * (all.rate - seen(all, widening)) * delay(all.damping);
+  }
+
+
+  double
+  expected_rate(const GrowthFeedback &part,
+                const GrowthFeedback &all,
+                const double          widening)
+  {
     return part.rate - part.damping * (all.rate - seen(all, widening)) *
-                         delay(all.damping);
+                         mean_of_decay(all.damping);
   }
 
 

@@ -112,6 +112,32 @@ namespace Morula
                   "",
                   "ln det F_law that the first step withheld",
                   0.})};
+    const bool turns = homeostasis || (share && share->follows_state()) ||
+                       (direction && direction->follows_state());
+    if (predictor && turns)
+      expected =
+        Expected{{},
+                 setting.columns.template add<SymmetricTensor<2, dim>>(
+                   {"rate_expected",
+                    "1/day",
+                    "rate of growth that the step before expected at its end",
+                    SymmetricTensor<2, dim>()})};
+    else if (predictor && rate.follows_state())
+      expected = Expected{
+        setting.columns.template add<double>(
+          {"rate_expected",
+           "1/day",
+           "rate of the volume that the step before expected at its end",
+           0.}),
+        {}};
+  }
+
+
+  template <int dim>
+  bool
+  RateGrowth<dim>::follows_state() const
+  {
+    return expected.has_value();
   }
 
 
@@ -142,7 +168,7 @@ namespace Morula
     const double t = (t0 + t1) / 2., dt = t1 - t0;
     Rates        rates;
     rates.of_rate.rate = cell.value(rate, t);
-    if (predictor && follows_stress)
+    if (predictor && follows_stress && dt > 0.)
       { // doc/theory.md (10.4)
         const double grown = cell.value_if_grown(rate, t, 1. + probe);
         rates.of_rate.damping =
@@ -164,7 +190,7 @@ namespace Morula
             const Lame lame = cell.lame();
             rates.of_homeostasis.damping =
               dt * kappa * (2. * lame.mu + dim * lame.lambda);
-            rates.shape *= mean_of_decay(2. * dt * kappa * lame.mu);
+            rates.shape_damping = 2. * dt * kappa * lame.mu;
           }
       }
     return rates;
@@ -219,6 +245,67 @@ namespace Morula
 
   template <int dim>
   SymmetricTensor<2, dim>
+  RateGrowth<dim>::tensor_of(const Rates            &now,
+                             const PresentCell<dim> &cell,
+                             const double            t) const
+  {
+    return directed(now.of_rate.rate, &cell, t) + now.shape +
+           now.of_homeostasis.rate / dim * unit_symmetric_tensor<dim>();
+  }
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  RateGrowth<dim>::missed_tensor(const GrowingCell<dim> &cell) const
+  {
+    const PastStep &past = cell.present->reader().past;
+    if (!expected || !past.exists() ||
+        // The second step makes good what the first withheld, and all else.
+        (memory && cell.cell->get(memory->withheld) != 0.))
+      return {};
+    const double t    = past.middle();
+    const double half = 0.5 * past.length();
+    if (expected->volume.exists())
+      return half / dim *
+             (cell.present->value(rate, t) - cell.cell->get(expected->volume)) *
+             unit_symmetric_tensor<dim>();
+    return half * (tensor_of(rates(*cell.present, t, t), *cell.present, t) -
+                   cell.cell->get(expected->tensor));
+  }
+
+
+  template <int dim>
+  double
+  RateGrowth<dim>::missed(const GrowingCell<dim> &cell) const
+  {
+    const SymmetricTensor<2, dim> all = missed_tensor(cell);
+    return std::abs(trace(all)) + deviator(all).norm();
+  }
+
+
+  template <int dim>
+  void
+  RateGrowth<dim>::expect(const GrowingCell<dim>      &cell,
+                          const double                 t0,
+                          const double                 t1,
+                          const CellView<dim, double> &after) const
+  {
+    const double         t   = (t0 + t1) / 2.;
+    Rates                now = rates(*cell.present, t0, t1);
+    const GrowthFeedback all = now.all();
+    const double widening = memory ? seen_at_first_step(cell, t0).widening : 0.;
+    now.of_homeostasis.rate = expected_rate(now.of_homeostasis, all, widening);
+    now.of_rate.rate        = expected_rate(now.of_rate, all, widening);
+    now.shape *= std::exp(-now.shape_damping);
+    if (expected->volume.exists())
+      after.set(expected->volume, now.of_rate.rate);
+    else
+      after.set(expected->tensor, tensor_of(now, *cell.present, t));
+  }
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
   RateGrowth<dim>::rate_of_growth(const GrowingCell<dim> &cell,
                                   const double            t0,
                                   const double            t1) const
@@ -226,9 +313,9 @@ namespace Morula
     const double t = (t0 + t1) / 2.;
     if (cell.present == nullptr)
       return directed(rate.value(cell.founder_position, t), nullptr, t);
-    const Rates          now = rates(*cell.present, t0, t1);
+    Rates                now = rates(*cell.present, t0, t1);
     const GrowthFeedback all = now.all();
-    double               k = now.of_rate.rate, h = now.of_homeostasis.rate;
+    const double         k = now.of_rate.rate, h = now.of_homeostasis.rate;
     if (memory)
       {
         const FirstStep past = seen_at_first_step(cell, t0);
@@ -236,12 +323,24 @@ namespace Morula
         const double sum  = std::abs(k) + std::abs(h);
         const double of_k = sum > 0. ? std::abs(k) / sum : 0.;
         const double due  = past.due / (t1 - t0);
-        k = predicted_rate(now.of_rate, all, past.widening) + of_k * due;
-        h = predicted_rate(now.of_homeostasis, all, past.widening) +
-            (sum > 0. ? 1. - of_k : 0.) * due;
+        now.of_rate.rate =
+          predicted_rate(now.of_rate, all, past.widening) + of_k * due;
+        now.of_homeostasis.rate =
+          predicted_rate(now.of_homeostasis, all, past.widening) +
+          (sum > 0. ? 1. - of_k : 0.) * due;
       }
-    return directed(k, cell.present, t) + now.shape +
-           h / dim * unit_symmetric_tensor<dim>();
+    const double of_shape = mean_of_decay(now.shape_damping);
+    now.shape *= of_shape;
+    const SymmetricTensor<2, dim> L = tensor_of(now, *cell.present, t);
+    if (!expected || !cell.present->reader().past.exists())
+      return L;
+    // What is added now is answered by the stress as all growth is.
+    const SymmetricTensor<2, dim> missed    = missed_tensor(cell) / (t1 - t0);
+    const double                  of_volume = mean_of_decay(all.damping);
+    if (expected->volume.exists())
+      return L + directed(of_volume * trace(missed), cell.present, t);
+    return L + of_volume / dim * trace(missed) * unit_symmetric_tensor<dim>() +
+           of_shape * deviator(missed);
   }
 
 
@@ -300,6 +399,8 @@ namespace Morula
                             const double                 t1,
                             const CellView<dim, double> &after) const
   {
+    if (expected)
+      expect(cell, t0, t1, after);
     if (!memory)
       return;
     if (t0 <= slack)

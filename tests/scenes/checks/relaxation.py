@@ -3,9 +3,10 @@
 """Tissue that is held on all sides, while its cells contract along an axis.
 
 F = I, and F_g = diag(a) diag(r) of contraction and relaxation. In each step
-F_e = diag(1 / (a r)) with the contraction of the step's end loses by backward
-Euler what the relaxation time of the step's middle lets it lose. The yield
-stress is one of the true stress, in 2-D of its deviator in the plane.
+F_e = diag(1 / (a r)) loses what the relaxation time of the step's middle lets it
+lose of its shear: a mean of that with the contraction of the step's beginning
+and of its end. With a yield stress, one of the true stress, in 2-D of its
+deviator in the plane, the end alone counts, and it is lost by backward Euler.
 Argument: the largest b_e at the end, if it is known.
 """
 import sys
@@ -47,7 +48,7 @@ def shear(b_e):
 
 
 def after(b_e, ratio):
-    """b_e after backward Euler with dt / tau = ratio."""
+    """b_e after a step with g = ratio."""
     c = b_e[:dim] / numpy.prod(b_e[:dim]) ** (1 / dim)
     change = 1 / (1 + ratio * c)
     result = b_e.copy()
@@ -56,15 +57,16 @@ def after(b_e, ratio):
 
 
 def relaxed(b_e, tau):
+    if yielding == 0:
+        return after(b_e, numpy.expm1(dt / tau))
     for _ in range(passes):
         ratio = dt / passes / tau
-        if yielding > 0:
-            if shear(b_e) <= yielding:
-                continue
-            start, whole = b_e, ratio
-            ratio = root(lambda r: r - whole * (1 - yielding
-                                                / shear(after(start, r))),
-                         0.0, whole)
+        if shear(b_e) <= yielding:
+            continue
+        start, whole = b_e, ratio
+        ratio = root(lambda r: r - whole * (1 - yielding
+                                            / shear(after(start, r))),
+                     0.0, whole)
         b_e = after(b_e, ratio)
     return b_e
 
@@ -76,9 +78,13 @@ r, shears = numpy.ones(3), []
 for step in range(1, steps + 1):
     tau = results.function("Material/Relaxation time", somewhere,
                            (step - 0.5) * dt)[0]
-    before = (contraction(step * dt) * r) ** -2
-    b_e = relaxed(before, tau)
-    r *= numpy.sqrt(before / b_e)
+    weight = 1 if yielding > 0 else (1 / -numpy.expm1(-dt / tau) - tau / dt)
+    end = 1 / (contraction(step * dt) * r)
+    begin = 1 / (contraction((step - 1) * dt) * r) if step > 1 else 1
+    before = (weight * end + (1 - weight) * begin) ** 2
+    D = numpy.sqrt(before / relaxed(before, tau))
+    b_e = (end / D) ** 2
+    r *= D
     shears.append(shear(b_e))
     if step in files:
         agree(f"stress at step {step}, kPa", stresses(files[step]),

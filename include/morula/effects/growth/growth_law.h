@@ -76,6 +76,16 @@ namespace Morula
              const double                 t1,
              const CellView<dim, double> &after) const;
 
+    /** Whether growth follows the state of cells, so that a step can miss some
+     *  of it. */
+    virtual bool
+    follows_state() const;
+
+    /** |missed| of doc/theory.md (5.9), in ln det F_g: what the step that led
+     *  to this state missed of the cell's growth. */
+    virtual double
+    missed(const GrowingCell<dim> &cell) const;
+
     /** Evaluates the law as the first and the last step will. */
     void
     check(const Preview<dim> &scene) const override;

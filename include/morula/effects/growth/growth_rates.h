@@ -54,6 +54,13 @@ namespace Morula
                  const GrowthFeedback &all,
                  const double          widening);
 
+  /** The rate of @p part at the end of a step for which it was predicted, as
+   *  far as its own feedback tells, 1/day: doc/theory.md (10.5a). */
+  double
+  expected_rate(const GrowthFeedback &part,
+                const GrowthFeedback &all,
+                const double          widening);
+
   /** The growth to make up for after the first step, when it is known how far
    *  the tissue gave way, doc/theory.md (10.6). */
   struct FirstStep

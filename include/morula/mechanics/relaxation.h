@@ -38,8 +38,8 @@ namespace Morula
   weight_of_end(const double gamma);
 
   /**
-   * The flow of tissue whose shape is held for @p dt (day): exact for small
-   * strains, doc/theory.md (8.3), (8.4); with a yield stress by backward Euler,
+   * The flow of tissue whose shape is held for @p dt (day): exact,
+   * doc/theory.md (8.2a), (8.3), (8.4); with a yield stress by backward Euler,
    * (8.5). Stable for any @p dt; for @p dt → ∞ the complete relaxation of what
    * is above the yield stress.
    *

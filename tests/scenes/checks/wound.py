@@ -13,7 +13,7 @@ from tests.common.results import Results, agree, read_csv
 
 results = Results(sys.argv[1])
 tau = results.number("Material/Relaxation time")
-assert results.number("Time/Step") >= 0.2 * tau
+assert results.number("Time/Step") >= 0.199 * tau
 eta = results.lame()[1] * tau
 gamma = results.number("Boundary conditions/Surface tension")
 times, inner, outer = [], [], []

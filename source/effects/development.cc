@@ -294,7 +294,7 @@ namespace Morula
   }
 
   template <int dim>
-  double
+  typename CellDevelopment<dim>::Errors
   CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &after,
                                 const double                 t0,
@@ -315,9 +315,9 @@ namespace Morula
       effects.clock->remember_size(before.cell(), after);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before, after, t0, t1);
-    double flow_share = 0.;
+    Errors errors;
     if (!grows())
-      return flow_share;
+      return errors;
     const double end =
       effects.death ? std::min(t1, effects.death->time(after)) : t1;
     Tensor<2, dim> F_g =
@@ -326,13 +326,14 @@ namespace Morula
                            after,
                            effects.cycle ? clock(after) : CycleState<dim>(),
                            t0,
-                           end);
+                           end,
+                           errors.missed_growth);
     if (effects.death && effects.death->is_dead(after))
       F_g *= effects.death->shrink(after, t1);
     if (effects.relaxation)
-      F_g = relax(before, after, F_g, t0, t1, flow_share);
+      F_g = relax(before, after, F_g, t0, t1, errors.flow_share);
     after.set(columns_.growth, F_g);
-    return flow_share;
+    return errors;
   }
 
   template <int dim>
@@ -377,9 +378,11 @@ namespace Morula
           }
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
-        const double flow_share = develop(before, after, t0, t1, result.events);
+        const Errors errors = develop(before, after, t0, t1, result.events);
+        if (effects.law && effects.law->follows_state())
+          result.missed_growth.push_back(errors.missed_growth);
         if (effects.relaxation)
-          result.flow_shares.push_back(flow_share);
+          result.flow_shares.push_back(errors.flow_share);
         if (grows())
           result.current.push_back(after.growth());
         if (material.depends_on_state())

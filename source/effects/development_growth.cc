@@ -120,17 +120,22 @@ namespace Morula
                                       const CellView<dim, double> &after,
                                       const CycleState<dim>       &next,
                                       const double                 t0,
-                                      const double                 t1) const
+                                      const double                 t1,
+                                      double                      &missed) const
   {
     Tensor<2, dim> F_g = growth_behind_law(before.cell(), next, t1);
     if (effects.law)
       {
         const GrowingCell<dim> growing = this->growing(before, t0);
-        const Tensor<2, dim>   of_law  = law_growth(growing, t0, t1);
+        GrowthOfStep<dim>      of_law{growing.growth};
+        if (effects.grows.empty() || effects.grows[before.type()])
+          of_law = effects.law->grow(growing, t0, t1, after);
+        else
+          effects.law->remember(growing, t0, t1, after);
+        missed = of_law.missed;
         if (effects.law_growth.exists())
-          after.set(effects.law_growth, of_law);
-        effects.law->remember(growing, t0, t1, after);
-        F_g = of_law * F_g;
+          after.set(effects.law_growth, of_law.growth);
+        F_g = of_law.growth * F_g;
       }
     if (effects.contraction)
       F_g = effects.contraction->strain(before, after, t1) * F_g;

@@ -64,8 +64,15 @@ namespace Morula
     if (run_state.n_steps > 1)
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
-    estimate_error();
-    commit(space, solve_step(space));
+    adapt_step();
+    const auto   solution = solve_step(space);
+    const double mu       = error_of_step(growth_of_step.missed_growth);
+    commit(space, solution);
+    if (model.development.states_error())
+      {
+        row.step_error = mu;
+        run_state.error.add(mu);
+      }
     if (!surface.restores(run_state.enclosed_share))
       {
         const TimerOutput::Scope section(timer, "strays");
@@ -85,13 +92,10 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::estimate_error()
+  Simulation<dim>::adapt_step()
   {
-    if (!model.development.states_error())
-      {
-        time_steps.adapt(0.);
-        return;
-      }
+    if (model.scene.time.tolerance <= 0.)
+      return;
     const TimerOutput::Scope section(timer, "growth");
     std::vector<double>      missed;
     everywhere(comm, [&]() {
@@ -99,14 +103,22 @@ namespace Morula
                                                time_steps.time(),
                                                time_steps.past());
     });
-    // Empty on all ranks, or on those without cells.
-    const double growth = mean_over_tissue<dim>(
-      tissue,
-      [&](const unsigned int p) { return missed.empty() ? 0. : missed[p]; },
-      std::pow(model.scene.tissue.cell_spacing, dim));
-    row.step_error = growth + run_state.error.flow;
-    run_state.error.add(*row.step_error);
-    time_steps.adapt(*row.step_error);
+    time_steps.adapt(error_of_step(missed));
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::error_of_step(const std::vector<double> &missed) const
+  {
+    if (!model.development.states_error())
+      return 0.;
+    return run_state.error.flow +
+           mean_over_tissue<dim>(
+             tissue,
+             [&](const unsigned int p) {
+               return missed.empty() ? 0. : missed[p];
+             },
+             std::pow(model.scene.tissue.cell_spacing, dim));
   }
 
   template <int dim>

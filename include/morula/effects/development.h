@@ -42,6 +42,9 @@ namespace Morula
     /** Which part of an error of the forecast motion is an error of what flows,
      *  by cell, if tissue relaxes; else empty. */
     std::vector<double> flow_shares = {};
+    /** |missed| of the step before, by cell, if growth follows the state; else
+     *  empty. */
+    std::vector<double> missed_growth = {};
   };
 
   /** What the points file may say of a founder. */
@@ -348,14 +351,16 @@ namespace Morula
 
     /**
      * F_g of law, cycle and contraction at t1, also written to @p after.
-     * @param next the clock of t1
+     * @param next   the clock of t1
+     * @param missed set to |missed| of the step before, of the law
      */
     Tensor<2, dim>
     living_growth(const PresentCell<dim>      &before,
                   const CellView<dim, double> &after,
                   const CycleState<dim>       &next,
                   const double                 t0,
-                  const double                 t1) const;
+                  const double                 t1,
+                  double                      &missed) const;
 
     /**
      * D F_g, also written to @p after, as if D had come before all growth.
@@ -408,9 +413,17 @@ namespace Morula
                  const double                 t1,
                  const bool                   is_whole) const;
 
-    /** Sets all columns of @p after but F. @return which part of an error of
-     *  the motion is one of the flow */
-    double
+    /** What is known of errors when a cell develops. */
+    struct Errors
+    {
+      /** |missed| of the step before. */
+      double missed_growth = 0.;
+      /** Which part of an error of the motion is one of the flow. */
+      double flow_share = 0.;
+    };
+
+    /** Sets all columns of @p after but F. */
+    Errors
     develop(const PresentCell<dim>      &before,
             const CellView<dim, double> &after,
             const double                 t0,

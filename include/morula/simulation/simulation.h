@@ -98,10 +98,14 @@ namespace Morula
 
     void
     step();
-    /** Finds what the last step missed, and how long the next one may be.
-     *  Collective. */
+    /** With Time/Tolerance: makes the step as long as the error of the last one
+     *  allows. Collective. */
     void
-    estimate_error();
+    adapt_step();
+    /** μ of doc/theory.md (5.10) of the last step. @param missed of its growth,
+     *  by cell. Collective. */
+    double
+    error_of_step(const std::vector<double> &missed) const;
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution

@@ -333,7 +333,14 @@ namespace Morula
     // It was held, and has passed since the last step began.
     const double since = std::max(t_e, std::min(size.since, t0));
     const double above = size.J_e - at.value(size_checkpoint, t0);
-    return size.slope > 0. ? std::max(since, t0 - above / size.slope) : since;
+    if (!(size.slope > 0. && size.since < t0))
+      return since;
+    // In parts of the step that are far longer than rounding: cells that are
+    // equal have equal times, on any ranks, and so their daughters equal ids.
+    constexpr double n_parts = 1u << 20;
+    const double     part    = (t0 - size.since) / n_parts;
+    const double     n       = std::round(above / size.slope / part);
+    return std::max(since, t0 - n * part);
   }
 
 

@@ -227,23 +227,6 @@ namespace Morula
 
 
   template <int dim>
-  FirstStep
-  RateGrowth<dim>::seen_at_first_step(const GrowingCell<dim> &cell,
-                                      const double            t0) const
-  {
-    const double dt = t0 - cell.cell->get(memory->time);
-    if (dt <= slack) // the first step: as if held
-      return {};
-    const double withheld = cell.cell->get(memory->withheld);
-    const double grown    = std::log(determinant(cell.growth));
-    const double J_e      = cell.cell->elastic_volume_ratio();
-    if (withheld != 0.)
-      return after_first_step(grown, withheld, -std::log(J_e), dt);
-    return {0., (std::log(J_e) + grown - cell.cell->get(memory->place)) / dt};
-  }
-
-
-  template <int dim>
   SymmetricTensor<2, dim>
   RateGrowth<dim>::tensor_of(const Rates            &now,
                              const PresentCell<dim> &cell,
@@ -256,64 +239,13 @@ namespace Morula
 
   template <int dim>
   SymmetricTensor<2, dim>
-  RateGrowth<dim>::missed_tensor(const GrowingCell<dim> &cell) const
-  {
-    const PastStep &past = cell.present->reader().past;
-    if (!expected || !past.exists() ||
-        // The second step makes good what the first withheld, and all else.
-        (memory && cell.cell->get(memory->withheld) != 0.))
-      return {};
-    const double t    = past.middle();
-    const double half = 0.5 * past.length();
-    if (expected->volume.exists())
-      return half / dim *
-             (cell.present->value(rate, t) - cell.cell->get(expected->volume)) *
-             unit_symmetric_tensor<dim>();
-    return half * (tensor_of(rates(*cell.present, t, t), *cell.present, t) -
-                   cell.cell->get(expected->tensor));
-  }
-
-
-  template <int dim>
-  double
-  RateGrowth<dim>::missed(const GrowingCell<dim> &cell) const
-  {
-    const SymmetricTensor<2, dim> all = missed_tensor(cell);
-    return std::abs(trace(all)) + deviator(all).norm();
-  }
-
-
-  template <int dim>
-  void
-  RateGrowth<dim>::expect(const GrowingCell<dim>      &cell,
-                          const double                 t0,
-                          const double                 t1,
-                          const CellView<dim, double> &after) const
+  RateGrowth<dim>::rate_of_growth(const GrowingCell<dim>        &cell,
+                                  Rates                          now,
+                                  const SymmetricTensor<2, dim> &missed,
+                                  const double                   t0,
+                                  const double                   t1) const
   {
     const double         t   = (t0 + t1) / 2.;
-    Rates                now = rates(*cell.present, t0, t1);
-    const GrowthFeedback all = now.all();
-    const double widening = memory ? seen_at_first_step(cell, t0).widening : 0.;
-    now.of_homeostasis.rate = expected_rate(now.of_homeostasis, all, widening);
-    now.of_rate.rate        = expected_rate(now.of_rate, all, widening);
-    now.shape *= std::exp(-now.shape_damping);
-    if (expected->volume.exists())
-      after.set(expected->volume, now.of_rate.rate);
-    else
-      after.set(expected->tensor, tensor_of(now, *cell.present, t));
-  }
-
-
-  template <int dim>
-  SymmetricTensor<2, dim>
-  RateGrowth<dim>::rate_of_growth(const GrowingCell<dim> &cell,
-                                  const double            t0,
-                                  const double            t1) const
-  {
-    const double t = (t0 + t1) / 2.;
-    if (cell.present == nullptr)
-      return directed(rate.value(cell.founder_position, t), nullptr, t);
-    Rates                now = rates(*cell.present, t0, t1);
     const GrowthFeedback all = now.all();
     const double         k = now.of_rate.rate, h = now.of_homeostasis.rate;
     if (memory)
@@ -335,12 +267,11 @@ namespace Morula
     if (!expected || !cell.present->reader().past.exists())
       return L;
     // What is added now is answered by the stress as all growth is.
-    const SymmetricTensor<2, dim> missed    = missed_tensor(cell) / (t1 - t0);
-    const double                  of_volume = mean_of_decay(all.damping);
+    const double of_volume = mean_of_decay(all.damping) / (t1 - t0);
     if (expected->volume.exists())
       return L + directed(of_volume * trace(missed), cell.present, t);
     return L + of_volume / dim * trace(missed) * unit_symmetric_tensor<dim>() +
-           of_shape * deviator(missed);
+           of_shape / (t1 - t0) * deviator(missed);
   }
 
 
@@ -367,15 +298,13 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
-  RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
-                          const double            t0,
-                          const double            t1) const
+  RateGrowth<dim>::grown_at(const SymmetricTensor<2, dim> &L,
+                            const GrowingCell<dim>        &cell,
+                            const double                   t0,
+                            const double                   t1) const
   {
-    if (t1 <= t0)
-      return cell.growth;
-    const Tensor<2, dim> F =
-      grown(cell.growth, rate_of_growth(cell, t0, t1), t1 - t0);
-    const double ratio = determinant(F);
+    const Tensor<2, dim> F     = grown(cell.growth, L, t1 - t0);
+    const double         ratio = determinant(F);
     if (!(ratio >= least_volume_ratio && std::isfinite(ratio)))
       {
         const Expression &cause = cause_of_size(cell, t0, t1);
@@ -393,33 +322,51 @@ namespace Morula
 
 
   template <int dim>
-  void
-  RateGrowth<dim>::remember(const GrowingCell<dim>      &cell,
-                            const double                 t0,
-                            const double                 t1,
-                            const CellView<dim, double> &after) const
+  Tensor<2, dim>
+  RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
+                          const double            t0,
+                          const double            t1) const
   {
+    if (t1 <= t0)
+      return cell.growth;
+    if (cell.present == nullptr)
+      {
+        const double t = (t0 + t1) / 2.;
+        return grown_at(directed(rate.value(cell.founder_position, t),
+                                 nullptr,
+                                 t),
+                        cell,
+                        t0,
+                        t1);
+      }
+    return grown_at(rate_of_growth(cell,
+                                   rates(*cell.present, t0, t1),
+                                   missed_tensor(cell),
+                                   t0,
+                                   t1),
+                    cell,
+                    t0,
+                    t1);
+  }
+
+
+  template <int dim>
+  GrowthOfStep<dim>
+  RateGrowth<dim>::grow(const GrowingCell<dim>      &cell,
+                        const double                 t0,
+                        const double                 t1,
+                        const CellView<dim, double> &after) const
+  {
+    if (t1 <= t0)
+      return GrowthLaw<dim>::grow(cell, t0, t1, after);
+    const Rates                   now = rates(*cell.present, t0, t1);
+    const SymmetricTensor<2, dim> all = missed_tensor(cell);
     if (expected)
-      expect(cell, t0, t1, after);
-    if (!memory)
-      return;
-    if (t0 <= slack)
-      {
-        const GrowthFeedback all = rates(*cell.present, t0, t1).all();
-        after.set(memory->withheld,
-                  (t1 - t0) * (all.rate - predicted_rate(all, all, 0.)));
-      }
-    else if (cell.cell->get(memory->withheld) != 0.)
-      // The second step made it good: the place is measured from t = 0 once
-      // more.
-      after.set(memory->withheld, 0.);
-    else
-      {
-        after.set(memory->place,
-                  std::log(cell.cell->elastic_volume_ratio() *
-                           determinant(cell.growth)));
-        after.set(memory->time, t0);
-      }
+      expect(cell, now, t0, t1, after);
+    if (memory)
+      remember_place(cell, now, t0, t1, after);
+    return {grown_at(rate_of_growth(cell, now, all, t0, t1), cell, t0, t1),
+            size_of(all)};
   }
 
 

@@ -22,6 +22,18 @@ namespace Morula
     SymmetricTensor<2, dim>
     stretch(const SymmetricTensor<2, dim> &squared, const double n)
     {
+      // The binomial series of (I + x)^(n/2) needs no axes.
+      constexpr double     small   = 0.05;
+      constexpr int        n_terms = 8;
+      const Tensor<2, dim> I(unit_symmetric_tensor<dim>());
+      const Tensor<2, dim> x = Tensor<2, dim>(squared) - I;
+      if (x.norm() <= small && n <= 2.)
+        {
+          Tensor<2, dim> sum = I;
+          for (int k = n_terms; k > 0; --k)
+            sum = I + (0.5 * n - k + 1.) / k * (x * sum);
+          return symmetrize(sum);
+        }
       SymmetricTensor<2, dim> result;
       for (const auto &[value, axis] : eigenvectors(squared))
         result +=

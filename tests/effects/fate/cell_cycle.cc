@@ -12,8 +12,6 @@
 #include <sstream>
 #include <vector>
 
-#include "effects/lone_cell.h"
-
 using namespace dealii;
 using namespace Morula;
 
@@ -243,52 +241,6 @@ TEST(CellCycle, CheckpointHolds)
   const auto released = cycle.advance(held, X, 0.5, 0.6, 0.901);
   EXPECT_EQ(released.phase, CyclePhase::growing);
   EXPECT_EQ(released.event_time, 0.5);
-}
-
-
-TEST(CellCycle, CheckpointIsPassedAtTheExactTime)
-{
-  CellCycleParameters parameters;
-  parameters.size_checkpoint = "0.9";
-  const CellCycle<3> cycle(parameters, seed, slack);
-  const Point<3>     X;
-  const auto         begins = [&](const double       wait,
-                          const ElasticSize &size) -> double {
-    const auto state = cycle.advance(waiting_until<3>(wait), X, 0.3, 0.4, size);
-    return state.phase == CyclePhase::growing ? state.event_time : -1.;
-  };
-  // J_e goes on as in the last step, from 0.2 to 0.3.
-  EXPECT_EQ(begins(0.35, {0.91, -0.1, 0.2}), 0.35);
-  EXPECT_EQ(begins(0.35, {0.91, -0.3, 0.2}), -1.);
-  EXPECT_EQ(begins(0.35, {0.89, 0.3, 0.2}), 0.35);
-  EXPECT_EQ(begins(0.35, {0.89, 0.1, 0.2}), -1.);
-  // One that was held began where J_e crossed the threshold, but not before its
-  // wait ended, nor before the last step.
-  EXPECT_NEAR(begins(0.1, {0.92, 0.4, 0.2}), 0.25, 1e-14);
-  EXPECT_NEAR(begins(0.28, {0.92, 0.4, 0.2}), 0.28, 1e-14);
-  EXPECT_NEAR(begins(0.1, {0.92, 0.1, 0.2}), 0.2, 1e-14);
-  EXPECT_NEAR(begins(0.1, {0.92, -0.1, 0.2}), 0.2, 1e-14);
-  EXPECT_EQ(begins(0.1, {0.9, 0.4, 0.2}), -1.);
-}
-
-
-TEST(CellCycle, WaitSeesTheMiddleOfTheStep)
-{
-  CellCycleParameters parameters;
-  parameters.exit_rate = "2*t";
-  const CellCycle<2> cycle(parameters, seed, slack);
-  EXPECT_FALSE(cycle.keeps_exit_rate());
-  LoneCell<2> scene;
-  scene.place(Point<2>());
-  const auto    present = scene.present();
-  CycleState<2> state   = cycle.founder(3, CellAt<2>(present, 0.));
-  const double  until   = Random::exponential(seed, state.key, 1.);
-  // t² reaches it.
-  const double step = 0.01;
-  for (unsigned int n = 0; n < 1000 && state.phase == CyclePhase::waiting; ++n)
-    state = cycle.advance(
-      state, CellAt<2>(present, n * step), n * step, (n + 1) * step, 1.);
-  EXPECT_NEAR(state.event_time, std::sqrt(until), 1e-4);
 }
 
 

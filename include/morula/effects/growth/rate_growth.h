@@ -63,6 +63,12 @@ namespace Morula
              const double                 t1,
              const CellView<dim, double> &after) const override;
 
+    GrowthOfStep<dim>
+    grow(const GrowingCell<dim>      &cell,
+         const double                 t0,
+         const double                 t1,
+         const CellView<dim, double> &after) const override;
+
     bool
     follows_state() const override;
 
@@ -129,12 +135,33 @@ namespace Morula
     SymmetricTensor<2, dim>
     missed_tensor(const GrowingCell<dim> &cell) const;
 
-    /** Keeps what the step expects of the rates at its end. */
+    /** How much @p missed is, as GrowthLaw::missed() says. */
+    static double
+    size_of(const SymmetricTensor<2, dim> &missed);
+
+    /** Keeps what the step expects of the rates @p now at its end. */
     void
     expect(const GrowingCell<dim>      &cell,
+           const Rates                 &now,
            const double                 t0,
            const double                 t1,
            const CellView<dim, double> &after) const;
+
+    /** Keeps what the predictor needs of the past. */
+    void
+    remember_place(const GrowingCell<dim>      &cell,
+                   const Rates                 &now,
+                   const double                 t0,
+                   const double                 t1,
+                   const CellView<dim, double> &after) const;
+
+    /** F_law grown at @p L, if anything is left of the cell. @throws InputError
+     */
+    Tensor<2, dim>
+    grown_at(const SymmetricTensor<2, dim> &L,
+             const GrowingCell<dim>        &cell,
+             const double                   t0,
+             const double                   t1) const;
 
     /** k_∥ a⊗a + k_⊥ (I − a⊗a) for the rate @p k of the volume. */
     SymmetricTensor<2, dim>
@@ -147,11 +174,14 @@ namespace Morula
     FirstStep
     seen_at_first_step(const GrowingCell<dim> &cell, const double t0) const;
 
-    /** L of doc/theory.md (10.1). */
+    /** L of doc/theory.md (10.1), of a cell that is there. @param now its rates
+     *  @param missed as missed_tensor() */
     SymmetricTensor<2, dim>
-    rate_of_growth(const GrowingCell<dim> &cell,
-                   const double            t0,
-                   const double            t1) const;
+    rate_of_growth(const GrowingCell<dim>        &cell,
+                   Rates                          now,
+                   const SymmetricTensor<2, dim> &missed,
+                   const double                   t0,
+                   const double                   t1) const;
 
     /** The expression to blame for a cell that grows or withers beyond all
      *  bounds: the one with the largest part in the rate of its volume. */

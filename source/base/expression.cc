@@ -332,6 +332,30 @@ namespace Morula
 
 
   bool
+  Expression::follows_state() const
+  {
+    return std::any_of(used_.begin(), used_.end(), [](const Variable variable) {
+      switch (variable)
+        {
+          case Variable::X:
+          case Variable::Y:
+          case Variable::Z:
+          case Variable::t:
+          case Variable::generation:
+          case Variable::age:
+          case Variable::type_age:
+          case Variable::type:
+          case Variable::depth:
+          case Variable::noise:
+            return false;
+          default:
+            return true;
+        }
+    });
+  }
+
+
+  bool
   Expression::depends_on_state() const
   {
     return !used_.empty() && used_.back() > Variable::t;

@@ -27,6 +27,12 @@ namespace Morula
                     0,
                     "End early at the first step end with at least so many "
                     "cells; 0: never.")
+    , tolerance("Time/Tolerance",
+                0.,
+                "What a step may miss of growth and flow, as a share of the "
+                "tissue's volume (step_error in statistics.csv): steps are "
+                "Step/2^k, as long as this allows, and short at the start and "
+                "after a cut. Not negative; 0: all steps are Step long.")
   {
     const auto is_positive = [](const double t) { return t > 0.; };
     end_time.require(is_positive,
@@ -35,13 +41,16 @@ namespace Morula
     step.require(is_positive,
                  "a number of days > 0",
                  "Choose a positive step.");
+    tolerance.require([](const double share) { return share >= 0.; },
+                      "a number >= 0",
+                      "0 keeps all steps as long as Step.");
   }
 
 
   KeyList
   TimeParameters::list()
   {
-    return {&end_time, &step, &smallest_step, &stop_at_cells};
+    return {&end_time, &step, &smallest_step, &stop_at_cells, &tolerance};
   }
 
 
@@ -57,6 +66,7 @@ namespace Morula
   {
     end_time.check(0);
     step.check(0);
+    tolerance.check(0);
     if (!(end_time <= max_steps * step))
       step.refuse("at least " + end_time.path() + " = " + as_text(end_time) +
                     " day / " + as_text(max_steps),

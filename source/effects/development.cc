@@ -19,6 +19,13 @@ namespace Morula
   }
 
   template <int dim>
+  bool
+  DevelopmentEffects<dim>::states_error() const
+  {
+    return relaxation || (law && law->follows_state());
+  }
+
+  template <int dim>
   CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
                                         const CellColumns<dim>  &columns,
                                         const StateColumns<dim> &state,
@@ -51,7 +58,9 @@ namespace Morula
     if (cycle)
       effects.clock.emplace(columns_,
                             cycle->has_own_duration(),
-                            cycle->has_own_hazard());
+                            cycle->has_own_hazard(),
+                            cycle->keeps_exit_rate(),
+                            cycle->has_checkpoint());
     effects.law   = std::move(law);
     effects.cycle = std::move(cycle);
     if (rule)
@@ -103,14 +112,15 @@ namespace Morula
 
   template <int dim>
   CellReader<dim>
-  CellDevelopment<dim>::reader(const double t) const
+  CellDevelopment<dim>::reader(const double t, const PastStep &past) const
   {
     return {state_,
             material,
             effects.clock ? &*effects.clock : nullptr,
             cycle(),
             random_seed,
-            t};
+            t,
+            past};
   }
 
   template <int dim>
@@ -185,12 +195,13 @@ namespace Morula
                                    const double            t0,
                                    const double            t1) const
   {
-    CycleState<dim> after =
+    const CellView<dim, const double> &view = cell.cell();
+    CycleState<dim>                    after =
       effects.cycle->advance(before,
                              CellAt<dim>(cell, t0),
                              t0,
                              t1,
-                             cell.cell().elastic_volume_ratio());
+                             effects.clock->size(view, cell.reader().past));
     choose_axis(before, cell, t0, after);
     return after;
   }
@@ -236,6 +247,54 @@ namespace Morula
 
   template <int dim>
   void
+  CellDevelopment<dim>::make_good(const PresentCell<dim>      &before,
+                                  const CellView<dim, double> &after) const
+  {
+    const PastStep &past = before.reader().past;
+    if (!past.exists())
+      return;
+    if (effects.death)
+      effects.death->make_good(before, after);
+    if (effects.types)
+      effects.types->make_good(before, after);
+    if (effects.cycle && effects.cycle->keeps_exit_rate())
+      {
+        CycleState<dim> state = clock(after);
+        effects.cycle->make_good(state,
+                                 CellAt<dim>(before, past.middle()),
+                                 past);
+        set_clock(after, state);
+      }
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::expect_rates(const PresentCell<dim>      &before,
+                                     const CellView<dim, double> &after,
+                                     const double                 t0,
+                                     const double                 t1,
+                                     const bool is_whole) const
+  {
+    const double middle = 0.5 * (t0 + t1);
+    if (effects.death)
+      effects.death->expect_rate(before, after, middle, is_whole);
+    if (effects.types)
+      effects.types->expect_rates(before, after, middle, is_whole);
+    if (effects.cycle && effects.cycle->keeps_exit_rate())
+      {
+        CycleState<dim> state = clock(after);
+        const bool      waits = clock(before.cell()).is_drawn_by_hazard() &&
+                           state.is_drawn_by_hazard();
+        state.exit_rate =
+          is_whole && waits ?
+            effects.cycle->exit_rate_at(CellAt<dim>(before, middle)) :
+            not_expected;
+        set_clock(after, state);
+      }
+  }
+
+  template <int dim>
+  typename CellDevelopment<dim>::Errors
   CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &after,
                                 const double                 t0,
@@ -245,14 +304,20 @@ namespace Morula
     const bool dead = is_dead_at(t0, before, after, events);
     if (!dead)
       {
+        const std::size_t n_events = events.size();
+        make_good(before, after);
         const CycleState<dim> next = advance(before, after, t0, t1, events);
         if (effects.cycle)
           set_clock(after, next);
+        expect_rates(before, after, t0, t1, events.size() == n_events);
       }
+    if (effects.clock)
+      effects.clock->remember_size(before.cell(), after);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before, after, t0, t1);
+    Errors errors;
     if (!grows())
-      return;
+      return errors;
     const double end =
       effects.death ? std::min(t1, effects.death->time(after)) : t1;
     Tensor<2, dim> F_g =
@@ -261,26 +326,30 @@ namespace Morula
                            after,
                            effects.cycle ? clock(after) : CycleState<dim>(),
                            t0,
-                           end);
+                           end,
+                           errors.missed_growth);
     if (effects.death && effects.death->is_dead(after))
       F_g *= effects.death->shrink(after, t1);
     if (effects.relaxation)
-      F_g = relax(before, after, F_g, t0, t1);
+      F_g = relax(before, after, F_g, t0, t1, errors.flow_share);
     after.set(columns_.growth, F_g);
+    return errors;
   }
 
   template <int dim>
   DevelopmentOfStep<dim>
   CellDevelopment<dim>::of_step(const Tissue<dim> &tissue,
                                 const double       t0,
-                                const double       t1) const
+                                const double       t1,
+                                const PastStep    &past) const
   {
     DevelopmentOfStep<dim> result;
     result.present = grows();
+    result.past    = past;
     if (!present())
       return result;
     const Cells<dim>     &cells      = tissue.cells();
-    const CellReader<dim> reader     = this->reader(t0);
+    const CellReader<dim> reader     = this->reader(t0, past);
     const CellReader<dim> after_step = this->reader(t1);
     if (keeps_rows)
       result.rows.reserve(cells.size() * columns_.n_numbers());
@@ -309,7 +378,11 @@ namespace Morula
           }
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
-        develop(before, after, t0, t1, result.events);
+        const Errors errors = develop(before, after, t0, t1, result.events);
+        if (effects.law && effects.law->follows_state())
+          result.missed_growth.push_back(errors.missed_growth);
+        if (effects.relaxation)
+          result.flow_shares.push_back(errors.flow_share);
         if (grows())
           result.current.push_back(after.growth());
         if (material.depends_on_state())
@@ -330,7 +403,7 @@ namespace Morula
   {
     if (!present())
       return;
-    const CellReader<dim> reader = this->reader(t0);
+    const CellReader<dim> reader = this->reader(t0, of_step.past);
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
@@ -342,14 +415,17 @@ namespace Morula
             continue;
           }
         if (effects.cycle)
-          set_clock(cell,
-                    next_clock(PresentCell<dim>(cell,
-                                                tissue.cells().id(p),
-                                                tissue.cells().position(p),
-                                                reader),
-                               clock(cell),
-                               t0,
-                               t1));
+          {
+            set_clock(cell,
+                      next_clock(PresentCell<dim>(cell,
+                                                  tissue.cells().id(p),
+                                                  tissue.cells().position(p),
+                                                  reader),
+                                 clock(cell),
+                                 t0,
+                                 t1));
+            effects.clock->remember_size(cell, cell);
+          }
         cell.set(columns_.growth, of_step.current[p]);
       }
   }

@@ -80,13 +80,14 @@ namespace Morula
         std::vector<double>         next = row;
         const CellView<dim, double> cell(make_array_view(row), columns_);
         const CellView<dim, double> after(make_array_view(next), columns_);
-        const CellReader<dim>       reader = this->reader(t0);
-        const PresentCell<dim>      before(cell,
+        const CellReader<dim>       reader =
+          this->reader(t0, {t0 - (n > 0 ? end / n_steps : 0.), t0});
+        const PresentCell<dim> before(cell,
                                       id,
                                       cell.founder_position(),
                                       reader);
-        const GrowingCell<dim>      growing = this->growing(before, t0);
-        const Tensor<2, dim>        of_law  = law_growth(growing, t0, t1);
+        const GrowingCell<dim> growing = this->growing(before, t0);
+        const Tensor<2, dim>   of_law  = law_growth(growing, t0, t1);
         effects.law->remember(growing, t0, t1, after);
         if (effects.law_growth.exists())
           after.set(effects.law_growth, of_law);
@@ -119,17 +120,22 @@ namespace Morula
                                       const CellView<dim, double> &after,
                                       const CycleState<dim>       &next,
                                       const double                 t0,
-                                      const double                 t1) const
+                                      const double                 t1,
+                                      double                      &missed) const
   {
     Tensor<2, dim> F_g = growth_behind_law(before.cell(), next, t1);
     if (effects.law)
       {
         const GrowingCell<dim> growing = this->growing(before, t0);
-        const Tensor<2, dim>   of_law  = law_growth(growing, t0, t1);
+        GrowthOfStep<dim>      of_law{growing.growth};
+        if (effects.grows.empty() || effects.grows[before.type()])
+          of_law = effects.law->grow(growing, t0, t1, after);
+        else
+          effects.law->remember(growing, t0, t1, after);
+        missed = of_law.missed;
         if (effects.law_growth.exists())
-          after.set(effects.law_growth, of_law);
-        effects.law->remember(growing, t0, t1, after);
-        F_g = of_law * F_g;
+          after.set(effects.law_growth, of_law.growth);
+        F_g = of_law.growth * F_g;
       }
     if (effects.contraction)
       F_g = effects.contraction->strain(before, after, t1) * F_g;
@@ -145,12 +151,71 @@ namespace Morula
                               const CellView<dim, double> &after,
                               const Tensor<2, dim>        &F_g,
                               const double                 t0,
-                              const double                 t1) const
+                              const double                 t1,
+                              double                      &share) const
   {
-    const Tensor<2, dim> D = effects.relaxation->flow(before, F_g, t0, t1);
+    // A cell that has forgotten its stress in this step begins without it.
+    const bool forgets =
+      effects.forgets_stress && after.get(state_.type) != before.type();
+    const auto [D, part] = effects.relaxation->flow(
+      before, forgets ? F_g : before.cell().growth(), F_g, t0, t1);
+    share = part;
     return D == Tensor<2, dim>(unit_symmetric_tensor<dim>()) ?
              F_g :
              absorb(D, F_g, after);
+  }
+
+  template <int dim>
+  void
+  CellDevelopment<dim>::remember_motion(const CellView<dim, double> &cell,
+                                        const Tensor<2, dim>        &f) const
+  {
+    if (effects.relaxation)
+      effects.relaxation->remember_motion(cell, f);
+  }
+
+  template <int dim>
+  double
+  CellDevelopment<dim>::missed_flow(const CellView<dim, const double> &cell,
+                                    const unsigned int                 p,
+                                    const Tensor<2, dim>              &f,
+                                    const DevelopmentOfStep<dim>      &of_step,
+                                    const double                       t0,
+                                    const double                       t1) const
+  {
+    return of_step.flow_shares.empty() ?
+             0. :
+             of_step.flow_shares[p] * effects.relaxation->error_of_forecast(
+                                        cell, f, of_step.past, t1 - t0);
+  }
+
+  template <int dim>
+  bool
+  CellDevelopment<dim>::states_error() const
+  {
+    return effects.states_error();
+  }
+
+  template <int dim>
+  std::vector<double>
+  CellDevelopment<dim>::missed_growth(const Tissue<dim> &tissue,
+                                      const double       t0,
+                                      const PastStep    &past) const
+  {
+    std::vector<double> missed;
+    if (!effects.law || !effects.law->follows_state() || !past.exists())
+      return missed;
+    const CellReader<dim> reader = this->reader(t0, past);
+    missed.reserve(tissue.cells().size());
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        const bool             grows =
+          (effects.grows.empty() || effects.grows[cell.type()]) &&
+          !(effects.death && effects.death->is_dead(cell.cell()));
+        missed.push_back(grows ? effects.law->missed(growing(cell, t0)) : 0.);
+      }
+    return missed;
   }
 
   template <int dim>

@@ -56,9 +56,9 @@ namespace Morula
                    Evaluated::step)
     , relaxation_passes("Material/Relaxation passes",
                         1,
-                        "Into how many parts the relaxation of a step is cut. "
-                        "More are more exact where tissue is held; under a "
-                        "load only shorter steps are.",
+                        "Into how many parts the relaxation of a step with a "
+                        "Yield stress is cut. More are more exact where tissue "
+                        "is held, and less so under a load.",
                         {1, 10000})
     , on_transition(
         "Material/On transition",
@@ -118,6 +118,13 @@ namespace Morula
         "membrane the energy is 1 % low at 0.49, 2 % at 0.499, and the run "
         "fails at 0.4999 (doc/hard-cases.md, stiffness).",
         "Set " + volumetric_strain.path() + " = projected.");
+    if (relaxes() && relaxation_passes > 1 &&
+        yield_stress.expression(3).is_always(0.))
+      review.warn(relaxation_passes.path(),
+                  relaxation_passes.text(),
+                  "the flow of a step is exact in one pass where there is no " +
+                    yield_stress.path() + ", so this is ignored.",
+                  "Leave it out.");
   }
 
   std::shared_ptr<const Material>

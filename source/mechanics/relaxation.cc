@@ -5,6 +5,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -81,11 +82,42 @@ namespace Morula
 
 
     /**
-     * v of relaxed() for backward Euler over @p dt: τ_r / (τ_r + dt), but with
-     * a yield stress the root of doc/theory.md (8.5). Between complete
-     * relaxation, where the stress is below the yield stress, and none, where
-     * it is above, there is a root, and only one where the stress falls as c
-     * relaxes.
+     * v of relaxed() after the time @p gamma, in relaxation times, by the flow
+     * of doc/theory.md (8.1), (8.2) where nothing yields: e^{-s} with g = e^s -
+     * 1 of doc/theory.md (8.2a). That equation is integrated by Runge's and
+     * Kutta's classical rule; near the end ds/dγ = 1. For small strains that
+     * holds all the time.
+     */
+    template <int dim>
+    double
+    what_stays_of_exact_flow(const Isochoric<dim> &c, const double gamma)
+    {
+      constexpr double longest = 0.5, nearly_all = 40.;
+      const auto       slope = [&c](const double s) {
+        double product = 1.;
+        for (unsigned int i = 0; i < dim; ++i)
+          product *= 1. + std::exp(-s) * (1. / c[i] - 1.);
+        return dim == 3 ? std::cbrt(product) : std::sqrt(product);
+      };
+      const double       part    = std::min(gamma, nearly_all);
+      const unsigned int n_steps = std::ceil(part / longest);
+      const double       h       = n_steps > 0 ? part / n_steps : 0.;
+      double             s       = 0.;
+      for (unsigned int n = 0; n < n_steps; ++n)
+        {
+          const double k1 = slope(s), k2 = slope(s + 0.5 * h * k1),
+                       k3 = slope(s + 0.5 * h * k2), k4 = slope(s + h * k3);
+          s += h / 6. * (k1 + 2. * k2 + 2. * k3 + k4);
+        }
+      return std::exp(-(s + (gamma - part)));
+    }
+
+
+    /**
+     * v of relaxed() for @p dt: exact, but with a yield stress the root of
+     * backward Euler, doc/theory.md (8.5). Between complete relaxation, where
+     * the stress is below the yield stress, and none, where it is above, there
+     * is a root, and only one where the stress falls as c relaxes.
      */
     template <int dim>
     double
@@ -95,15 +127,18 @@ namespace Morula
                const double            dt)
     {
       const double tau = flow.relaxation_time;
-      const double v   = tau / (tau + dt);
       if (flow.yield_stress <= 0.)
-        return v;
+        return what_stays_of_exact_flow<dim>(c, dt / tau);
+      const double v = tau / (tau + dt);
       if (stress(c) <= flow.yield_stress)
         return 1.;
       const auto residual = [&](const double v) {
         const double m = stress(relaxed<dim>(c, v));
         return (1. - v) * tau * m - v * dt * (m - flow.yield_stress);
       };
+      // A yield stress below rounding.
+      if (!(residual(v) > 0.))
+        return v;
       std::uintmax_t iterations = 100;
       const auto [below, above] = boost::math::tools::toms748_solve(
         residual,
@@ -116,6 +151,16 @@ namespace Morula
       return 0.5 * (below + above);
     }
   } // namespace
+
+
+  double
+  weight_of_end(const double gamma)
+  {
+    // Below this the difference has fewer digits than the series.
+    constexpr double small = 1e-3;
+    return gamma < small ? 0.5 + gamma / 12. :
+                           -1. / std::expm1(-gamma) - 1. / gamma;
+  }
 
 
   template <int dim>
@@ -151,9 +196,10 @@ namespace Morula
 
     Isochoric<dim>         after = before;
     const ShearStress<dim> stress(std::sqrt(product), lame, material);
-    for (unsigned int pass = 0; pass < flow.passes; ++pass)
+    const unsigned int     passes = flow.yield_stress > 0. ? flow.passes : 1;
+    for (unsigned int pass = 0; pass < passes; ++pass)
       {
-        const double v = what_stays<dim>(after, stress, flow, dt / flow.passes);
+        const double v = what_stays<dim>(after, stress, flow, dt / passes);
         if (v < 1.)
           after = relaxed<dim>(after, v);
       }

@@ -161,6 +161,10 @@ namespace Morula
     text += summary_line("wall time", duration(summary.wall_seconds));
     if (!dearest.empty())
       text += summary_line("spent mostly in", dearest);
+    if (summary.error_in_time)
+      text += summary_line("error in time",
+                           format("about %.2g %% of growth and strain",
+                                  100. * *summary.error_in_time));
     text += summary_line("files in", summary.directory);
     return text;
   }

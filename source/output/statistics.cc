@@ -44,6 +44,8 @@ namespace Morula
       {"min_cells_per_spacing", lengths.min_cells_per_spacing},
       {"turns", number(turns)},
       {"proximal_paths", number(proximal_paths)}};
+    if (step_error)
+      list.emplace_back("step_error", *step_error);
     for (const auto &[name, n] : cells_of_types)
       list.emplace_back("cells_" + name, number(n));
     if (death)

@@ -74,7 +74,9 @@ namespace Morula
                                                       effects.state);
         development.clock.emplace(effects.columns,
                                   cycle.has_own_duration(),
-                                  cycle.has_own_hazard());
+                                  cycle.has_own_hazard(),
+                                  cycle.keeps_exit_rate(),
+                                  cycle.has_checkpoint());
       }
     const EffectSetting<dim> setting{scene.random_seed,
                                      scene.time.slack(),
@@ -116,7 +118,9 @@ namespace Morula
       {
         effects.columns.need_growth();
         development.relaxation =
-          std::make_unique<Relaxation<dim>>(scene.material, effects.state);
+          std::make_unique<Relaxation<dim>>(scene.material,
+                                            effects.state,
+                                            effects.columns);
       }
     development.forgets_stress =
       scene.cell_types.present() && scene.material.forgets_stress();

@@ -60,6 +60,8 @@ namespace Morula
         row.lumen.emplace();
       if (has_surface<dim>(scene))
         row.surface.emplace();
+      if (effects_of<dim>(scene).development.states_error())
+        row.step_error = 0.;
       return row;
     }
 
@@ -429,19 +431,22 @@ namespace Morula
   RunFiles<dim>::finish(const std::string   &outcome,
                         const StatisticsRow &row,
                         const unsigned int   rejected_steps,
+                        const double         error_in_time,
                         const TimerOutput   &timer)
   {
     finish_points();
-    progress->finish({outcome,
-                      dim,
-                      row.time,
-                      row.cells,
-                      row.tissue.total_volume,
-                      row.step,
-                      rejected_steps,
-                      wall_seconds(),
-                      section_times(timer, sections_before),
-                      scene.output_directory});
+    progress->finish(
+      {outcome,
+       dim,
+       row.time,
+       row.cells,
+       row.tissue.total_volume,
+       row.step,
+       rejected_steps,
+       wall_seconds(),
+       section_times(timer, sections_before),
+       scene.output_directory,
+       row.step_error ? std::optional<double>(error_in_time) : std::nullopt});
     note_finished(scene.output_directory, setup(), wall_seconds(), comm);
     lock.reset();
   }

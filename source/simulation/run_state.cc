@@ -25,7 +25,15 @@ namespace Morula
                             {"step_interval", double(time_steps.interval)},
                             {"step_begin", time_steps.begin},
                             {"step_part", double(time_steps.part)},
-                            {"step_level", double(time_steps.level)}};
+                            {"step_level", double(time_steps.level)},
+                            {"last_step_begin", time_steps.past},
+                            {"step_anew", double(time_steps.anew)}};
+    if (state.error.total() > 0. || state.error.flow > 0.)
+      {
+        data.numbers["missed_flow"]      = state.error.flow;
+        data.numbers["step_error"]       = state.error.last;
+        data.numbers["changes_of_error"] = state.error.changes;
+      }
     if (has_boundary_ids)
       data.numbers["next_boundary_id"] = state.next_boundary_id;
     if (state.lumen)
@@ -87,7 +95,13 @@ namespace Morula
             static_cast<unsigned int>(data.number("step_interval")),
             data.number("step_begin"),
             static_cast<unsigned int>(data.number("step_part")),
-            static_cast<unsigned int>(data.number("step_level"))};
+            static_cast<unsigned int>(data.number("step_level")),
+            // Where nothing follows the state, older snapshots are as good.
+            data.numbers.count("last_step_begin") > 0 ?
+              data.number("last_step_begin") :
+              data.time,
+            data.numbers.count("step_anew") > 0 &&
+              data.number("step_anew") != 0.};
   }
 
 
@@ -109,6 +123,10 @@ namespace Morula
     // Snapshots of versions that did not know it are without it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
+    if (data.numbers.count("step_error") > 0)
+      state.error = {data.number("missed_flow"),
+                     data.number("step_error"),
+                     data.number("changes_of_error")};
     return state;
   }
 

@@ -14,6 +14,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 // One step.
 
@@ -25,6 +27,22 @@ namespace Morula
      * path is tried. An eighth of it hardly is too long any more: then
      * something jumps. */
     constexpr unsigned int most_plain_halves = 3;
+
+
+    /** Whether a condition has killed cells that are gone already. */
+    bool
+    cuts(const std::vector<CellEvent> &events)
+    {
+      std::set<types::particle_index> killed;
+      for (const CellEvent &event : events)
+        if (event.kind == CellEvent::Kind::death &&
+            event.cause == DeathCause::when)
+          killed.insert(event.id);
+      return std::any_of(events.begin(), events.end(), [&](const auto &event) {
+        return event.kind == CellEvent::Kind::removal &&
+               killed.count(event.id) > 0;
+      });
+    }
   } // namespace
 
 
@@ -46,7 +64,15 @@ namespace Morula
     if (run_state.n_steps > 1)
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
-    commit(space, solve_step(space));
+    adapt_step();
+    const auto   solution = solve_step(space);
+    const double mu       = error_of_step(growth_of_step.missed_growth);
+    commit(space, solution);
+    if (model.development.states_error())
+      {
+        row.step_error = mu;
+        run_state.error.add(mu);
+      }
     if (!surface.restores(run_state.enclosed_share))
       {
         const TimerOutput::Scope section(timer, "strays");
@@ -62,6 +88,37 @@ namespace Morula
     follow_surface(space, former);
     renew_carriers(tissue);
     complete_row();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::adapt_step()
+  {
+    if (model.scene.time.tolerance <= 0.)
+      return;
+    const TimerOutput::Scope section(timer, "growth");
+    std::vector<double>      missed;
+    everywhere(comm, [&]() {
+      missed = model.development.missed_growth(tissue,
+                                               time_steps.time(),
+                                               time_steps.past());
+    });
+    time_steps.adapt(error_of_step(missed));
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::error_of_step(const std::vector<double> &missed) const
+  {
+    if (!model.development.states_error())
+      return 0.;
+    return run_state.error.flow +
+           mean_over_tissue<dim>(
+             tissue,
+             [&](const unsigned int p) {
+               return missed.empty() ? 0. : missed[p];
+             },
+             std::pow(model.scene.tissue.cell_spacing, dim));
   }
 
   template <int dim>
@@ -128,7 +185,8 @@ namespace Morula
       {
         const TimerOutput::Scope section(timer, "growth");
         everywhere(comm, [&]() {
-          growth_of_step = model.development.of_step(tissue, t, t_next);
+          growth_of_step =
+            model.development.of_step(tissue, t, t_next, time_steps.past());
         });
         // Of the step's cells, so that a resumed run has the same.
         if (model.material.depends_on_state())
@@ -198,10 +256,13 @@ namespace Morula
     if (model.development.death() == nullptr)
       return;
     const TimerOutput::Scope section(timer, "removal");
-    const std::uint64_t      n_deaths =
-      std::count_if(events.begin(), events.end(), [](const CellEvent &event) {
-        return event.kind == CellEvent::Kind::death;
-      });
+    const auto               count = [this](const CellEvent::Kind kind) {
+      const std::uint64_t n =
+        std::count_if(events.begin(), events.end(), [kind](const auto &event) {
+          return event.kind == kind;
+        });
+      return Utilities::MPI::sum(n, comm);
+    };
     const auto n_points = [&]() {
       return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
                                                 comm);
@@ -214,9 +275,10 @@ namespace Morula
     if (surface.is_cut(n_before, n_points()))
       run_state.enclosed_share.reset();
     row.death.emplace();
-    row.death->deaths = Utilities::MPI::sum(n_deaths, comm);
-    row.death->removed =
-      Utilities::MPI::sum<std::uint64_t>(removals.size(), comm);
+    row.death->deaths  = count(CellEvent::Kind::death);
+    row.death->removed = count(CellEvent::Kind::removal);
+    if (Utilities::MPI::logical_or(cuts(events), comm))
+      time_steps.begin_anew();
   }
 
   template <int dim>

@@ -62,6 +62,34 @@ namespace Morula
                         Utilities::MPI::max(largest.f, comm)};
       return result;
     }
+
+    using Rows = std::vector<double>;
+
+    /** The rows of all cells of this rank, one after the other. */
+    template <int dim>
+    Rows
+    rows_of(const Tissue<dim> &tissue)
+    {
+      Rows rows;
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        rows.insert(rows.end(),
+                    tissue.cells()[p].row().begin(),
+                    tissue.cells()[p].row().end());
+      return rows;
+    }
+
+    template <int dim>
+    void
+    set_rows(Tissue<dim> &tissue, const Rows &rows)
+    {
+      auto next = rows.begin();
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        {
+          const auto row = tissue.cell(p).row();
+          std::copy(next, next + row.size(), row.begin());
+          next += row.size();
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -97,26 +125,50 @@ namespace Morula
     if (!reason.empty())
       give_up(reason + ".");
 
-    const double      t = time_steps.time(), t_next = time_steps.next();
-    FieldsOfStep<dim> of_step;
-    find_fields(
-      [&]() { of_step = fields.transient(tissue, space, t, t_next); });
+    const double t = time_steps.time(), t_next = time_steps.next();
+    const bool   has_transient = model.fields.any(FieldKind::transient);
+    const Rows   before        = has_transient ? rows_of(tissue) : Rows();
     model.development.commit(tissue, growth_of_step, t, t_next);
-    model.fields.set(tissue, of_step);
+    std::vector<double> missed_flow(cells.positions.size(), 0.);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
         const double volume = model.fields.present() ? cell.volume() : 0.;
         // doc/theory.md (1.1)
-        Tensor<2, dim> F = cells.motions[p].f * cell.F();
+        Tensor<2, dim> F      = cells.motions[p].f * cell.F();
+        double         factor = 1.;
         if (!volumes.empty())
-          F *=
+          factor =
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
                      1. / dim);
+        F *= factor;
         cell.set(cell.columns().deformation, F);
+        const Tensor<2, dim> f = factor * cells.motions[p].f;
+        missed_flow[p] =
+          model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
+        model.development.remember_motion(cell, f);
         if (model.fields.present())
           model.fields.dilute(cell, cell.volume() / volume);
       }
+    // Diluted first, so that a fixed value is not low by what grows in a step.
+    FieldsOfStep<dim> of_step;
+    find_fields([&]() {
+      try
+        {
+          of_step = fields.transient(tissue, space, t, t_next);
+        }
+      catch (...)
+        {
+          set_rows(tissue, before); // the state that is saved is that of t
+          throw;
+        }
+    });
+    model.fields.set(tissue, of_step);
+    if (model.development.states_error())
+      run_state.error.flow = mean_over_tissue<dim>(
+        tissue,
+        [&](const unsigned int p) { return missed_flow[p]; },
+        std::pow(model.scene.tissue.cell_spacing, dim));
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.motions[p].f.norm() <= limit.f &&
           determinant(surface.motions[p].f) > 0.)

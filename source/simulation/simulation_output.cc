@@ -61,6 +61,8 @@ namespace Morula
     row.fields = fields.statistics(tissue);
     if (surface.exists())
       row.surface = surface_fit(tissue);
+    if (model.development.states_error() && !row.step_error)
+      row.step_error = 0.; // of the first row
   }
 
   template <int dim>

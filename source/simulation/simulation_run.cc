@@ -232,6 +232,7 @@ namespace Morula
                                           "Finished: Stop at cells reached",
                   row,
                   run_state.n_rejected,
+                  run_state.error.total(),
                   timer);
   }
 

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace Morula
 {
   TimeSteps::TimeSteps(const TimeParameters &parameters)
     : parameters(parameters)
-    , state_({0., parameters.step, 0, 0., 0, 0})
-  {}
+    , state_({0., parameters.step, 0, 0., 0, 0, 0., false})
+  {
+    begin_anew();
+  }
 
   TimeSteps::State
   TimeSteps::state() const
@@ -32,7 +35,15 @@ namespace Morula
               static_cast<unsigned int>(n_steps),
               state.time,
               0,
-              0};
+              0,
+              state.past,
+              state.anew};
+  }
+
+  PastStep
+  TimeSteps::past() const
+  {
+    return {state_.past, time()};
   }
 
   double
@@ -65,6 +76,48 @@ namespace Morula
     return at(state_.part + 1);
   }
 
+  void
+  TimeSteps::halve()
+  {
+    state_.part *= 2;
+    ++state_.level;
+  }
+
+  void
+  TimeSteps::adapt(const double mu)
+  {
+    if (parameters.tolerance <= 0.)
+      return;
+    const bool anew = std::exchange(state_.anew, false);
+    // What a step misses goes with the square of its length. Only a doubled
+    // step that stays well below the tolerance is worth it: else lengths swing.
+    const double     ratio      = next() - time() > 0. && past().exists() ?
+                                    past().length() / (next() - time()) :
+                                    1.;
+    constexpr double hysteresis = 2.; // √2 in the length
+    double           error      = mu / (ratio * ratio);
+    if (!anew && state_.level > 0 && state_.part % 2 == 0 &&
+        4. * hysteresis * error <= parameters.tolerance)
+      {
+        state_.part /= 2;
+        --state_.level;
+        return;
+      }
+    for (; error > parameters.tolerance && can_halve(); error /= 4.)
+      halve();
+  }
+
+  void
+  TimeSteps::begin_anew()
+  {
+    constexpr unsigned int first_level = 4;
+    if (parameters.tolerance <= 0.)
+      return;
+    state_.anew = true;
+    while (state_.level < first_level && can_halve())
+      halve();
+  }
+
   bool
   TimeSteps::finished() const
   {
@@ -74,6 +127,7 @@ namespace Morula
   void
   TimeSteps::accept()
   {
+    state_.past = time();
     ++state_.part;
     if (state_.part == 1u << state_.level)
       {
@@ -84,9 +138,11 @@ namespace Morula
           ++state_.interval;
         state_.begin = end;
         state_.part  = 0;
-        state_.level = 0;
+        if (parameters.tolerance <= 0.)
+          state_.level = 0;
       }
-    else if (state_.level > 0 && state_.part % 2 == 0)
+    else if (parameters.tolerance <= 0. && state_.level > 0 &&
+             state_.part % 2 == 0)
       {
         state_.part /= 2;
         --state_.level;
@@ -107,8 +163,7 @@ namespace Morula
   {
     if (!can_halve())
       return false;
-    state_.part *= 2;
-    ++state_.level;
+    halve();
     return true;
   }
 } // namespace Morula

@@ -256,9 +256,12 @@ TEST(PartsOfGrowth, HaveColumnsOnlyWhereNeeded)
   };
   EXPECT_EQ(names({false, false, false}), of_each);
   EXPECT_EQ(names({true, false, false}), with({"growth"}));
-  EXPECT_EQ(names({false, false, false, "1"}), with({"growth", "relaxed"}));
+  EXPECT_EQ(names({false, false, false, "1"}),
+            with({"growth", "motion_of_step", "relaxed"}));
   EXPECT_EQ(names({false, false, true}), with({"growth", "contraction"}));
   EXPECT_EQ(names({true, false, true}),
             with({"growth", "contraction", "law_growth"}));
-  EXPECT_EQ(names({false, true, false, "1"}), names({false, true, false}));
+  Names with_cycle = names({false, true, false});
+  with_cycle.push_back("motion_of_step");
+  EXPECT_EQ(names({false, true, false, "1"}), with_cycle);
 }

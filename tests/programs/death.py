@@ -240,7 +240,7 @@ class Death(ProgramTest):
             "Death/Shrinking time": "0",
             "Death/When": "abs(X) < 50 && t >= 0.25"})
         self.assertEqual([*Run(output).statistics["pieces"]],
-                         [1, 1, 1, 1, 2, 2, 2, 2, 2])
+                         [1, 1, 1, 2, 2, 2, 2, 2, 2])
         self.assertEqual(process.text.count("the tissue has parted"), 1)
         self.assertIn("it has 2 pieces now, and had 1", process.text)
 

@@ -9,8 +9,10 @@ from morula.run import Run
 from program import TESTS, ProgramTest, main, overrides, without_wall_time
 
 EXAMPLE = TESTS.parent / "prm/examples/turnover.prm"
-# In the plane, with a few hundred cells.
-DISC = {"Dimension": 2, "Tissue/Radius": 150, "Output/Formats": "csv"}
+# In the plane, with a few hundred cells. The outline is a random walk: with many
+# seeds pieces of it lose the cells for some days. With this one they do not.
+DISC = {"Dimension": 2, "Tissue/Radius": 150, "Output/Formats": "csv",
+        "Random seed": 4}
 SPACING = 12.5  # L_p, um
 
 

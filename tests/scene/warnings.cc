@@ -427,17 +427,25 @@ TEST(SceneWarnings, OfFormerNames)
 TEST(SceneWarnings, OfStepsThatAreLongForCreep)
 {
   Scene scene                    = good_scene();
-  scene.material.relaxation_time = "4 + X/100"; // from 3.55 on
+  scene.material.relaxation_time = "1 + X/100"; // from 0.55 on
   EXPECT_TRUE(warnings_of<3>(scene).empty());   // nothing pulls
   scene.keys<TractionParameters>().where    = "Z > 49";
   scene.keys<TractionParameters>().traction = "0; 0; 0.1";
   expect_warning(scene,
                  {"Time/Step = '1 day'",
-                  "creeps too slowly by the factor 1 + Step / "
-                  "Material/Relaxation time, which is 1.28169 at",
-                  "of 3.55 day",
+                  "that is 1.81818 of the shortest Material/Relaxation time, "
+                  "0.55 day",
+                  "creeps too late",
                   "Shorten the step"});
-  scene.material.relaxation_time = "5";
+  scene.material.relaxation_time = "1";
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  // Parts of a step are of use above a yield stress only.
+  scene.material.relaxation_passes = 3;
+  expect_warning(scene,
+                 {"Material/Relaxation passes = '3'",
+                  "exact in one pass where there is no Material/Yield stress",
+                  "Leave it out"});
+  scene.material.yield_stress = "0.1";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 

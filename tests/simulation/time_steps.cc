@@ -186,3 +186,110 @@ TEST(TimeSteps, AnotherStepContinuesAtItsOwnMultiples)
   EXPECT_TRUE(earlier.finished());
   EXPECT_NEAR(earlier.time(), 0.35, 1e-15);
 }
+
+
+namespace
+{
+  TimeParameters
+  tolerant(const double end, const double step, const double tolerance)
+  {
+    TimeParameters parameters = times(end, step);
+    parameters.tolerance      = tolerance;
+    return parameters;
+  }
+
+  /** Runs on while each step misses @p rate times the square of its length.
+   *  @return the lengths */
+  std::vector<double>
+  lengths(TimeSteps &steps, const double rate, const unsigned int n)
+  {
+    std::vector<double> list;
+    for (unsigned int i = 0; i < n && !steps.finished(); ++i)
+      {
+        steps.adapt(rate * steps.past().length() * steps.past().length());
+        list.push_back(steps.next() - steps.time());
+        steps.accept();
+      }
+    return list;
+  }
+} // namespace
+
+
+TEST(TimeSteps, KnowTheStepThatLedHere)
+{
+  TimeSteps steps(times(3., 1.));
+  EXPECT_FALSE(steps.past().exists());
+  steps.accept();
+  steps.reject();
+  steps.accept();
+  EXPECT_EQ(steps.past().begin, 1.);
+  EXPECT_EQ(steps.past().end, 1.5);
+  EXPECT_EQ(steps.past().middle(), 1.25);
+  EXPECT_EQ(steps.past().length(), 0.5);
+  // Also in a resumed run with another step.
+  TimeSteps resumed(times(3., 0.2));
+  resumed.restore(steps.state());
+  EXPECT_EQ(resumed.past().begin, 1.);
+  EXPECT_EQ(resumed.past().end, 1.5);
+}
+
+
+TEST(TimeSteps, ChooseTheirLengthByTheError)
+{
+  // Short at first; then longer, one doubling a step, as far as the error
+  // allows: 0.01 = 1 dt² at 0.1, so that 1/16 is the longest, with a margin of
+  // √2.
+  TimeSteps steps(tolerant(4., 1., 0.01));
+  expect_times(lengths(steps, 1., 4), {0.0625, 0.0625, 0.0625, 0.0625});
+  // Less error: doubled where two halves are one step. A level outlives the end
+  // of its interval.
+  expect_times(lengths(steps, 0.07, 8),
+               {0.125, 0.125, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25});
+  // Much more: at once.
+  expect_times(lengths(steps, 3., 2), {0.03125, 0.03125});
+  // After a cut it begins anew, and does not double at once.
+  TimeSteps cut(tolerant(100., 1., 0.01));
+  lengths(cut, 1e-9, 40);
+  EXPECT_EQ(cut.next() - cut.time(), 1.);
+  cut.begin_anew();
+  expect_times(lengths(cut, 1e-9, 5), {0.0625, 0.0625, 0.125, 0.25, 0.5});
+  // All end at multiples of Step/2^k, and the run at its end.
+  TimeSteps whole(tolerant(0.7, 0.2, 1e-3));
+  while (!whole.finished())
+    lengths(whole, 1., 1);
+  EXPECT_EQ(whole.time(), 0.7);
+}
+
+
+TEST(TimeSteps, WithoutToleranceErrorsDoNotMatter)
+{
+  TimeSteps steps(times(3., 1.));
+  steps.begin_anew();
+  steps.adapt(1e9);
+  EXPECT_EQ(steps.next(), 1.);
+}
+
+
+TEST(TimeSteps, ToleranceNeverGoesBelowTheSmallestStep)
+{
+  TimeParameters parameters = times(1., 1., 0.2);
+  parameters.tolerance      = 1e-12;
+  TimeSteps steps(parameters);
+  EXPECT_EQ(steps.next(), 0.25);
+  steps.accept();
+  steps.adapt(1.);
+  EXPECT_EQ(steps.next(), 0.5);
+}
+
+
+TEST(TimeSteps, AResumedRunChoosesTheSame)
+{
+  TimeSteps  whole(tolerant(4., 0.5, 0.01)), first(tolerant(4., 0.5, 0.01));
+  const auto all   = lengths(whole, 0.3, 30);
+  auto       parts = lengths(first, 0.3, 7);
+  TimeSteps  rest(tolerant(4., 0.5, 0.01));
+  rest.restore(first.state());
+  for (const double dt : lengths(rest, 0.3, 23))
+    parts.push_back(dt);
+  EXPECT_EQ(parts, all);
+}

@@ -33,7 +33,7 @@ EFFORT = (
     "step", "time", "dt", "active_grid_cells", "inner_splines",
     "outer_splines", "unknowns", "newton_iterations", "linear_iterations",
     "rejected_steps", "residual", "wall_seconds", "min_cells_per_spacing",
-    "turns", "proximal_paths")
+    "turns", "proximal_paths", "step_error")
 
 _POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
            "Z": LENGTH, "radius": LENGTH}

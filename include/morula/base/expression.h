@@ -115,6 +115,11 @@ namespace Morula
     bool
     depends_on_state() const;
 
+    /** Whether it uses a variable that changes as the tissue does: not ages,
+     *  which change with time alone, nor what changes in events only. */
+    bool
+    follows_state() const;
+
     /** Whether no component has a variable, as 1 and 2*pi have none, and all
      *  types have the same. */
     bool

@@ -20,6 +20,7 @@ namespace Morula
     Key<double>       step;          // day
     Key<double>       smallest_step; // day
     Key<unsigned int> stop_at_cells;
+    Key<double>       tolerance;
 
     /** Path of the key that sets the step, for effects that refuse it. */
     static inline const std::string step_path = "Time/Step";

@@ -37,6 +37,14 @@ namespace Morula
     std::vector<double> rows;
     /** Changes of type and deaths. */
     std::vector<CellEvent> events;
+    /** The step before. */
+    PastStep past = {};
+    /** Which part of an error of the forecast motion is an error of what flows,
+     *  by cell, if tissue relaxes; else empty. */
+    std::vector<double> flow_shares = {};
+    /** |missed| of the step before, by cell, if growth follows the state; else
+     *  empty. */
+    std::vector<double> missed_growth = {};
   };
 
   /** What the points file may say of a founder. */
@@ -83,6 +91,11 @@ namespace Morula
      *  draws. */
     const DivisionRule<dim> *
     rule(const unsigned int type) const;
+
+    /** Whether a step's error is known: growth follows the state, or tissue
+     *  flows. */
+    bool
+    states_error() const;
   };
 
   /**
@@ -132,9 +145,10 @@ namespace Morula
     const StateColumns<dim> &
     state() const;
 
-    /** A reader for cells whose state is that of time @p t, day. */
+    /** A reader for cells whose state is that of time @p t, day.
+     *  @param past the step that led to it */
     CellReader<dim>
-    reader(const double t) const;
+    reader(const double t, const PastStep &past = {}) const;
 
     /** A cell's clock. Only with a cycle. */
     CycleState<dim>
@@ -158,9 +172,46 @@ namespace Morula
                const double                 step  = 0.,
                const GivenState            &given = {}) const;
 
-    /** The development of the cells in (t0, t1]. @throws InputError */
+    /** The development of the cells in (t0, t1]. @param past the step that
+     *  ended at @p t0. @throws InputError */
     DevelopmentOfStep<dim>
-    of_step(const Tissue<dim> &tissue, const double t0, const double t1) const;
+    of_step(const Tissue<dim> &tissue,
+            const double       t0,
+            const double       t1,
+            const PastStep    &past = {}) const;
+
+    /** By how much the step that led to the state at @p t0 missed the growth
+     *  of each cell, |missed| of doc/theory.md (5.9), in the order of the
+     *  cells; empty where nothing that grows follows the state. */
+    std::vector<double>
+    missed_growth(const Tissue<dim> &tissue,
+                  const double       t0,
+                  const PastStep    &past) const;
+
+    /** Keeps what relaxation will need to know of a step of the tissue.
+     *  @param f of the step, at the cell */
+    void
+    remember_motion(const CellView<dim, double> &cell,
+                    const Tensor<2, dim>        &f) const;
+
+    /**
+     * By how much the forecast of a step's motion was wrong about what has
+     * flowed, |missed|; to be called before remember_motion().
+     * @param p    the cell's place in @p of_step
+     * @param f    of the step
+     * @param t1   its end, day
+     */
+    double
+    missed_flow(const CellView<dim, const double> &cell,
+                const unsigned int                 p,
+                const Tensor<2, dim>              &f,
+                const DevelopmentOfStep<dim>      &of_step,
+                const double                       t0,
+                const double                       t1) const;
+
+    /** Whether a step's error is known: something follows the state. */
+    bool
+    states_error() const;
 
     /** Sets all columns but F to their values at the end of the step. F must
      *  still be that at @p t0. */
@@ -300,14 +351,16 @@ namespace Morula
 
     /**
      * F_g of law, cycle and contraction at t1, also written to @p after.
-     * @param next the clock of t1
+     * @param next   the clock of t1
+     * @param missed set to |missed| of the step before, of the law
      */
     Tensor<2, dim>
     living_growth(const PresentCell<dim>      &before,
                   const CellView<dim, double> &after,
                   const CycleState<dim>       &next,
                   const double                 t0,
-                  const double                 t1) const;
+                  const double                 t1,
+                  double                      &missed) const;
 
     /**
      * D F_g, also written to @p after, as if D had come before all growth.
@@ -323,13 +376,16 @@ namespace Morula
      * F_g after relaxation, also written to @p after.
      * @param F_g   of the other effects at t1
      * @param after has the clock of t1
+     * @param share set to the part of an error of the forecast that is one of
+     *              the flow
      */
     Tensor<2, dim>
     relax(const PresentCell<dim>      &before,
           const CellView<dim, double> &after,
           const Tensor<2, dim>        &F_g,
           const double                 t0,
-          const double                 t1) const;
+          const double                 t1,
+          double                      &share) const;
 
     /** What the law sees of a cell in its state at t0. */
     GrowingCell<dim>
@@ -340,8 +396,34 @@ namespace Morula
     growth_left_of_cycle(const CellView<dim, const double> &cell,
                          const double                       t) const;
 
-    /** Sets all columns of @p after but F. */
+    /** Adds what the last step missed of hazards: doc/theory.md (5.9). */
     void
+    make_good(const PresentCell<dim>      &before,
+              const CellView<dim, double> &after) const;
+
+    /**
+     * Keeps the rates of hazards that the next step will compare.
+     * @param is_whole whether the cell has lived the step without an event that
+     *                 changes its rates
+     */
+    void
+    expect_rates(const PresentCell<dim>      &before,
+                 const CellView<dim, double> &after,
+                 const double                 t0,
+                 const double                 t1,
+                 const bool                   is_whole) const;
+
+    /** What is known of errors when a cell develops. */
+    struct Errors
+    {
+      /** |missed| of the step before. */
+      double missed_growth = 0.;
+      /** Which part of an error of the motion is one of the flow. */
+      double flow_share = 0.;
+    };
+
+    /** Sets all columns of @p after but F. */
+    Errors
     develop(const PresentCell<dim>      &before,
             const CellView<dim, double> &after,
             const double                 t0,

@@ -20,7 +20,7 @@ namespace Morula
     double relaxation_time;
     /** The von Mises stress of τ up to which nothing flows, kPa; 0: none. */
     double yield_stress = 0.;
-    /** Number of equal parts into which a step is cut. */
+    /** Number of equal parts into which a step with a yield stress is cut. */
     unsigned int passes = 1;
   };
 
@@ -32,11 +32,16 @@ namespace Morula
                    const Lame           &lame,
                    const Material       &material);
 
+  /** w = 1/(1 − e^{−γ}) − 1/γ: which part of the strain that a step brings
+   *  the flow must see, doc/theory.md (8.3a). @param gamma Δt/τ_r >= 0 */
+  double
+  weight_of_end(const double gamma);
+
   /**
-   * The flow of tissue whose shape is held for @p dt (day), by backward Euler
-   * in closed form: doc/theory.md (8.1), (8.2), (8.3), (8.4). Stable for any @p
-   * dt; for @p dt → ∞ the complete relaxation of what is above the yield
-   * stress.
+   * The flow of tissue whose shape is held for @p dt (day): exact,
+   * doc/theory.md (8.2a), (8.3), (8.4); with a yield stress by backward Euler,
+   * (8.5). Stable for any @p dt; for @p dt → ∞ the complete relaxation of what
+   * is above the yield stress.
    *
    * @param F_e elastic part of the deformation gradient, det F_e > 0
    * @return D, symmetric and positive definite with det D = 1: F_e becomes F_e

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace Morula
@@ -39,6 +40,8 @@ namespace Morula
     double        wall_seconds   = 0.; // across resumes
     SectionTimes  sections;
     std::string   directory;
+    /** Estimated, relative, if the run knows it. */
+    std::optional<double> error_in_time = {};
   };
 
   /** A step as one line of text.

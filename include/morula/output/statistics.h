@@ -72,6 +72,9 @@ namespace Morula
     std::vector<FieldStatistics> fields = {};
     /** Only with boundary points. */
     std::optional<SurfaceFit> surface = {};
+    /** What the step before missed of growth and flow, relative to the volume;
+     *  only where they follow the state. */
+    std::optional<double> step_error = {};
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>

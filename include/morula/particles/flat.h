@@ -146,6 +146,33 @@ namespace Morula
     }
   };
 
+  /** Symmetric tensors: the upper triangle, row by row. */
+  template <int dim>
+  struct Flat<SymmetricTensor<2, dim>>
+  {
+    static constexpr unsigned int n     = dim * (dim + 1) / 2;
+    static constexpr unsigned int rank  = 2;
+    static constexpr bool         whole = false;
+    /** See Flat. */
+    static SymmetricTensor<2, dim>
+    read(const double *numbers)
+    {
+      SymmetricTensor<2, dim> t;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          t[i][j] = *numbers++;
+      return t;
+    }
+    /** See Flat. */
+    static void
+    write(const SymmetricTensor<2, dim> &t, double *numbers)
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          *numbers++ = t[i][j];
+    }
+  };
+
   /** Several values, one after the other. */
   template <typename... Ts>
   struct Flat<std::tuple<Ts...>>

@@ -7,6 +7,7 @@
 #include <morula/output/snapshot.h>
 #include <morula/particles/tissue.h>
 #include <morula/simulation/lumen_of_run.h>
+#include <morula/simulation/step_error.h>
 #include <morula/simulation/time_steps.h>
 
 #include <optional>
@@ -24,6 +25,8 @@ namespace Morula
     /** The volume that the surface enclosed at t = 0 over that of the cells;
      *  nothing if it was not closed. */
     std::optional<double> enclosed_share = {};
+    /** Of the steps so far. */
+    ErrorInTime error = {};
   };
 
   /**

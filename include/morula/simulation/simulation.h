@@ -98,6 +98,14 @@ namespace Morula
 
     void
     step();
+    /** With Time/Tolerance: makes the step as long as the error of the last one
+     *  allows. Collective. */
+    void
+    adapt_step();
+    /** μ of doc/theory.md (5.10) of the last step. @param missed of its growth,
+     *  by cell. Collective. */
+    double
+    error_of_step(const std::vector<double> &missed) const;
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution

@@ -4,6 +4,7 @@
 #ifndef morula_simulation_time_steps_h
 #define morula_simulation_time_steps_h
 
+#include <morula/base/past_step.h>
 #include <morula/base/time_parameters.h>
 
 namespace Morula
@@ -11,8 +12,9 @@ namespace Morula
   /**
    * The time steps. Each step ends at a multiple of Step; the last one ends at
    * End time. A rejected step is halved inside its interval. After two halves
-   * the next step is twice as long again. Times are computed as multiples and
-   * never as sums, so that they do not drift.
+   * the next step is twice as long again. With Tolerance steps are Step/2^k, as
+   * long as adapt() finds: doc/theory.md, 5.6. Times are computed as multiples
+   * and never as sums, so that they do not drift.
    */
   class TimeSteps
   {
@@ -22,12 +24,14 @@ namespace Morula
     /** The place of the run in the sequence of steps, for a snapshot. */
     struct State
     {
-      double       time;     // present time, day
-      double       step;     // Step, day
-      unsigned int interval; // the interval ends at (interval + 1) Step
-      double       begin;    // of the interval, day
-      unsigned int part;     // steps of this level that are done
-      unsigned int level;    // the interval is cut into 2^level steps
+      double       time;         // present time, day
+      double       step;         // Step, day
+      unsigned int interval;     // the interval ends at (interval + 1) Step
+      double       begin;        // of the interval, day
+      unsigned int part;         // steps of this level that are done
+      unsigned int level;        // the interval is cut into 2^level steps
+      double       past = 0.;    // when the last step began, day
+      bool         anew = false; // the next step does not follow that one
     };
 
     State
@@ -41,9 +45,24 @@ namespace Morula
     double
     time() const;
 
+    /** The step that led to the present state. */
+    PastStep
+    past() const;
+
     /** End of the next step, day. */
     double
     next() const;
+
+    /** Makes the next step as long as the error @p mu of the last one allows,
+     *  doc/theory.md (5.11): shorter at once, longer by a factor 2 at most.
+     * Does nothing without Tolerance. */
+    void
+    adapt(const double mu);
+
+    /** Makes the next step short, as after a cut. Does nothing without
+     *  Tolerance. */
+    void
+    begin_anew();
 
     bool
     finished() const;
@@ -69,6 +88,10 @@ namespace Morula
 
     double
     at(const unsigned int part) const;
+
+    /** Cuts the next step in two. */
+    void
+    halve();
 
     TimeParameters parameters;
     State          state_;

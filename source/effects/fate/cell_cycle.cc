@@ -37,8 +37,17 @@ namespace Morula
   double
   CellAt<dim>::value(const Expression &expression) const
   {
-    return depends_on_more_than_place(expression) ? cell->value(expression, t) :
-                                                    expression.value(X, 0.);
+    return value(expression, t);
+  }
+
+
+  template <int dim>
+  double
+  CellAt<dim>::value(const Expression &expression, const double when) const
+  {
+    return depends_on_more_than_place(expression) ?
+             cell->value(expression, when) :
+             expression.value(X, 0.);
   }
 
 
@@ -59,7 +68,7 @@ namespace Morula
     if (start_together && !(has_own_hazard() && at.value(exit_rate) == 0.))
       // A wait that ends at once: the checkpoint, where there is one that a
       // cell at rest does not pass, holds.
-      return advance(state, at, 0., 0., 1.);
+      return advance(state, at, 0., 0., {1.});
 
     wait(state, at, 0.);
     return state;
@@ -115,7 +124,7 @@ namespace Morula
                           const CellAt<dim> &at,
                           const double       t0,
                           const double       t1,
-                          const double       J_e) const
+                          const ElasticSize &size) const
   {
     if (state.phase == CyclePhase::divided)
       {
@@ -135,16 +144,16 @@ namespace Morula
     else if (state.phase == CyclePhase::waiting)
       integrate_hazard(state, at, t0, t1);
 
-    // J_e is that of the step's start also for a wait that ends within the
-    // step, and a wait that ended before has been held.
-    if (state.phase == CyclePhase::waiting && state.event_time <= t1 + slack &&
-        passes_checkpoint(at, J_e))
+    if (state.phase != CyclePhase::waiting)
+      return state;
+    const double begin = onset(state, at, t0, t1, size);
+    if (std::isfinite(begin))
       {
         state.phase      = CyclePhase::growing;
-        state.event_time = std::max(state.event_time, t0);
+        state.event_time = begin;
         if (has_own_duration())
           {
-            state.duration = at.value(duration);
+            state.duration = at.value(duration, begin);
             check_step(state.duration, t1 - t0);
           }
         state.axis = Random::direction<dim>(seed, state.key);
@@ -264,7 +273,7 @@ namespace Morula
                           const double           J_e) const
   {
     return state.phase == CyclePhase::waiting &&
-           state.event_time <= t + slack && !passes_checkpoint(at, J_e);
+           state.event_time <= t + slack && !passes_checkpoint(at, J_e, t);
   }
 
 
@@ -292,10 +301,46 @@ namespace Morula
   template <int dim>
   bool
   CellCycle<dim>::passes_checkpoint(const CellAt<dim> &at,
-                                    const double       J_e) const
+                                    const double       J_e,
+                                    const double       t) const
   {
-    const double threshold = at.value(size_checkpoint);
+    const double threshold = at.value(size_checkpoint, t);
     return threshold == 0. || J_e > threshold;
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::onset(const CycleState<dim> &state,
+                        const CellAt<dim>     &at,
+                        const double           t0,
+                        const double           t1,
+                        const ElasticSize     &size) const
+  {
+    const double never = std::numeric_limits<double>::infinity();
+    const double t_e   = state.event_time;
+    if (t_e > t1 + slack)
+      return never;
+    if (!has_checkpoint())
+      return std::max(t_e, t0);
+    if (t_e > t0)
+      { // J_e goes on as it came.
+        const double J_e = size.J_e + size.slope * (t_e - t0);
+        return passes_checkpoint(at, J_e, t_e) ? t_e : never;
+      }
+    if (!passes_checkpoint(at, size.J_e, t0))
+      return never;
+    // It was held, and has passed since the last step began.
+    const double since = std::max(t_e, std::min(size.since, t0));
+    const double above = size.J_e - at.value(size_checkpoint, t0);
+    if (!(size.slope > 0. && size.since < t0))
+      return since;
+    // In parts of the step that are far longer than rounding: cells that are
+    // equal have equal times, on any ranks, and so their daughters equal ids.
+    constexpr double n_parts = 1u << 20;
+    const double     part    = (t0 - size.since) / n_parts;
+    const double     n       = std::round(above / size.slope / part);
+    return std::max(since, t0 - n * part);
   }
 
 
@@ -314,7 +359,8 @@ namespace Morula
                        const CellAt<dim> &at,
                        const double       t) const
   {
-    state.hazard = 0.;
+    state.hazard    = 0.;
+    state.exit_rate = not_expected;
     state.event_time =
       has_own_hazard() ?
         std::numeric_limits<double>::infinity() :
@@ -332,11 +378,41 @@ namespace Morula
     if (!has_own_hazard() || std::isfinite(state.event_time))
       return;
     // doc/theory.md (6.8)
-    const double rate  = at.value(exit_rate);
-    const double until = Random::exponential(seed, state.key, 1.);
-    if (state.hazard + rate * (t1 - t0) >= until)
-      state.event_time = t0 + (until - state.hazard) / rate;
-    state.hazard += rate * (t1 - t0);
+    const Hazard hazard{at.value(exit_rate, 0.5 * (t0 + t1)),
+                        state.hazard,
+                        Random::exponential(seed, state.key, 1.)};
+    state.event_time = hazard.event(t0, t1).value_or(state.event_time);
+    state.hazard     = hazard.integral_at(t0, t1);
+  }
+
+
+  template <int dim>
+  bool
+  CellCycle<dim>::keeps_exit_rate() const
+  {
+    return exit_rate_follows_state;
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::exit_rate_at(const CellAt<dim> &at) const
+  {
+    return at.value(exit_rate);
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::make_good(CycleState<dim>   &state,
+                            const CellAt<dim> &at,
+                            const PastStep    &past) const
+  {
+    if (state.is_drawn_by_hazard() && state.exit_rate >= 0.)
+      state.hazard = with_missed(state.hazard,
+                                 exit_rate_at(at),
+                                 state.exit_rate,
+                                 past.length());
   }
 
 

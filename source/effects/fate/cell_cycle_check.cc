@@ -91,6 +91,7 @@ namespace Morula
     , slack(slack)
     , own_duration(depends_on_more_than_place(duration))
     , own_hazard(depends_on_more_than_place(exit_rate))
+    , exit_rate_follows_state(exit_rate.follows_state())
   {}
 
 

@@ -45,6 +45,20 @@ namespace Morula
          "rate of a way out of the type, integrated",
          0.,
          AtDivision::reset}));
+    for (std::size_t k = 0; k < most; ++k)
+      expected.push_back(
+        std::any_of(transitions.begin(),
+                    transitions.end(),
+                    [k](const std::vector<Transition> &ways) {
+                      return k < ways.size() && ways[k].rate.follows_state();
+                    }) ?
+          setting.columns.template add<double>(
+            {"transition_rate_" + std::to_string(k + 1),
+             "1/day",
+             "rate of a way out of the type that the last step saw; -1: none",
+             not_expected,
+             AtDivision::reset}) :
+          Column<double>());
   }
 
 
@@ -94,6 +108,39 @@ namespace Morula
     for (std::size_t k = 0; k < ways.size(); ++k)
       after.set(hazards[k], all[k].integral_at(t0, until));
     return change;
+  }
+
+
+  template <int dim>
+  void
+  CellTypes<dim>::make_good(const PresentCell<dim>      &cell,
+                            const CellView<dim, double> &row) const
+  {
+    const PastStep                &past = cell.reader().past;
+    const std::vector<Transition> &ways = transitions[cell.type()];
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      if (expected[k].exists())
+        row.set(hazards[k],
+                with_missed(row.get(hazards[k]),
+                            cell.value(ways[k].rate, past.middle()),
+                            row.get(expected[k]),
+                            past.length()));
+  }
+
+
+  template <int dim>
+  void
+  CellTypes<dim>::expect_rates(const PresentCell<dim>      &cell,
+                               const CellView<dim, double> &row,
+                               const double                 t,
+                               const bool                   is_whole) const
+  {
+    const std::vector<Transition> &ways = transitions[cell.type()];
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      if (expected[k].exists())
+        row.set(expected[k],
+                is_whole && k < ways.size() ? cell.value(ways[k].rate, t) :
+                                              not_expected);
   }
 
 

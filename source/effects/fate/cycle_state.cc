@@ -8,7 +8,9 @@ namespace Morula
   template <int dim>
   CycleColumns<dim>::CycleColumns(CellColumns<dim> &columns,
                                   const bool        own_duration,
-                                  const bool        own_hazard)
+                                  const bool        own_hazard,
+                                  const bool        exit_rate_follows_state,
+                                  const bool        checkpoint)
   {
     columns.need_growth();
     columns.need_lineage();
@@ -31,6 +33,15 @@ namespace Morula
     if (own_hazard)
       hazard = columns.template add<double>(
         {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
+    if (exit_rate_follows_state)
+      exit_rate = columns.template add<double>(
+        {"wait_rate",
+         "1/day",
+         "rate of leaving G0 that the last step saw; -1: none",
+         not_expected});
+    if (checkpoint)
+      J_e_before = columns.template add<double>(
+        {"j_e_before", "", "J_e at the beginning of the step before", 1.});
   }
 
 
@@ -52,7 +63,8 @@ namespace Morula
             cell.get(division_axis),
             cell.get(growth_pre),
             duration.exists() ? cell.get(duration) : 0.,
-            hazard.exists() ? cell.get(hazard) : 0.};
+            hazard.exists() ? cell.get(hazard) : 0.,
+            exit_rate.exists() ? cell.get(exit_rate) : not_expected};
   }
 
 
@@ -70,6 +82,30 @@ namespace Morula
       cell.set(duration, state.duration);
     if (hazard.exists())
       cell.set(hazard, state.hazard);
+    if (exit_rate.exists())
+      cell.set(exit_rate, state.exit_rate);
+  }
+
+
+  template <int dim>
+  ElasticSize
+  CycleColumns<dim>::size(const CellView<dim, const double> &cell,
+                          const PastStep                    &past) const
+  {
+    const double J_e = cell.elastic_volume_ratio();
+    if (!J_e_before.exists() || !past.exists())
+      return {J_e};
+    return {J_e, (J_e - cell.get(J_e_before)) / past.length(), past.begin};
+  }
+
+
+  template <int dim>
+  void
+  CycleColumns<dim>::remember_size(const CellView<dim, const double> &before,
+                                   const CellView<dim, double> &after) const
+  {
+    if (J_e_before.exists())
+      after.set(J_e_before, before.elastic_volume_ratio());
   }
 
 

@@ -39,6 +39,13 @@ namespace Morula
                                                "rate of death, integrated",
                                                0.,
                                                AtDivision::reset});
+    if (has_rate && rate_.follows_state())
+      expected = columns.template add<double>(
+        {"death_rate",
+         "1/day",
+         "rate of death that the last step saw; -1: none",
+         not_expected,
+         AtDivision::reset});
     time_ = columns.template add<double>({"death_time",
                                           "day",
                                           "when the cell died; -1: it lives",
@@ -105,6 +112,33 @@ namespace Morula
 
   template <int dim>
   void
+  Death<dim>::make_good(const PresentCell<dim>      &cell,
+                        const CellView<dim, double> &row) const
+  {
+    const PastStep &past = cell.reader().past;
+    if (expected.exists() && !is_dead(row))
+      row.set(integral,
+              with_missed(row.get(integral),
+                          cell.value(rate_, past.middle()),
+                          row.get(expected),
+                          past.length()));
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::expect_rate(const PresentCell<dim>      &cell,
+                          const CellView<dim, double> &row,
+                          const double                 t,
+                          const bool                   is_whole) const
+  {
+    if (expected.exists())
+      row.set(expected, is_whole ? cell.value(rate_, t) : not_expected);
+  }
+
+
+  template <int dim>
+  void
   Death<dim>::set_integral(const CellView<dim, double> &row,
                            const double                 value) const
   {
@@ -150,6 +184,15 @@ namespace Morula
     return is_dead(cell) && cell.get(stays) == 0 ?
              cell.get(time_) + cell.get(duration) :
              std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  bool
+  Death<dim>::may_remove_at_once() const
+  {
+    return has_condition && !(shrinking_time.is_constant() &&
+                              shrinking_time.number().value_or(0.) > 0.);
   }
 
 

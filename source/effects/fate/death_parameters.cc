@@ -13,9 +13,9 @@ namespace Morula
            Evaluated::step)
     , when("Death/When",
            "0",
-           "Cells for which this is > 0 at the beginning of a step die then: "
-           "an expression of their state. E.g. abs(X) < 20 && t >= 1, for a "
-           "cut.",
+           "Cells for which this is > 0 at the beginning of a step die then, "
+           "those with Shrinking time = 0 at the end of one: an expression of "
+           "their state. E.g. abs(X) < 20 && t >= 1, for a cut.",
            Evaluated::step)
     , shrinking_time(
         "Death/Shrinking time",

@@ -11,9 +11,11 @@ namespace Morula
   Hazard::event(const double t0, const double t1) const
   {
     const double left = threshold - integral;
+    if (left <= 0.)
+      return t0;
     if (!(rate > 0. && left <= rate * (t1 - t0)))
       return {};
-    return t0 + std::max(0., left) / rate;
+    return t0 + left / rate;
   }
 
 
@@ -21,5 +23,17 @@ namespace Morula
   Hazard::integral_at(const double t0, const double t) const
   {
     return integral + rate * (t - t0);
+  }
+
+
+  double
+  with_missed(const double integral,
+              const double rate,
+              const double expected,
+              const double dt)
+  {
+    return expected >= 0. ?
+             std::max(0., integral + 0.5 * dt * (rate - expected)) :
+             integral;
   }
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
@@ -123,6 +124,34 @@ namespace Morula
           list.push_back(p);
       return list;
     }
+
+    /** Cells of this rank that live, and that Death/When removes at @p t (day).
+     *  Where the condition has no value, the next step says so. Collective. */
+    template <int dim>
+    std::vector<unsigned int>
+    cells_to_cut(const Tissue<dim>     &tissue,
+                 const Death<dim>      &death,
+                 const CellReader<dim> &reader,
+                 const double           t)
+    {
+      std::vector<unsigned int> list;
+      if (!death.may_remove_at_once())
+        return list;
+      try
+        {
+          everywhere(tissue.communicator(), [&]() {
+            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+              if (!death.is_dead(tissue.cells()[p]) &&
+                  goes_at_once(present_cell(tissue, p, reader), death, t))
+                list.push_back(p);
+          });
+        }
+      catch (const InputError &)
+        {
+          list.clear();
+        }
+      return list;
+    }
   } // namespace
 
   template <int dim>
@@ -135,6 +164,18 @@ namespace Morula
     const CellReader<dim>     reader = development.reader(t);
     std::vector<unsigned int> gone;
     std::vector<CellEvent>    events;
+    for (const unsigned int p :
+         cells_to_cut(tissue, *development.death(), reader, t))
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        development.death()->kill(cell, tissue.cell(p), t);
+        events.push_back({t,
+                          cell.id(),
+                          CellEvent::Kind::death,
+                          cell.type(),
+                          cell.type(),
+                          DeathCause::when});
+      }
     for (unsigned int p = 0; p < cells.size(); ++p)
       if (development.death()->is_due_for_removal(cells[p], t))
         {

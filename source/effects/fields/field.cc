@@ -98,6 +98,17 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  Field<dim>::depends_on(const unsigned int other) const
+  {
+    const Variable variable = field_variable(other);
+    return other != number &&
+           (diffusion_.uses(variable) || production_.uses(variable) ||
+            consumption.uses(variable));
+  }
+
+
+  template <int dim>
   std::optional<double>
   Field<dim>::uniform_diffusion() const
   {

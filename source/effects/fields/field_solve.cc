@@ -369,10 +369,12 @@ namespace Morula
                             const double        dt,
                             FieldSolution<dim> &result)
   {
-    const bool                steady    = !(dt > 0.);
-    const bool                nonlinear = field.is_nonlinear();
-    std::vector<double>      &now       = values[result.number];
-    const std::vector<double> before    = now;
+    const bool           steady    = !(dt > 0.);
+    const bool           nonlinear = field.is_nonlinear();
+    std::vector<double> &now       = values[result.number];
+    std::vector<double>  before    = now; // in turns from the same start
+    for (unsigned int p = 0; !steady && p < before.size(); ++p)
+      before[p] = tissue.cells()[p].get(reader.columns.fields[result.number]);
     // Of a steady field all is sought.
     std::vector<double> known(now.size(), 0.);
     Vector known_field = assembly.unknowns().zero(), sought = known_field;

@@ -6,13 +6,23 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <boost/property_map/property_map.hpp>
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace Morula
 {
   namespace
   {
+    /** Fields that depend on each other are found again until they change by so
+     *  little, relative to the largest value, but not more often. */
+    constexpr double       small_difference = 1e-9;
+    constexpr unsigned int most_turns       = 50;
+
     /** Refuses a condition that holds at @p n boundary points of this rank, and
      *  at none of others. Collective. */
     void
@@ -35,6 +45,7 @@ namespace Morula
   {
     for (const FieldKeys &keys : parameters.fields)
       fields.emplace_back(keys, fields.size(), setting);
+    order();
     setting.state.declare_fields(setting.columns);
     columns   = setting.state.fields;
     gradients = setting.state.gradients;
@@ -118,9 +129,71 @@ namespace Morula
                     const double      t1) const
   {
     FieldsOfStep<dim> found;
+    for (const auto &group : groups)
+      if (fields[group.front()].kind() == kind)
+        for (FieldSolution<dim> &field : find_group(group, solver, t0, t1))
+          found.push_back(std::move(field));
+    return found;
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::order()
+  {
+    // Fields of other kinds have their values already. The components come in
+    // the order that is wanted: what others depend on first.
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> uses(
+      fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
-      if (fields[k].kind() == kind)
+      for (unsigned int other = 0; other < fields.size(); ++other)
+        if (fields[k].kind() == fields[other].kind() &&
+            fields[k].depends_on(other))
+          boost::add_edge(k, other, uses);
+    std::vector<unsigned int> component(fields.size());
+    groups.resize(boost::strong_components(
+      uses,
+      boost::make_iterator_property_map(
+        component.begin(), boost::get(boost::vertex_index, uses))));
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      groups[component[k]].push_back(k);
+  }
+
+
+  template <int dim>
+  FieldsOfStep<dim>
+  Fields<dim>::find_group(const std::vector<unsigned int> &group,
+                          FieldSolver<dim>                &solver,
+                          const double                     t0,
+                          const double                     t1) const
+  {
+    const auto solve = [&]() {
+      FieldsOfStep<dim> found;
+      for (const unsigned int k : group)
         found.push_back(solver.field(fields[k], k, t0, t1));
+      return found;
+    };
+    FieldsOfStep<dim> found = solve();
+    if (group.size() == 1)
+      return found;
+    // Each sees the latest values of the others, until none changes any more.
+    for (unsigned int turn = 0; turn < most_turns; ++turn)
+      {
+        const FieldsOfStep<dim> before = std::move(found);
+        found                          = solve();
+        double change                  = 0.;
+        for (std::size_t i = 0; i < found.size(); ++i)
+          {
+            found[i].change =
+              solver.relative_change(before[i].values, found[i].values);
+            found[i].iterations += before[i].iterations;
+            change = std::max(change, found[i].change);
+          }
+        if (change <= small_difference)
+          return found;
+      }
+    for (FieldSolution<dim> &field : found)
+      field.converged = false;
     return found;
   }
 

@@ -81,6 +81,35 @@ namespace Morula
 
 
   template <int dim>
+  GrowthOfStep<dim>
+  GrowthLaw<dim>::grow(const GrowingCell<dim>      &cell,
+                       const double                 t0,
+                       const double                 t1,
+                       const CellView<dim, double> &after) const
+  {
+    const Tensor<2, dim> F = growth(cell, t0, t1);
+    remember(cell, t0, t1, after);
+    return {F};
+  }
+
+
+  template <int dim>
+  bool
+  GrowthLaw<dim>::follows_state() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  double
+  GrowthLaw<dim>::missed(const GrowingCell<dim> &) const
+  {
+    return 0.;
+  }
+
+
+  template <int dim>
   void
   GrowthLaw<dim>::check(const Preview<dim> &scene) const
   {

@@ -36,14 +36,53 @@ namespace Morula
 
 
   double
+  mean_of_decay(const double c)
+  {
+    return c > 0. ? -std::expm1(-c) / c : 1.;
+  }
+
+
+  namespace
+  {
+    /** (1 - φ(c)) / c with φ of mean_of_decay(), which is 1/2 at c = 0. */
+    double
+    delay(const double c)
+    {
+      // Below this the difference has fewer digits than the series.
+      constexpr double small = 1e-3;
+      return c < small ? 0.5 - c / 6. + c * c / 24. :
+                         (1. - mean_of_decay(c)) / c;
+    }
+
+
+    /** The rate at which the place widens, as far as it is a forecast: a place
+     *  that narrows while the cell grows, or widens while it shrinks, is no
+     *  forecast of what growth does to it. */
+    double
+    seen(const GrowthFeedback &all, const double widening)
+    {
+      return all.rate * widening > 0. ? widening : 0.;
+    }
+  } // namespace
+
+
+  double
   predicted_rate(const GrowthFeedback &part,
                  const GrowthFeedback &all,
                  const double          widening)
   {
-    // A place that narrows while the cell grows, or widens while it shrinks, is
-    // no forecast of what growth does to it.
-    const double seen = all.rate * widening > 0. ? widening : 0.;
-    return (part.rate + part.damping * seen) / (1. + all.damping);
+    return part.rate -
+           part.damping * (all.rate - seen(all, widening)) * delay(all.damping);
+  }
+
+
+  double
+  expected_rate(const GrowthFeedback &part,
+                const GrowthFeedback &all,
+                const double          widening)
+  {
+    return part.rate - part.damping * (all.rate - seen(all, widening)) *
+                         mean_of_decay(all.damping);
   }
 
 

@@ -112,6 +112,32 @@ namespace Morula
                   "",
                   "ln det F_law that the first step withheld",
                   0.})};
+    const bool turns = homeostasis || (share && share->follows_state()) ||
+                       (direction && direction->follows_state());
+    if (predictor && turns)
+      expected =
+        Expected{{},
+                 setting.columns.template add<SymmetricTensor<2, dim>>(
+                   {"rate_expected",
+                    "1/day",
+                    "rate of growth that the step before expected at its end",
+                    SymmetricTensor<2, dim>()})};
+    else if (predictor && rate.follows_state())
+      expected = Expected{
+        setting.columns.template add<double>(
+          {"rate_expected",
+           "1/day",
+           "rate of the volume that the step before expected at its end",
+           0.}),
+        {}};
+  }
+
+
+  template <int dim>
+  bool
+  RateGrowth<dim>::follows_state() const
+  {
+    return expected.has_value();
   }
 
 
@@ -142,7 +168,7 @@ namespace Morula
     const double t = (t0 + t1) / 2., dt = t1 - t0;
     Rates        rates;
     rates.of_rate.rate = cell.value(rate, t);
-    if (predictor && follows_stress)
+    if (predictor && follows_stress && dt > 0.)
       { // doc/theory.md (10.4)
         const double grown = cell.value_if_grown(rate, t, 1. + probe);
         rates.of_rate.damping =
@@ -164,7 +190,7 @@ namespace Morula
             const Lame lame = cell.lame();
             rates.of_homeostasis.damping =
               dt * kappa * (2. * lame.mu + dim * lame.lambda);
-            rates.shape /= 1. + 2. * dt * kappa * lame.mu;
+            rates.shape_damping = 2. * dt * kappa * lame.mu;
           }
       }
     return rates;
@@ -201,34 +227,27 @@ namespace Morula
 
 
   template <int dim>
-  FirstStep
-  RateGrowth<dim>::seen_at_first_step(const GrowingCell<dim> &cell,
-                                      const double            t0) const
+  SymmetricTensor<2, dim>
+  RateGrowth<dim>::tensor_of(const Rates            &now,
+                             const PresentCell<dim> &cell,
+                             const double            t) const
   {
-    const double dt = t0 - cell.cell->get(memory->time);
-    if (dt <= slack) // the first step: as if held
-      return {};
-    const double withheld = cell.cell->get(memory->withheld);
-    const double grown    = std::log(determinant(cell.growth));
-    const double J_e      = cell.cell->elastic_volume_ratio();
-    if (withheld != 0.)
-      return after_first_step(grown, withheld, -std::log(J_e), dt);
-    return {0., (std::log(J_e) + grown - cell.cell->get(memory->place)) / dt};
+    return directed(now.of_rate.rate, &cell, t) + now.shape +
+           now.of_homeostasis.rate / dim * unit_symmetric_tensor<dim>();
   }
 
 
   template <int dim>
   SymmetricTensor<2, dim>
-  RateGrowth<dim>::rate_of_growth(const GrowingCell<dim> &cell,
-                                  const double            t0,
-                                  const double            t1) const
+  RateGrowth<dim>::rate_of_growth(const GrowingCell<dim>        &cell,
+                                  Rates                          now,
+                                  const SymmetricTensor<2, dim> &missed,
+                                  const double                   t0,
+                                  const double                   t1) const
   {
-    const double t = (t0 + t1) / 2.;
-    if (cell.present == nullptr)
-      return directed(rate.value(cell.founder_position, t), nullptr, t);
-    const Rates          now = rates(*cell.present, t0, t1);
+    const double         t   = (t0 + t1) / 2.;
     const GrowthFeedback all = now.all();
-    double               k = now.of_rate.rate, h = now.of_homeostasis.rate;
+    const double         k = now.of_rate.rate, h = now.of_homeostasis.rate;
     if (memory)
       {
         const FirstStep past = seen_at_first_step(cell, t0);
@@ -236,12 +255,23 @@ namespace Morula
         const double sum  = std::abs(k) + std::abs(h);
         const double of_k = sum > 0. ? std::abs(k) / sum : 0.;
         const double due  = past.due / (t1 - t0);
-        k = predicted_rate(now.of_rate, all, past.widening) + of_k * due;
-        h = predicted_rate(now.of_homeostasis, all, past.widening) +
-            (sum > 0. ? 1. - of_k : 0.) * due;
+        now.of_rate.rate =
+          predicted_rate(now.of_rate, all, past.widening) + of_k * due;
+        now.of_homeostasis.rate =
+          predicted_rate(now.of_homeostasis, all, past.widening) +
+          (sum > 0. ? 1. - of_k : 0.) * due;
       }
-    return directed(k, cell.present, t) + now.shape +
-           h / dim * unit_symmetric_tensor<dim>();
+    const double of_shape = mean_of_decay(now.shape_damping);
+    now.shape *= of_shape;
+    const SymmetricTensor<2, dim> L = tensor_of(now, *cell.present, t);
+    if (!expected || !cell.present->reader().past.exists())
+      return L;
+    // What is added now is answered by the stress as all growth is.
+    const double of_volume = mean_of_decay(all.damping) / (t1 - t0);
+    if (expected->volume.exists())
+      return L + directed(of_volume * trace(missed), cell.present, t);
+    return L + of_volume / dim * trace(missed) * unit_symmetric_tensor<dim>() +
+           of_shape / (t1 - t0) * deviator(missed);
   }
 
 
@@ -268,15 +298,13 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
-  RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
-                          const double            t0,
-                          const double            t1) const
+  RateGrowth<dim>::grown_at(const SymmetricTensor<2, dim> &L,
+                            const GrowingCell<dim>        &cell,
+                            const double                   t0,
+                            const double                   t1) const
   {
-    if (t1 <= t0)
-      return cell.growth;
-    const Tensor<2, dim> F =
-      grown(cell.growth, rate_of_growth(cell, t0, t1), t1 - t0);
-    const double ratio = determinant(F);
+    const Tensor<2, dim> F     = grown(cell.growth, L, t1 - t0);
+    const double         ratio = determinant(F);
     if (!(ratio >= least_volume_ratio && std::isfinite(ratio)))
       {
         const Expression &cause = cause_of_size(cell, t0, t1);
@@ -294,31 +322,51 @@ namespace Morula
 
 
   template <int dim>
-  void
-  RateGrowth<dim>::remember(const GrowingCell<dim>      &cell,
-                            const double                 t0,
-                            const double                 t1,
-                            const CellView<dim, double> &after) const
+  Tensor<2, dim>
+  RateGrowth<dim>::growth(const GrowingCell<dim> &cell,
+                          const double            t0,
+                          const double            t1) const
   {
-    if (!memory)
-      return;
-    if (t0 <= slack)
+    if (t1 <= t0)
+      return cell.growth;
+    if (cell.present == nullptr)
       {
-        const GrowthFeedback all = rates(*cell.present, t0, t1).all();
-        after.set(memory->withheld,
-                  (t1 - t0) * (all.rate - predicted_rate(all, all, 0.)));
+        const double t = (t0 + t1) / 2.;
+        return grown_at(directed(rate.value(cell.founder_position, t),
+                                 nullptr,
+                                 t),
+                        cell,
+                        t0,
+                        t1);
       }
-    else if (cell.cell->get(memory->withheld) != 0.)
-      // The second step made it good: the place is measured from t = 0 once
-      // more.
-      after.set(memory->withheld, 0.);
-    else
-      {
-        after.set(memory->place,
-                  std::log(cell.cell->elastic_volume_ratio() *
-                           determinant(cell.growth)));
-        after.set(memory->time, t0);
-      }
+    return grown_at(rate_of_growth(cell,
+                                   rates(*cell.present, t0, t1),
+                                   missed_tensor(cell),
+                                   t0,
+                                   t1),
+                    cell,
+                    t0,
+                    t1);
+  }
+
+
+  template <int dim>
+  GrowthOfStep<dim>
+  RateGrowth<dim>::grow(const GrowingCell<dim>      &cell,
+                        const double                 t0,
+                        const double                 t1,
+                        const CellView<dim, double> &after) const
+  {
+    if (t1 <= t0)
+      return GrowthLaw<dim>::grow(cell, t0, t1, after);
+    const Rates                   now = rates(*cell.present, t0, t1);
+    const SymmetricTensor<2, dim> all = missed_tensor(cell);
+    if (expected)
+      expect(cell, now, t0, t1, after);
+    if (memory)
+      remember_place(cell, now, t0, t1, after);
+    return {grown_at(rate_of_growth(cell, now, all, t0, t1), cell, t0, t1),
+            size_of(all)};
   }
 
 

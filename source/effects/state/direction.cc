@@ -230,6 +230,14 @@ namespace Morula
   }
 
 
+  template <int dim>
+  bool
+  DirectionOfCell<dim>::follows_state() const
+  {
+    return !fields.empty() || expression.follows_state();
+  }
+
+
   template class DirectionOfCell<2>;
   template class DirectionOfCell<3>;
 } // namespace Morula

@@ -56,7 +56,8 @@ namespace Morula
     DevelopmentOfStep<2>
     live(const double t0, const double t1)
     {
-      auto of_step = development.of_step(tissue, t0, t1);
+      auto of_step = development.of_step(tissue, t0, t1, past);
+      past         = {t0, t1};
       development.commit(tissue, of_step, t0, t1);
       return of_step;
     }
@@ -76,6 +77,7 @@ namespace Morula
 
     const CellDevelopment<2> development;
     Tissue<2>                tissue;
+    PastStep                 past = {};
   };
 
   /** What became of some founders without mechanics. */
@@ -128,14 +130,18 @@ namespace Morula
     const auto note = [&lives](const std::vector<CellEvent> &events) {
       lives.events.insert(lives.events.end(), events.begin(), events.end());
     };
+    PastStep           past;
     const unsigned int n_steps = std::lround(end / step);
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         const double t0 = n * step, t1 = (n + 1) * step;
-        const auto   of_step = development.of_step(tissue, t0, t1);
+        const auto   of_step = development.of_step(tissue, t0, t1, past);
         development.commit(tissue, of_step, t0, t1);
+        past = {t0, t1};
         note(of_step.events);
-        const auto due = cells_due(tissue, development, t1);
+        const auto due = development.cycle() != nullptr ?
+                           cells_due(tissue, development, t1) :
+                           std::vector<unsigned int>();
         if (!due.empty())
           {
             const auto divisions =
@@ -148,7 +154,8 @@ namespace Morula
           note(remove_dead_cells(tissue, development, t1));
       }
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      ++lives.numbers[tissue.cells()[p].get(development.state().type)];
+      if (development.state().type.exists())
+        ++lives.numbers[tissue.cells()[p].get(development.state().type)];
     std::sort(lives.events.begin(),
               lives.events.end(),
               [](const CellEvent &a, const CellEvent &b) {

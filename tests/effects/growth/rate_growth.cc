@@ -47,6 +47,9 @@ namespace
     void
     step(const double t0, const double t1, const Moves &moves)
     {
+      this->reader.past                      = last;
+      this->reader.time                      = t0;
+      last                                   = {t0, t1};
       const auto                        cell = this->cell();
       const CellView<dim, const double> view(cell);
       const auto                        present = this->present();
@@ -71,6 +74,7 @@ namespace
     }
 
     std::unique_ptr<RateGrowth<dim>> law;
+    PastStep                         last;
   };
 
   template <int dim>
@@ -120,19 +124,19 @@ namespace
   {
     const std::string feedback = "0.5*(1 + 8*ln(J_e))";
     const double      dt = 0.5, c = dt * 0.5 * 8.;
-    // Held: k / (1 + c) each time, g -> (g + k0 dt)/(1 + c).
+    // Held: exactly 1/8 (1 - e^{-4 t}), with steps of any length.
     Growing<dim> in_box(keys(feedback));
-    double       g = 0.;
     for (unsigned int n = 0; n < 4; ++n)
       {
         in_box.step(n * dt, (n + 1) * dt, held<dim>);
-        g += dt * 0.5 * (1. - 8. * g) / (1. + c);
-        EXPECT_NEAR(in_box.log_growth(), g, 1e-4);
+        EXPECT_NEAR(in_box.log_growth(),
+                    -0.125 * std::expm1(-4. * (n + 1) * dt),
+                    1e-11);
       }
     // Free: exact from the second step on.
     Growing<dim> outside(keys(feedback));
     outside.step(0., dt, free<dim>);
-    EXPECT_NEAR(outside.log_growth(), 0.5 * dt / (1. + c), 1e-4);
+    EXPECT_NEAR(outside.log_growth(), 0.5 * dt * mean_of_decay(c), 1e-11);
     for (unsigned int n = 1; n < 5; ++n)
       {
         outside.step(n * dt, (n + 1) * dt, free<dim>);
@@ -146,6 +150,112 @@ namespace
     for (unsigned int n = 0; n < 5; ++n)
       swings.step(n, n + 1., held<dim>);
     EXPECT_GT(std::abs(swings.log_growth() - 0.125), 10.);
+  }
+
+  /** The relative error of growth after 2 days, where the place gives way by
+   *  the part @p relief of what the cell grows. k = 0.5 + C ln J_e. */
+  template <int dim>
+  double
+  error_where_the_place_gives_way(const double relief, const double step)
+  {
+    const double C = 0.83, k = 0.5;
+    Growing<dim> cell(keys("0.5 + 0.83*ln(J_e)"));
+    const auto moves = [&](const Tensor<2, dim> &, const Tensor<2, dim> &F_g) {
+      return std::pow(determinant(F_g), relief / dim) * unit_tensor<dim>();
+    };
+    const unsigned int n_steps = std::lround(2. / step);
+    for (unsigned int n = 0; n < n_steps; ++n)
+      cell.step(n * step, (n + 1) * step, moves);
+    const double held  = C * (1. - relief);
+    const double exact = k / held * -std::expm1(-held * 2.);
+    return std::abs(cell.log_growth() / exact - 1.);
+  }
+
+  template <int dim>
+  void
+  check_order()
+  {
+    // In a rigid box it is exact.
+    EXPECT_LE(error_where_the_place_gives_way<dim>(0., 0.4), 1e-10);
+    EXPECT_LE(error_where_the_place_gives_way<dim>(0.7, 0.4), 2e-3);
+    EXPECT_LE(error_where_the_place_gives_way<dim>(0.7, 0.2), 5e-4);
+    EXPECT_LE(error_where_the_place_gives_way<dim>(0.7, 0.1), 1.2e-4);
+  }
+
+  /** What follows the state without feedback, as a field does: the trapezoidal
+   *  rule for steps of any lengths, but for the last one. */
+  template <int dim>
+  void
+  check_trapezoids()
+  {
+    for (const std::string rate : {"0.3*volume/1000", "0.3*t*volume/1000"})
+      {
+        Growing<dim> cell(keys(rate));
+        EXPECT_TRUE(
+          cell.columns.template find<double>("rate_expected").exists());
+        // F is a clock here: ln det F goes with t².
+        double       t = 0., sum = 0.;
+        const double steps[] = {0.1, 0.2, 0.2, 0.05, 0.4};
+        double       k_begin = 1.;
+        for (const double dt : steps)
+          {
+            const double end   = 1. + (t + dt) * (t + dt);
+            const double time  = rate.size() > 15 ? t + 0.5 * dt : 1.;
+            const double k_end = end;
+            sum += 0.3 * time * 0.5 * dt * (k_begin + k_end);
+            const double last = 0.3 * time * 0.5 * dt * (k_end - k_begin);
+            cell.step(t,
+                      t + dt,
+                      [&](const Tensor<2, dim> &, const Tensor<2, dim> &) {
+                        return std::pow(end, 1. / dim) * unit_tensor<dim>();
+                      });
+            EXPECT_NEAR(cell.log_growth(), sum - last, 1e-13);
+            t += dt;
+            k_begin = k_end;
+          }
+      }
+  }
+
+  /** Growth along a direction that turns with the state. */
+  template <int dim>
+  double
+  error_of_a_direction_that_turns(const double step)
+  {
+    Growing<dim> cell(keys("0.5", "1", "1; volume/1000 - 1; 0"));
+    const auto   clock = [](const double t) {
+      return std::pow(1. + t, 1. / dim) * unit_tensor<dim>();
+    };
+    const unsigned int n_steps = std::lround(1. / step);
+    for (unsigned int n = 0; n < n_steps; ++n)
+      cell.step(n * step,
+                (n + 1) * step,
+                [&](const Tensor<2, dim> &, const Tensor<2, dim> &) {
+                  return clock((n + 1) * step);
+                });
+    // The integral of a ⊗ a with a = (1, t)/√(1 + t²): its off-diagonal entry
+    // is that of the rates, to first order of the growth.
+    Tensor<2, dim> exact = unit_tensor<dim>();
+    constexpr int  fine  = 4000;
+    for (int i = 0; i < fine; ++i)
+      {
+        Tensor<1, dim> a;
+        a[0] = 1.;
+        a[1] = (i + 0.5) / fine;
+        a /= a.norm();
+        exact = grown(exact, rate_along_and_across(a, 0.5, 0.), 1. / fine);
+      }
+    return (cell.cell().growth() - exact).norm();
+  }
+
+  template <int dim>
+  void
+  check_turning_direction()
+  {
+    const double coarse = error_of_a_direction_that_turns<dim>(0.1),
+                 fine   = error_of_a_direction_that_turns<dim>(0.05);
+    // The first and the last step are of first order, each once.
+    EXPECT_LE(fine, 1.5e-3);
+    EXPECT_GE(coarse / fine, 3.3);
   }
 
   /** A pull along x, in a frame turned by 30 degrees: growth along the pull in
@@ -192,6 +302,27 @@ TEST(RateGrowth,
 
 TEST(RateGrowth,
      SeeksAStressInTheFrameOfTheCell){MORULA_BOTH_DIMENSIONS(check_homeostasis)}
+
+
+TEST(RateGrowth,
+     IsOfSecondOrderWherePlacesGiveWay){MORULA_BOTH_DIMENSIONS(check_order)}
+
+
+TEST(RateGrowth,
+     MakesGoodWhatTheLastStepMissed){MORULA_BOTH_DIMENSIONS(check_trapezoids)}
+
+
+TEST(RateGrowth, FollowsADirectionThatTurns){
+  MORULA_BOTH_DIMENSIONS(check_turning_direction)}
+
+
+TEST(RateGrowth, KeepsNothingWhereOnlyTimeMatters)
+{
+  for (const std::string rate : {"0.3*t*X", "0.2*(age > 1)", "noise*type_age"})
+    EXPECT_FALSE(Growing<2>(keys(rate))
+                   .columns.template find<double>("rate_expected")
+                   .exists());
+}
 
 
 TEST(RateGrowth, ExpectsVolumesThatItKnows)

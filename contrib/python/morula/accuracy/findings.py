@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 
 import numpy
+from morula.error_in_time import error_in_time
 from morula.execute import cores
 from morula.run import row_at
 
@@ -18,6 +19,7 @@ class Cost:
     wall: float      # s, from the start to the end of that step
     unknowns: float  # the most of any step until then
     memory: float    # MB, peak of the whole run
+    in_time: float = numpy.nan  # its own estimate of its error in time
 
 
 # Attribute of Cost, and how it is written on an axis.
@@ -45,14 +47,17 @@ class Findings:
                 if p == point]
 
     def _cost(self, point, time):
-        wall, unknowns, memory = [], [], []
+        wall, unknowns, memory, in_time = [], [], [], []
         for record in self.of(point):
             statistics = record.statistics()
             row = row_at(statistics, time)
             wall.append(record.row_seconds(row))
             unknowns.append(statistics["unknowns"][:row + 1].max())
             memory.append(record.peak_bytes / 1e6)
-        return Cost(*(float(numpy.mean(x)) for x in (wall, unknowns, memory)))
+            error = error_in_time(statistics, row)
+            in_time.append(numpy.nan if error is None else error)
+        return Cost(*(float(numpy.mean(x))
+                      for x in (wall, unknowns, memory, in_time)))
 
     def cost(self, estimate, kind):
         """Costs of the estimate's points, in its order."""

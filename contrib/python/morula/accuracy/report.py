@@ -69,8 +69,11 @@ def run_table(findings, estimates):
     """All runs: what they cost, and their errors; in the order of the
     ladders."""
     head = ["run", "wall time, s", "unknowns", "memory, MB"]
-    head += [f"{e.measure.text}, error" for e in estimates]
     costs = findings.costs[estimates[0].time]
+    says = any(math.isfinite(cost.in_time) for cost in costs.values())
+    if says:
+        head.append("error in time, own estimate")
+    head += [f"{e.measure.text}, error" for e in estimates]
     rows = []
     for point in findings.plan.points:
         row = [findings.plan.label(point)]
@@ -78,11 +81,13 @@ def run_table(findings, estimates):
             cost = costs[point]
             row += [f"{cost.wall:.3g}", f"{cost.unknowns:.0f}",
                     f"{cost.memory:.0f}"]
+            if says:
+                row.append(f"{digits(100 * cost.in_time, False)} %")
             row += [error_cell(findings, e, point) for e in estimates]
         else:
             row += ["failed"] + ["–"] * (len(head) - 2)
         rows.append(row)
-    right = ["**right value**", "", "", ""]
+    right = ["**right value**", "", "", "", *[""] * says]
     right += [right_cell(e) for e in estimates]
     legend = ("● no run is both faster and better (errors that cannot be told "
               "from zero, in brackets, count alike)")
@@ -92,6 +97,10 @@ def run_table(findings, estimates):
         legend += ("; ± two standard errors from the "
                    + findings.request.sampled)
     legend += "."
+    if says:
+        legend += (" *Own estimate*: what the run itself says of its growth "
+                   "and strain (doc/theory.md, 5.11); it knows nothing of "
+                   "errors in space.")
     if any(e.compared_with for e in estimates):
         sources = sorted({e.source for e in estimates if e.compared_with})
         legend += (" " + ", ".join(f"*{source}*" for source in sources)

@@ -5,6 +5,7 @@ doc/accuracy-and-cost.md says of such a resolution."""
 import math
 
 import numpy as np
+from morula.error_in_time import error_in_time
 
 from . import markup
 from .markup import definitions, number, paragraph
@@ -37,6 +38,11 @@ def numbers(run):
         ("elastic volume ratio, all steps",
          f"{rows['min_elastic_volume_ratio'].min():.3g} to "
          f"{rows['max_elastic_volume_ratio'].max():.3g}")]
+    in_time = error_in_time(run.statistics)
+    if in_time is not None:
+        pairs.append(("error in time, its own estimate",
+                      f"{100 * in_time:.2g} % of growth and strain",
+                      "error-in-time"))
     file = run.directory / "condition.csv"
     if file.is_file():
         condition = np.atleast_1d(np.genfromtxt(

@@ -94,8 +94,8 @@ def results(run):
     return curves
 
 
-def effort():
-    return [
+def effort(run):
+    curves = [
         Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True,
               zero=True),
         Curve("Iterations in a step", "", {
@@ -106,6 +106,11 @@ def effort():
               {"residual": "residual"}, only_steps=True, log=True),
         Curve("Length of a step", "day", {"dt": "step"}, only_steps=True,
               zero=True)]
+    if "step_error" in run.statistics:
+        curves.append(Curve(
+            "What the step before missed of growth and flow, relative", "",
+            {"step_error": "missed"}, only_steps=True, zero=True))
+    return curves
 
 
 def figure(run, curve):

@@ -40,7 +40,7 @@ def page(run, program, options, say):
         "log": log(run), "pictures": options.pictures
         and pictures.pictures(run, say) or "",
         "curves": curves.figures(run, curves.results(run)),
-        "effort_curves": curves.figures(run, curves.effort()),
+        "effort_curves": curves.figures(run, curves.effort(run)),
         "timings": effort.timings(run), "counters": effort.counters(run),
         "accuracy": accuracy.numbers(run), "notes": accuracy.notes(run),
         "lineage": family_part(run, family),

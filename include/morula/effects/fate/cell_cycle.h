@@ -5,13 +5,17 @@
 #define morula_effects_fate_cell_cycle_h
 
 #include <morula/base/expression_key.h>
+#include <morula/base/past_step.h>
 #include <morula/effects/effect.h>
+#include <morula/effects/fate/hazard.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/particles/property_pool.h>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,6 +79,36 @@ namespace Morula
     /** The rate of leaving G0, integrated since the wait began, if cells store
      *  it. */
     double hazard = 0.;
+    /** That rate as the last step saw it, 1/day, if it follows the state; or
+     *  not_expected. */
+    double exit_rate = not_expected;
+
+    /** Whether the cell waits, and only the hazard tells for how long. */
+    bool
+    is_drawn_by_hazard() const
+    {
+      return phase == CyclePhase::waiting && !std::isfinite(event_time);
+    }
+  };
+
+  /** J_e of a cell at the beginning of a step, and how it came to it, for the
+   *  size checkpoint. */
+  struct ElasticSize
+  {
+    /** Without further arguments: there was no step. */
+    ElasticSize(const double J_e,
+                const double slope = 0.,
+                const double since = std::numeric_limits<double>::infinity())
+      : J_e(J_e)
+      , slope(slope)
+      , since(since)
+    {}
+
+    double J_e;
+    /** Its slope in the last step, 1/day. */
+    double slope;
+    /** When that step began, day. */
+    double since;
   };
 
   /** Whether the value depends on more than the founder's place. */
@@ -102,6 +136,11 @@ namespace Morula
     double
     value(const Expression &expression) const;
 
+    /** The value at another time @p when, day, in the same state. @throws
+     *  InputError */
+    double
+    value(const Expression &expression, const double when) const;
+
     /** The present cell, or null. */
     const PresentCell<dim> *
     present() const
@@ -124,10 +163,14 @@ namespace Morula
      * Declares them, with all that a growing and dividing cell needs.
      * @param own_duration whether every cell has a T of its own
      * @param own_hazard   whether the rate of leaving G0 changes
+     * @param exit_rate    whether it follows the state
+     * @param checkpoint   whether there is a size checkpoint
      */
     explicit CycleColumns(CellColumns<dim> &columns,
                           const bool        own_duration = false,
-                          const bool        own_hazard   = false);
+                          const bool        own_hazard   = false,
+                          const bool        exit_rate    = false,
+                          const bool        checkpoint   = false);
 
     /** The key of the cell's random numbers. */
     std::uint64_t
@@ -142,6 +185,16 @@ namespace Morula
     store(const CycleState<dim>       &state,
           const CellView<dim, double> &cell) const;
 
+    /** J_e at the beginning of a step, and its slope in the step @p past. */
+    ElasticSize
+    size(const CellView<dim, const double> &cell, const PastStep &past) const;
+
+    /** Keeps J_e of a cell at the beginning of the step, @p before, for the
+     *  next step. */
+    void
+    remember_size(const CellView<dim, const double> &before,
+                  const CellView<dim, double>       &after) const;
+
   private:
     Column<CyclePhase>     phase;
     Column<double>         event_time;
@@ -150,6 +203,8 @@ namespace Morula
     Column<Tensor<2, dim>> growth_pre;
     Column<double>         duration;
     Column<double>         hazard;
+    Column<double>         exit_rate;
+    Column<double>         J_e_before;
   };
 
   /**
@@ -159,17 +214,18 @@ namespace Morula
    * function of a cell's state and keeps nothing.
    *
    * All events have exact times, for any length of the steps. A wait that ends
-   * in (t0, t1] starts S at its exact time if J_e(t0) > J_th; otherwise the
-   * cell is held, and starts S at the first later step start t0 with J_e(t0) >
-   * J_th. As J_th goes to zero this becomes no checkpoint. Each cell draws at
-   * most one wait and one axis, from its own key.
+   * at t_e in (t0, t1] starts S then if J_e, which goes on as in the step
+   * before, is above J_th; otherwise the cell is held. A held cell starts S
+   * when J_e has crossed J_th, a time in the step before that is found at t0:
+   * doc/theory.md (6.3g). As J_th goes to zero this becomes no checkpoint. Each
+   * cell draws at most one wait and one axis, from its own key.
    *
    * Expressions are evaluated at the founder's initial position, or for the
    * present cell if they depend on its state: every call gets @p at for that. T
    * is fixed at the onset of S. A rate of leaving G0 that depends on the state
-   * is integrated over the steps; the cell leaves when the integral reaches a
-   * number that is exponentially distributed with mean 1: the same draw as that
-   * of a constant rate.
+   * or t is integrated over the steps, at their middle; the cell leaves when
+   * the integral reaches a number that is exponentially distributed with mean
+   * 1: the same draw as that of a constant rate.
    */
   template <int dim>
   class CellCycle
@@ -197,6 +253,22 @@ namespace Morula
     /** Whether the rate of leaving G0 depends on the cell's state. */
     bool
     has_own_hazard() const;
+
+    /** Whether that rate follows the state, so that cells keep what the last
+     *  step saw of it. */
+    bool
+    keeps_exit_rate() const;
+
+    /** The rate of leaving G0, 1/day. @throws InputError */
+    double
+    exit_rate_at(const CellAt<dim> &at) const;
+
+    /** Adds what the last step missed of the integral of that rate:
+     *  doc/theory.md (5.9). @param at the cell at the middle of that step */
+    void
+    make_good(CycleState<dim>   &state,
+              const CellAt<dim> &at,
+              const PastStep    &past) const;
 
     /** Refuses numbers of a founder in its state at t = 0: see check().
      *  @throws InputError */
@@ -240,14 +312,14 @@ namespace Morula
      * The state at @p t1 of a cell that is in @p state at @p t0 and does not
      * divide in between: a cell whose division falls into (t0, t1] stays
      * `growing`; divides() tells, and daughters() follows.
-     * @param J_e elastic volume ratio at @p t0, for the size checkpoint
+     * @param size J_e at @p t0, for the size checkpoint
      */
     CycleState<dim>
     advance(CycleState<dim>    state,
             const CellAt<dim> &at,
             const double       t0,
             const double       t1,
-            const double       J_e) const;
+            const ElasticSize &size) const;
 
     /** Whether a cell in (advanced) @p state divides at or before @p t1. */
     bool
@@ -317,9 +389,20 @@ namespace Morula
                  const double           t) const;
 
   private:
-    /** Whether J_e is above the threshold, or there is none. */
+    /** Whether J_e is above the threshold at @p t (day), or there is none. */
     bool
-    passes_checkpoint(const CellAt<dim> &at, const double J_e) const;
+    passes_checkpoint(const CellAt<dim> &at,
+                      const double       J_e,
+                      const double       t) const;
+
+    /** When a waiting cell starts S in a step until @p t1, day; infinity: not
+     * in this step. doc/theory.md (6.3g) */
+    double
+    onset(const CycleState<dim> &state,
+          const CellAt<dim>     &at,
+          const double           t0,
+          const double           t1,
+          const ElasticSize     &size) const;
 
     /** T of the cell's cycle, day. */
     double
@@ -359,7 +442,7 @@ namespace Morula
     bool          stay_inside;
     std::uint64_t seed;
     double        slack;
-    bool          own_duration, own_hazard;
+    bool          own_duration, own_hazard, exit_rate_follows_state;
   };
 } // namespace Morula
 

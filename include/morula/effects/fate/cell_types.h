@@ -59,6 +59,21 @@ namespace Morula
                 const double                 t0,
                 const double                 t1) const;
 
+    /** Adds what the last step missed of the rates' integrals, where rates
+     *  follow the state: doc/theory.md (5.9). */
+    void
+    make_good(const PresentCell<dim>      &cell,
+              const CellView<dim, double> &row) const;
+
+    /** Keeps the rates for the time @p t (day), the middle of the step, if the
+     *  next step is to compare them: if the cell has @p is_whole lived the step
+     *  without an event. */
+    void
+    expect_rates(const PresentCell<dim>      &cell,
+                 const CellView<dim, double> &row,
+                 const double                 t,
+                 const bool                   is_whole) const;
+
     /** Gives a cell another type. @param time day */
     void
     change(const CellView<dim, double> &cell,
@@ -91,6 +106,8 @@ namespace Morula
     std::vector<std::vector<Transition>>               transitions; // by type
     Column<unsigned int>                               n_changes;
     std::vector<Column<double>>                        hazards;
+    /** Where the rate of some type's way of this number follows the state. */
+    std::vector<Column<double>> expected;
   };
 } // namespace Morula
 

@@ -80,6 +80,21 @@ namespace Morula
            const double                       t0,
            const double                       t1) const;
 
+    /** Adds what the last step missed of the rate's integral, if the rate
+     *  follows the state: doc/theory.md (5.9). */
+    void
+    make_good(const PresentCell<dim>      &cell,
+              const CellView<dim, double> &row) const;
+
+    /** Keeps the rate for the time @p t (day), the middle of the step, if the
+     *  next step is to compare it: if the cell has @p is_whole lived the step
+     *  without an event. */
+    void
+    expect_rate(const PresentCell<dim>      &cell,
+                const CellView<dim, double> &row,
+                const double                 t,
+                const bool                   is_whole) const;
+
     /** Keeps the integral of the rate. Only with a hazard. */
     void
     set_integral(const CellView<dim, double> &row, const double value) const;
@@ -103,6 +118,10 @@ namespace Morula
      */
     double
     removal_time(const CellView<dim, const double> &cell) const;
+
+    /** Whether the condition may remove cells at once. */
+    bool
+    may_remove_at_once() const;
 
     /** The rate with which living cells die, 1/day. */
     const Expression &
@@ -128,6 +147,7 @@ namespace Morula
     std::uint64_t        random_seed;
     double               slack;
     Column<double>       integral;
+    Column<double>       expected; // if the rate follows the state
     Column<double>       time_;
     Column<double>       remaining; // s
     Column<double>       duration;  // T_s

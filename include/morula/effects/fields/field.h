@@ -66,6 +66,10 @@ namespace Morula
     bool
     has_nonlinear_source() const;
 
+    /** Whether what cells do to it depends on another field, by its number. */
+    bool
+    depends_on(const unsigned int other) const;
+
     /** D, if it is a plain number. */
     std::optional<double>
     uniform_diffusion() const;

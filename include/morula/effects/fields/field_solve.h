@@ -89,6 +89,12 @@ namespace Morula
           const double       t,
           const double       t1);
 
+    /** The largest change, relative to the largest value after it. Collective.
+     */
+    double
+    relative_change(const std::vector<double> &before,
+                    const std::vector<double> &after) const;
+
   private:
     using Vector = Equilibrium::Vector;
 
@@ -172,11 +178,6 @@ namespace Morula
             const double        t,
             const double        dt,
             FieldSolution<dim> &result);
-
-    /** The largest change, relative to the largest value after it. */
-    double
-    relative_change(const std::vector<double> &before,
-                    const std::vector<double> &after) const;
 
     /** Calls action(p, value) for each cell: with its number and the value of a
      *  field of splines at its place. */

@@ -65,9 +65,11 @@ namespace Morula
                   const MPI_Comm                 comm) const;
 
     /**
-     * Finds the fields of one kind, one after the other, at the end @p t1 of a
-     * step that begins at @p t0 with the tissue as the solver has it, in days;
-     * steady ones at t1 = t0. Collective.
+     * Finds the fields of one kind at the end @p t1 of a step that begins at @p
+     * t0 with the tissue as the solver has it, in days; steady ones at t1 = t0.
+     * Those on which others depend come first, so that their order in the scene
+     * does not matter; those that depend on each other are found in turns until
+     * they agree. Collective.
      * @throws InputError  for expressions without a value
      * @throws StepFailed where there is no solution
      */
@@ -91,9 +93,23 @@ namespace Morula
     totals(const Tissue<dim> &tissue) const;
 
   private:
-    std::vector<Field<dim>>             fields;
-    std::vector<Column<double>>         columns;
-    std::vector<Column<Tensor<1, dim>>> gradients;
+    /** Finds the order in which fields can be found. */
+    void
+    order();
+
+    /** Fields that depend on each other, or one alone. */
+    FieldsOfStep<dim>
+    find_group(const std::vector<unsigned int> &group,
+               FieldSolver<dim>                &solver,
+               const double                     t0,
+               const double                     t1) const;
+
+    /** Numbers of fields that depend on each other, in the order in which they
+     *  are found. */
+    std::vector<std::vector<unsigned int>> groups;
+    std::vector<Field<dim>>                fields;
+    std::vector<Column<double>>            columns;
+    std::vector<Column<Tensor<1, dim>>>    gradients;
   };
 } // namespace Morula
 

@@ -29,6 +29,16 @@ namespace Morula
     const PresentCell<dim> *present = nullptr;
   };
 
+  /** What a law makes of a cell in a step. */
+  template <int dim>
+  struct GrowthOfStep
+  {
+    /** The law's part of F_g at the end. */
+    Tensor<2, dim> growth;
+    /** |missed| of the step before: GrowthLaw::missed(). */
+    double missed = 0.;
+  };
+
   /**
    * A law of growth without division: `Growth/Law`. With a cell cycle as well,
    * F_g is the product of the law's part and the cycle's, (6.1) and (6.2).
@@ -75,6 +85,24 @@ namespace Morula
              const double                 t0,
              const double                 t1,
              const CellView<dim, double> &after) const;
+
+    /** growth() and remember() in one, and what the step before missed: a law
+     *  may have less to do for both. */
+    virtual GrowthOfStep<dim>
+    grow(const GrowingCell<dim>      &cell,
+         const double                 t0,
+         const double                 t1,
+         const CellView<dim, double> &after) const;
+
+    /** Whether growth follows the state of cells, so that a step can miss some
+     *  of it. */
+    virtual bool
+    follows_state() const;
+
+    /** |missed| of doc/theory.md (5.9), in ln det F_g: what the step that led
+     *  to this state missed of the cell's growth. */
+    virtual double
+    missed(const GrowingCell<dim> &cell) const;
 
     /** Evaluates the law as the first and the last step will. */
     void

@@ -38,16 +38,28 @@ namespace Morula
     double damping = 0.;
   };
 
+  /** (1 - e^-c) / c: the mean over a step of what decays by e^-c in it,
+   *  doc/theory.md (10.5). @param c >= 0 */
+  double
+  mean_of_decay(const double c);
+
   /**
    * The predictor for one of the rates k and h whose sum is the growth of a
-   * cell, doc/theory.md (10.5): the linearly implicit rate of @p part, if the
-   * cell's place widens at the rate @p widening (1/day).
+   * cell, doc/theory.md (10.5): the mean rate of @p part over the step, 1/day,
+   * if the cell's place widens steadily at the rate @p widening (1/day).
    * @param all k + h, with the sum of their c
    */
   double
   predicted_rate(const GrowthFeedback &part,
                  const GrowthFeedback &all,
                  const double          widening);
+
+  /** The rate of @p part at the end of a step for which it was predicted, as
+   *  far as its own feedback tells, 1/day: doc/theory.md (10.5a). */
+  double
+  expected_rate(const GrowthFeedback &part,
+                const GrowthFeedback &all,
+                const double          widening);
 
   /** The growth to make up for after the first step, when it is known how far
    *  the tissue gave way, doc/theory.md (10.6). */

@@ -63,6 +63,18 @@ namespace Morula
              const double                 t1,
              const CellView<dim, double> &after) const override;
 
+    GrowthOfStep<dim>
+    grow(const GrowingCell<dim>      &cell,
+         const double                 t0,
+         const double                 t1,
+         const CellView<dim, double> &after) const override;
+
+    bool
+    follows_state() const override;
+
+    double
+    missed(const GrowingCell<dim> &cell) const override;
+
     void
     check(const Preview<dim> &scene) const override;
 
@@ -81,6 +93,8 @@ namespace Morula
       GrowthFeedback of_rate, of_homeostasis;
       /** The deviator of H, 1/day. */
       SymmetricTensor<2, dim> shape;
+      /** By how much it falls, times Δt, per unit of the shear that grows. */
+      double shape_damping = 0.;
 
       /** Both. */
       GrowthFeedback
@@ -96,8 +110,58 @@ namespace Morula
       Column<double> withheld;
     };
 
+    /** L^ of doc/theory.md (5.9): the rate that a step expects at its end. The
+     *  rate of the volume is enough where the direction of growth stays. */
+    struct Expected
+    {
+      Column<double>                  volume; // 1/day
+      Column<SymmetricTensor<2, dim>> tensor; // 1/day
+    };
+
     Rates
     rates(const PresentCell<dim> &cell, const double t0, const double t1) const;
+
+    /** L of these rates, without forecast, at time @p t (day). */
+    SymmetricTensor<2, dim>
+    tensor_of(const Rates            &now,
+              const PresentCell<dim> &cell,
+              const double            t) const;
+
+    /**
+     * The growth that the step before missed, doc/theory.md (5.9).
+     * @return as a tensor where the direction of growth changes; else what is
+     * missing in ln det F_g, as a multiple of the unit tensor
+     */
+    SymmetricTensor<2, dim>
+    missed_tensor(const GrowingCell<dim> &cell) const;
+
+    /** How much @p missed is, as GrowthLaw::missed() says. */
+    static double
+    size_of(const SymmetricTensor<2, dim> &missed);
+
+    /** Keeps what the step expects of the rates @p now at its end. */
+    void
+    expect(const GrowingCell<dim>      &cell,
+           const Rates                 &now,
+           const double                 t0,
+           const double                 t1,
+           const CellView<dim, double> &after) const;
+
+    /** Keeps what the predictor needs of the past. */
+    void
+    remember_place(const GrowingCell<dim>      &cell,
+                   const Rates                 &now,
+                   const double                 t0,
+                   const double                 t1,
+                   const CellView<dim, double> &after) const;
+
+    /** F_law grown at @p L, if anything is left of the cell. @throws InputError
+     */
+    Tensor<2, dim>
+    grown_at(const SymmetricTensor<2, dim> &L,
+             const GrowingCell<dim>        &cell,
+             const double                   t0,
+             const double                   t1) const;
 
     /** k_∥ a⊗a + k_⊥ (I − a⊗a) for the rate @p k of the volume. */
     SymmetricTensor<2, dim>
@@ -110,11 +174,14 @@ namespace Morula
     FirstStep
     seen_at_first_step(const GrowingCell<dim> &cell, const double t0) const;
 
-    /** L of doc/theory.md (10.1). */
+    /** L of doc/theory.md (10.1), of a cell that is there. @param now its rates
+     *  @param missed as missed_tensor() */
     SymmetricTensor<2, dim>
-    rate_of_growth(const GrowingCell<dim> &cell,
-                   const double            t0,
-                   const double            t1) const;
+    rate_of_growth(const GrowingCell<dim>        &cell,
+                   Rates                          now,
+                   const SymmetricTensor<2, dim> &missed,
+                   const double                   t0,
+                   const double                   t1) const;
 
     /** The expression to blame for a cell that grows or withers beyond all
      *  bounds: the one with the largest part in the rate of its volume. */
@@ -131,6 +198,7 @@ namespace Morula
     bool                                follows_stress;
     double                              slack;
     std::optional<Memory>               memory;
+    std::optional<Expected>             expected;
   };
 } // namespace Morula
 

@@ -111,6 +111,10 @@ namespace Morula
     Tensor<1, dim>
     of(const PresentCell<dim> &cell, const double t) const;
 
+    /** Whether it changes as the tissue does. */
+    bool
+    follows_state() const;
+
   private:
     Expression       expression;
     CellDirectionKey key;

@@ -4,6 +4,7 @@
 #ifndef morula_effects_state_present_cell_h
 #define morula_effects_state_present_cell_h
 
+#include <morula/base/past_step.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/mechanics/cell_quantities.h>
@@ -35,6 +36,8 @@ namespace Morula
     std::uint64_t random_seed;
     /** The time of the cells' state, day. */
     double time;
+    /** The step that led to it. */
+    PastStep past = {};
 
     /** The phase of a cell, by its number in cells-NNNN.csv. */
     unsigned int

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/simulation/step_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace Morula
+{
+  void
+  ErrorInTime::add(const double mu)
+  {
+    changes += std::abs(mu - last) / 6.;
+    last = mu;
+  }
+
+
+  double
+  ErrorInTime::total() const
+  {
+    return changes + last;
+  }
+
+
+  template <int dim>
+  double
+  mean_over_tissue(const Tissue<dim>                               &tissue,
+                   const std::function<double(const unsigned int)> &number,
+                   const double                                     scale)
+  {
+    // 2^23 cells of 2^10 typical volumes do not overflow.
+    constexpr double units  = 1u << 30;
+    constexpr double most   = 1024.;
+    std::int64_t     all[2] = {0, 0};
+    const auto      &cells  = tissue.cells();
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const double volume = std::min(cells.volume(p) / scale, most);
+        all[0] += std::llround(units * volume * std::clamp(number(p), 0., 1.));
+        all[1] += std::llround(units * volume);
+      }
+    const MPI_Comm     comm  = tissue.communicator();
+    const std::int64_t part  = Utilities::MPI::sum(all[0], comm);
+    const std::int64_t whole = Utilities::MPI::sum(all[1], comm);
+    return whole > 0 ? double(part) / double(whole) : 0.;
+  }
+
+
+  template double
+  mean_over_tissue(const Tissue<2> &,
+                   const std::function<double(const unsigned int)> &,
+                   const double);
+  template double
+  mean_over_tissue(const Tissue<3> &,
+                   const std::function<double(const unsigned int)> &,
+                   const double);
+} // namespace Morula

@@ -60,6 +60,7 @@ end
 # the second step begins, all at once.
 SLAB = """
 set Dimension = 2
+set Method = paper
 subsection Time
   set End time = 1.1
   set Step     = 0.1

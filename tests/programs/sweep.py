@@ -117,7 +117,7 @@ class Sweep(ProgramTest):
                                     ("smallest", min(ends)),
                                     ("largest", max(ends))):
                     self.assertAlmostEqual(float(row[name]) / value, 1, 8)
-        self.assertEqual(len(table), 4 * 32)
+        self.assertEqual(len(table), 4 * 33)
         cells = {row[RATE]: float(row["mean"]) for row in table
                  if row["column"] == "cells"}
         self.assertGreater(cells["2"], cells["1"] + 20)

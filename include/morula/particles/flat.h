@@ -5,6 +5,7 @@
 #define morula_particles_flat_h
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <cstdint>

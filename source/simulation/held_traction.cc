@@ -28,6 +28,10 @@ namespace Morula
      * of a clamp tells far too much of the traction that will be needed. */
     constexpr double largest_step = 0.3;
 
+    /** Where a load jumps, cells at a clamp may be squeezed in this very step:
+     *  the penalty then counts on this times their stiffness at t. */
+    constexpr double stiffening_of_jump = 10.;
+
     /** After so many turns a change of more than this part of the one before
      *  shows that the traction does not settle. */
     constexpr unsigned int patient_turns = 6;
@@ -138,7 +142,8 @@ namespace Morula
     });
     std::vector<double> list;
     for (std::size_t k = 0; k < held.size(); ++k)
-      list.push_back(held[k].normal * (K[k] * held[k].normal));
+      list.push_back((in_parts ? stiffening_of_jump : 1.) *
+                     (held[k].normal * (K[k] * held[k].normal)));
     return list;
   }
 

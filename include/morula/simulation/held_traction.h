@@ -51,7 +51,8 @@ namespace Morula
     tractions() const;
 
     /** Stiffnesses of a stretch along the normals with the growth at t, kPa, by
-     *  held_groups(): k in doc/theory.md (4.6). Collective. */
+     *  held_groups(): k in doc/theory.md (4.6); ten times as much where the
+     *  traction is changed in parts. Collective. */
     std::vector<double>
     stiffnesses() const;
 

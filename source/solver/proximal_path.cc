@@ -151,12 +151,10 @@ namespace Morula
           report.place.proximity = c;
           const Equilibrium::Evaluation evaluation =
             solve(nearby, linear_problem, of_parts, limited, timer, u, report);
-          centre -= u;
-          if (centre.linfty_norm() > scales.length)
-            {
-              centre += u;
-              throw StepFailed("the tissue moves too far at once");
-            }
+          Equilibrium::Vector moved(u);
+          moved -= centre;
+          if (moved.linfty_norm() > scales.length)
+            throw StepFailed("the tissue moves too far at once");
           centre                 = u;
           report.place.proximity = 0.;
           nearby.use_growth_at_end();

@@ -351,7 +351,7 @@ TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
                  {"Nitsche penalty = '20 E/h'",
                   "all of the surface is fixed",
                   "9 % low",
-                  "Method = paper"});
+                  "Nitsche form = bounded"});
   scene.nitsche.penalty = 1000.;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
   scene.nitsche.form = "symmetric";

@@ -84,8 +84,7 @@ namespace Morula
         "against it: in a ball that grows to 1.1 in all directions the "
         "energy is 9 % low at a penalty of 20 (doc/accuracy-and-cost.md, "
         "which method).",
-        "Set Method = paper and remove the keys that it stands for, or "
-        "raise the penalty to 1000.");
+        "Set " + form.path() + " = bounded, or raise the penalty to 1000.");
   }
 
 

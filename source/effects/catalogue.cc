@@ -3,10 +3,13 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/division/axis_rules.h>
+#include <morula/effects/fate/death.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
+#include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
@@ -37,6 +40,9 @@ namespace Morula
   {
     add<IsotropicGrowth>(growth_laws, "isotropic");
     add<RateGrowth>(growth_laws, "rate");
+    add<Contraction>(growth_factors, "contraction");
+    add<Relaxation>(flows, "relaxation");
+    add<Death>(fates, "death");
     add<FixedAxis>(division_rules, "fixed");
     add<StretchAxis>(division_rules, "stretch");
     add<StressAxis>(division_rules, "stress");

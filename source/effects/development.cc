@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/development.h>
-#include <morula/effects/fate/random.h>
 
 #include <algorithm>
 #include <utility>
@@ -10,20 +9,23 @@
 namespace Morula
 {
   template <int dim>
-  const DivisionRule<dim> *
-  DevelopmentEffects<dim>::rule(const unsigned int type) const
+  bool
+  DevelopmentEffects<dim>::law_follows_state() const
   {
-    if (!rule_of_type.empty())
-      return rule_of_type[type];
-    return rules.empty() ? nullptr : rules.front().get();
+    return law && law->follows_state();
   }
+
 
   template <int dim>
   bool
   DevelopmentEffects<dim>::states_error() const
   {
-    return relaxation || (law && law->follows_state());
+    return law_follows_state() ||
+           std::any_of(flows.begin(), flows.end(), [](const auto &flow) {
+             return flow->has_forecast();
+           });
   }
+
 
   template <int dim>
   CellDevelopment<dim>::CellDevelopment(DevelopmentEffects<dim>  effects,
@@ -38,9 +40,9 @@ namespace Morula
     , random_seed(random_seed)
   {
     keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
-                 this->effects.contraction || this->effects.relaxation ||
-                 this->effects.death;
+                 !this->effects.flows.empty();
   }
+
 
   template <int dim>
   CellDevelopment<dim>::CellDevelopment(
@@ -55,25 +57,27 @@ namespace Morula
   {
     if (law)
       columns_.need_growth();
-    if (cycle)
-      effects.clock.emplace(columns_,
-                            cycle->has_own_duration(),
-                            cycle->has_own_hazard(),
-                            cycle->keeps_exit_rate(),
-                            cycle->has_checkpoint());
-    effects.law   = std::move(law);
-    effects.cycle = std::move(cycle);
+    effects.law = std::move(law);
+    if (!cycle)
+      return;
+    auto proliferation =
+      std::make_unique<Proliferation<dim>>(std::move(*cycle), columns_, 0);
+    typename Proliferation<dim>::Rules rules;
     if (rule)
-      effects.rules.push_back(std::move(rule));
+      rules.push_back(std::move(rule));
+    proliferation->set_rules(std::move(rules));
+    effects.proliferation = effects.add_fate(std::move(proliferation));
   }
+
 
   template <int dim>
   bool
   CellDevelopment<dim>::grows() const
   {
-    return effects.law || effects.cycle || effects.contraction ||
-           effects.relaxation || effects.forgets_stress || effects.death;
+    return effects.law || effects.proliferation || !effects.factors.empty() ||
+           !effects.flows.empty() || is_mortal();
   }
+
 
   template <int dim>
   bool
@@ -82,12 +86,14 @@ namespace Morula
     return grows() || keeps_rows;
   }
 
+
   template <int dim>
   const CellCycle<dim> *
   CellDevelopment<dim>::cycle() const
   {
-    return effects.cycle ? &*effects.cycle : nullptr;
+    return effects.proliferation ? &effects.proliferation->cycle() : nullptr;
   }
+
 
   template <int dim>
   const CellColumns<dim> &
@@ -96,6 +102,7 @@ namespace Morula
     return columns_;
   }
 
+
   template <int dim>
   const StateColumns<dim> &
   CellDevelopment<dim>::state() const
@@ -103,12 +110,24 @@ namespace Morula
     return state_;
   }
 
+
   template <int dim>
-  const Death<dim> *
-  CellDevelopment<dim>::death() const
+  const Fates<dim> &
+  CellDevelopment<dim>::fates() const
   {
-    return effects.death ? &*effects.death : nullptr;
+    return effects.fates;
   }
+
+
+  template <int dim>
+  bool
+  CellDevelopment<dim>::is_mortal() const
+  {
+    return std::any_of(effects.fates.begin(),
+                       effects.fates.end(),
+                       [](const auto &fate) { return fate->is_deadly(); });
+  }
+
 
   template <int dim>
   CellReader<dim>
@@ -116,27 +135,30 @@ namespace Morula
   {
     return {state_,
             material,
-            effects.clock ? &*effects.clock : nullptr,
+            effects.proliferation ? &effects.proliferation->columns() : nullptr,
             cycle(),
             random_seed,
             t,
             past};
   }
 
+
   template <int dim>
   CycleState<dim>
   CellDevelopment<dim>::clock(const CellView<dim, const double> &cell) const
   {
-    return effects.clock->load(cell);
+    return effects.proliferation->clock(cell);
   }
+
 
   template <int dim>
   void
   CellDevelopment<dim>::set_clock(const CellView<dim, double> &cell,
                                   const CycleState<dim>       &state) const
   {
-    effects.clock->store(state, cell);
+    effects.proliferation->set_clock(cell, state);
   }
+
 
   template <int dim>
   void
@@ -151,190 +173,72 @@ namespace Morula
       cell.set(state_.type,
                given.type ? *given.type : effects.types->founder_type(X));
     const PresentCell<dim> founder(cell, id, X, reader);
-    if (effects.cycle)
-      {
-        // The key first: it is behind the noise.
-        CycleState<dim> state;
-        state.key = Random::founder_key(random_seed, id);
-        set_clock(cell, state);
-        const CellAt<dim> at(founder, 0.);
-        if (step > 0.)
-          effects.cycle->check_cell(at, step);
-        state = given.phase ?
-                  effects.cycle->founder_in_phase(id, at, *given.phase) :
-                  effects.cycle->founder(id, at);
-        choose_axis(CycleState<dim>(), founder, 0., state);
-        if (given.phase)
-          effects.cycle->begin_growth(state, at);
-        set_clock(cell, state);
-      }
+    if (effects.proliferation)
+      effects.proliferation->found(founder, cell, step, given.phase);
     for (const Effect<dim> *effect : effects.with_state)
       effect->begin(cell);
-    if (step > 0.)
-      {
-        if (effects.types)
-          effects.types->check_cell(founder);
-        if (effects.death)
-          effects.death->check_cell(founder, step);
-        if (effects.law)
-          effects.law->check_cell(founder, step);
-        const DivisionRule<dim> *const rule = effects.rule(founder.type());
-        if (rule != nullptr && clock(cell).phase != CyclePhase::never)
-          rule->check_cell(founder, step);
-        if (effects.contraction)
-          effects.contraction->check_cell(founder, step);
-        if (effects.relaxation)
-          effects.relaxation->check_cell(founder, step);
-      }
-  }
-
-  template <int dim>
-  CycleState<dim>
-  CellDevelopment<dim>::next_clock(const PresentCell<dim> &cell,
-                                   const CycleState<dim>  &before,
-                                   const double            t0,
-                                   const double            t1) const
-  {
-    const CellView<dim, const double> &view = cell.cell();
-    CycleState<dim>                    after =
-      effects.cycle->advance(before,
-                             CellAt<dim>(cell, t0),
-                             t0,
-                             t1,
-                             effects.clock->size(view, cell.reader().past));
-    choose_axis(before, cell, t0, after);
-    return after;
-  }
-
-  template <int dim>
-  void
-  CellDevelopment<dim>::choose_axis(const CycleState<dim>  &before,
-                                    const PresentCell<dim> &cell,
-                                    const double            t,
-                                    CycleState<dim>        &after) const
-  {
-    const bool begins =
-      before.phase != CyclePhase::growing && after.phase == CyclePhase::growing;
-    // a founder whose file says that it is in G1
-    const bool has_begun =
-      before.phase == CyclePhase::never && after.phase == CyclePhase::divided;
-    const DivisionRule<dim> *const rule = effects.rule(cell.type());
-    if (rule == nullptr || !(begins || has_begun))
+    if (!(step > 0.))
       return;
-    const CellView<dim, const double> &view = cell.cell();
-    Tensor<1, dim>                     axis =
-      rule->axis({view.founder_position(),
-                  view.elastic_deformation(),
-                  after.axis,
-                  &cell,
-                  t,
-                  effects.cycle->least_anisotropy(cell, t)});
-    const double spread = effects.cycle->axis_spread(cell, t);
-    if (spread > 0.)
-      axis = Random::direction_around(axis / axis.norm(),
-                                      spread,
-                                      random_seed,
-                                      has_begun ? Random::past_key(random_seed,
-                                                                   after.key) :
-                                                  after.key);
-    // doc/theory.md (6.3e)
-    if (rule->frame() == AxisFrame::present)
-      axis =
-        invert(view.elastic_deformation() * growth_left_of_cycle(view, t)) *
-        axis;
-    after.axis = axis / axis.norm();
+    for (const auto &fate : effects.fates)
+      fate->check_cell(founder, step);
+    if (effects.law)
+      effects.law->check_cell(founder, step);
+    for (const auto &factor : effects.factors)
+      factor->check_cell(founder, step);
+    for (const auto &flow : effects.flows)
+      flow->check_cell(founder, step);
   }
+
 
   template <int dim>
   void
-  CellDevelopment<dim>::make_good(const PresentCell<dim>      &before,
-                                  const CellView<dim, double> &after) const
-  {
-    const PastStep &past = before.reader().past;
-    if (!past.exists())
-      return;
-    if (effects.death)
-      effects.death->make_good(before, after);
-    if (effects.types)
-      effects.types->make_good(before, after);
-    if (effects.cycle && effects.cycle->keeps_exit_rate())
-      {
-        CycleState<dim> state = clock(after);
-        effects.cycle->make_good(state,
-                                 CellAt<dim>(before, past.middle()),
-                                 past);
-        set_clock(after, state);
-      }
-  }
-
-  template <int dim>
-  void
-  CellDevelopment<dim>::expect_rates(const PresentCell<dim>      &before,
-                                     const CellView<dim, double> &after,
-                                     const double                 t0,
-                                     const double                 t1,
-                                     const bool is_whole) const
-  {
-    const double middle = 0.5 * (t0 + t1);
-    if (effects.death)
-      effects.death->expect_rate(before, after, middle, is_whole);
-    if (effects.types)
-      effects.types->expect_rates(before, after, middle, is_whole);
-    if (effects.cycle && effects.cycle->keeps_exit_rate())
-      {
-        CycleState<dim> state = clock(after);
-        const bool      waits = clock(before.cell()).is_drawn_by_hazard() &&
-                           state.is_drawn_by_hazard();
-        state.exit_rate =
-          is_whole && waits ?
-            effects.cycle->exit_rate_at(CellAt<dim>(before, middle)) :
-            not_expected;
-        set_clock(after, state);
-      }
-  }
-
-  template <int dim>
-  typename CellDevelopment<dim>::Errors
   CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &after,
                                 const double                 t0,
                                 const double                 t1,
-                                std::vector<CellEvent>      &events) const
+                                std::vector<CellEvent>      &events,
+                                Errors                      &errors) const
   {
-    const bool dead = is_dead_at(t0, before, after, events);
+    // What happens to the cell comes first: growth depends on it.
+    errors.missed_growth       = 0.;
+    const std::size_t n_events = events.size();
+    const bool dead = is_dead_at(effects.fates, before, after, t0, events);
     if (!dead)
       {
-        const std::size_t n_events = events.size();
-        make_good(before, after);
-        const CycleState<dim> next = advance(before, after, t0, t1, events);
-        if (effects.cycle)
-          set_clock(after, next);
-        expect_rates(before, after, t0, t1, events.size() == n_events);
+        for (const auto &fate : effects.fates)
+          fate->make_good(before, after);
+        live(effects.fates, before, after, t0, t1, events);
+        for (const auto &fate : effects.fates)
+          fate->expect(before,
+                       after,
+                       0.5 * (t0 + t1),
+                       events.size() == n_events);
       }
-    if (effects.clock)
-      effects.clock->remember_size(before.cell(), after);
+    if (effects.proliferation)
+      effects.proliferation->advance(before, after, t0, t1);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before, after, t0, t1);
-    Errors errors;
     if (!grows())
-      return errors;
-    const double end =
-      effects.death ? std::min(t1, effects.death->time(after)) : t1;
+      return;
+
+    // Then the product of all that grows, of which the dead keep what they had,
+    // but for their shrinking; flows come last, as they take stress from what
+    // is left of F. doc/theory.md (8.7)
     Tensor<2, dim> F_g =
-      dead ? before.cell().growth() :
-             living_growth(before,
-                           after,
-                           effects.cycle ? clock(after) : CycleState<dim>(),
-                           t0,
-                           end,
-                           errors.missed_growth);
-    if (effects.death && effects.death->is_dead(after))
-      F_g *= effects.death->shrink(after, t1);
-    if (effects.relaxation)
-      F_g = relax(before, after, F_g, t0, t1, errors.flow_share);
+      dead ?
+        before.cell().growth() :
+        living_growth(before,
+                      after,
+                      t0,
+                      std::min(t1, time_of_death<dim>(effects.fates, after)),
+                      errors.missed_growth);
+    for (const auto &fate : effects.fates)
+      if (fate->time_of_death(after) <= t1)
+        F_g *= fate->shrink(after, t1);
+    F_g = flow(before, after, F_g, t0, t1, errors.flow_shares);
     after.set(columns_.growth, F_g);
-    return errors;
   }
+
 
   template <int dim>
   DevelopmentOfStep<dim>
@@ -359,6 +263,7 @@ namespace Morula
         result.current.reserve(cells.size());
       }
     std::vector<double> row;
+    Errors              errors;
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const auto             cell = cells[p];
@@ -366,33 +271,29 @@ namespace Morula
                                       cells.id(p),
                                       cells.position(p),
                                       reader);
-        if (grows())
-          result.previous.push_back(cell.growth());
-        if (!keeps_rows)
-          {
-            const CycleState<dim> next =
-              effects.cycle ? next_clock(before, clock(cell), t0, t1) :
-                              CycleState<dim>();
-            result.current.push_back(growth(before, next, t0, t1));
-            continue;
-          }
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
-        const Errors errors = develop(before, after, t0, t1, result.events);
-        if (effects.law && effects.law->follows_state())
-          result.missed_growth.push_back(errors.missed_growth);
-        if (effects.relaxation)
-          result.flow_shares.push_back(errors.flow_share);
+        develop(before, after, t0, t1, result.events, errors);
         if (grows())
-          result.current.push_back(after.growth());
+          {
+            result.previous.push_back(cell.growth());
+            result.current.push_back(after.growth());
+          }
+        if (effects.law_follows_state())
+          result.missed_growth.push_back(errors.missed_growth);
+        result.flow_shares.insert(result.flow_shares.end(),
+                                  errors.flow_shares.begin(),
+                                  errors.flow_shares.end());
         if (material.depends_on_state())
           result.lame.push_back(
             PresentCell<dim>(after, cells.id(p), cells.position(p), after_step)
               .lame());
-        result.rows.insert(result.rows.end(), row.begin(), row.end());
+        if (keeps_rows)
+          result.rows.insert(result.rows.end(), row.begin(), row.end());
       }
     return result;
   }
+
 
   template <int dim>
   void
@@ -403,48 +304,69 @@ namespace Morula
   {
     if (!present())
       return;
-    const CellReader<dim> reader = this->reader(t0, of_step.past);
+    const CellReader<dim>  reader = this->reader(t0, of_step.past);
+    std::vector<double>    row;
+    std::vector<CellEvent> events; // of_step has them already
+    Errors                 errors;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
         if (keeps_rows)
           {
-            const auto row =
+            const auto kept =
               of_step.rows.begin() + std::size_t(p) * columns_.n_numbers();
-            std::copy(row, row + columns_.n_numbers(), cell.row().begin());
+            std::copy(kept, kept + columns_.n_numbers(), cell.row().begin());
             continue;
           }
-        if (effects.cycle)
-          {
-            set_clock(cell,
-                      next_clock(PresentCell<dim>(cell,
-                                                  tissue.cells().id(p),
-                                                  tissue.cells().position(p),
-                                                  reader),
-                                 clock(cell),
-                                 t0,
-                                 t1));
-            effects.clock->remember_size(cell, cell);
-          }
-        cell.set(columns_.growth, of_step.current[p]);
+        // Rows take more memory than making them once more takes time.
+        row.assign(cell.row().begin(), cell.row().end());
+        develop(present_cell(tissue, p, reader),
+                CellView<dim, double>(make_array_view(row), columns_),
+                t0,
+                t1,
+                events,
+                errors);
+        std::copy(row.begin(), row.end(), cell.row().begin());
       }
   }
+
+
+  template <int dim>
+  unsigned int
+  CellDevelopment<dim>::make_daughter(const CellView<dim, double> &daughter,
+                                      const types::particle_index  id,
+                                      const Point<dim>            &position,
+                                      const unsigned int           which,
+                                      const double                 birth,
+                                      const double                 t1,
+                                      std::vector<CellEvent>      &events) const
+  {
+    if (state_.birth_time.exists())
+      daughter.set(state_.birth_time, birth);
+    for (const auto &fate : effects.fates)
+      fate->inherit(daughter, state_, which, birth);
+    const unsigned int own =
+      state_.type.exists() ? daughter.get(state_.type) : 0;
+    // A clock alone goes on in the next step: its times are exact.
+    if (effects.fates.size() > 1)
+      {
+        const CellReader<dim>  reader = this->reader(t1);
+        const PresentCell<dim> cell(daughter, id, position, reader);
+        live(effects.fates, cell, daughter, birth, t1, events);
+      }
+    return own;
+  }
+
 
   template <int dim>
   Tensor<1, dim>
   CellDevelopment<dim>::placement_axis(
     const CellView<dim, const double> &cell) const
   {
-    const CycleState<dim>          state = clock(cell);
-    const DivisionRule<dim> *const rule =
-      effects.rule(state_.type.exists() ? cell.get(state_.type) : 0);
-    if (rule == nullptr || rule->frame() == AxisFrame::reference)
-      return effects.cycle->placement_axis(state, cell.elastic_deformation());
-    // The running cycle stretches n_s along itself.
-    const Tensor<1, dim> carried =
-      cell.F() * (invert(state.growth_pre) * state.axis);
-    return carried / carried.norm();
+    return effects.proliferation->placement_axis(
+      cell, state_.type.exists() ? cell.get(state_.type) : 0);
   }
+
 
   template struct DevelopmentEffects<2>;
   template struct DevelopmentEffects<3>;

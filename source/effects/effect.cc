@@ -32,6 +32,20 @@ namespace Morula
 
 
   std::string
+  EffectKeys::how_to_switch_on() const
+  {
+    return switch_key() == nullptr ?
+             "" :
+             "Say where it acts by " + switch_key()->path();
+  }
+
+
+  void
+  EffectKeys::check_with(const MaterialParameters &) const
+  {}
+
+
+  std::string
   EffectKeys::topic() const
   {
     return "";
@@ -46,6 +60,12 @@ namespace Morula
       text += ", " + key->short_name() + " = " + key->text();
     return text;
   }
+
+
+  template <int dim>
+  void
+  Effect<dim>::declare(Tables<dim> &) const
+  {}
 
 
   template <int dim>

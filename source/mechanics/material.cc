@@ -42,24 +42,6 @@ namespace Morula
           "paper's, or the one whose shear part does not depend on the volume. "
           "The same at small strains.",
           {materials.names().front()})
-    , relaxation_time(
-        "Material/Relaxation time",
-        "0",
-        "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
-        "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
-        "day.",
-        Evaluated::step)
-    , yield_stress("Material/Yield stress",
-                   "0",
-                   "The von Mises stress up to which nothing relaxes; >= 0. "
-                   "Units: kPa.",
-                   Evaluated::step)
-    , relaxation_passes("Material/Relaxation passes",
-                        1,
-                        "Into how many parts the relaxation of a step with a "
-                        "Yield stress is cut. More are more exact where tissue "
-                        "is held, and less so under a load.",
-                        {1, 10000})
     , on_transition(
         "Material/On transition",
         "keep strain",
@@ -70,8 +52,6 @@ namespace Morula
         {"keep strain|forget stress"})
     , materials(materials)
   {
-    relaxation_time.not_negative("day", "0 is elastic tissue.");
-    yield_stress.not_negative("kPa", "With 0 any shear stress relaxes.");
     const std::vector<std::string> names = materials.names();
     for (std::size_t i = 1; i < names.size(); ++i)
       law.add_word(names[i]);
@@ -98,13 +78,6 @@ namespace Morula
   }
 
 
-  bool
-  MaterialParameters::relaxes() const
-  {
-    return !relaxation_time.expression(3).is_always(0.);
-  }
-
-
   void
   MaterialParameters::review(Review &review) const
   {
@@ -118,13 +91,6 @@ namespace Morula
         "membrane the energy is 1 % low at 0.49, 2 % at 0.499, and the run "
         "fails at 0.4999 (doc/hard-cases.md, stiffness).",
         "Set " + volumetric_strain.path() + " = projected.");
-    if (relaxes() && relaxation_passes > 1 &&
-        yield_stress.expression(3).is_always(0.))
-      review.warn(relaxation_passes.path(),
-                  relaxation_passes.text(),
-                  "the flow of a step is exact in one pass where there is no " +
-                    yield_stress.path() + ", so this is ignored.",
-                  "Leave it out.");
   }
 
   std::shared_ptr<const Material>
@@ -144,9 +110,6 @@ namespace Morula
             &energy_per,
             &volumetric_strain,
             &law,
-            &relaxation_time,
-            &yield_stress,
-            &relaxation_passes,
             &on_transition};
   }
 

@@ -123,7 +123,7 @@ namespace Morula
     double
     what_stays(const Isochoric<dim>   &c,
                const ShearStress<dim> &stress,
-               const Flow             &flow,
+               const FlowLaw          &flow,
                const double            dt)
     {
       const double tau = flow.relaxation_time;
@@ -183,7 +183,7 @@ namespace Morula
   flow_of_step(const Tensor<2, dim> &F_e,
                const Lame           &lame,
                const Material       &material,
-               const Flow           &flow,
+               const FlowLaw        &flow,
                const double          dt)
   {
     const auto C       = eigenvectors(symmetrize(transpose(F_e) * F_e));
@@ -221,12 +221,12 @@ namespace Morula
   flow_of_step(const Tensor<2, 2> &,
                const Lame &,
                const Material &,
-               const Flow &,
+               const FlowLaw &,
                const double);
   template SymmetricTensor<2, 3>
   flow_of_step(const Tensor<2, 3> &,
                const Lame &,
                const Material &,
-               const Flow &,
+               const FlowLaw &,
                const double);
 } // namespace Morula

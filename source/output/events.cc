@@ -15,7 +15,7 @@ namespace Morula
     {
       double                time;
       types::particle_index id;
-      int                   kind;
+      unsigned int          kind;
 
       bool
       operator<(const EventKey &other) const
@@ -37,20 +37,16 @@ namespace Morula
     std::string
     event_row(const CellEvent &event, const EventsContents &contents)
     {
-      static const char *const names[]  = {"transition", "death", "removal"};
-      static const char *const causes[] = {"", "rate", "when"};
-      const auto               type     = [&](const unsigned int number) {
+      const auto type = [&](const unsigned int number) {
         return contents.type_names.empty() ? "" : contents.type_names[number];
       };
-      const bool  changes = event.kind == CellEvent::Kind::transition;
+      const bool  changes = event.kind == CellEvent::transition;
       std::string text;
       append_number(text, event.time);
-      text += ',' + std::to_string(event.id) + ',' +
-              names[static_cast<unsigned int>(event.kind)] + ',' +
+      text += ',' + std::to_string(event.id) + ',' + event.kind.name + ',' +
               type(event.from) + ',' + (changes ? type(event.to) : "");
-      if (contents.with_death)
-        text +=
-          std::string(",") + causes[static_cast<unsigned int>(event.cause)];
+      if (contents.with_causes)
+        text += std::string(",") + event.cause;
       return text + '\n';
     }
   } // namespace
@@ -59,7 +55,7 @@ namespace Morula
   event_columns(const EventsContents &contents)
   {
     std::vector<std::string> columns = {"time", "id", "event", "from", "to"};
-    if (contents.with_death)
+    if (contents.with_causes)
       columns.push_back("cause");
     return columns;
   }
@@ -74,7 +70,7 @@ namespace Morula
     for (const CellEvent &event : events)
       {
         rows.add(event_row(event, contents));
-        keys.push_back({event.time, event.id, static_cast<int>(event.kind)});
+        keys.push_back({event.time, event.id, event.kind.order});
       }
     // Several changes of a cell stay in their order: each ends where the next
     // begins.

@@ -4,8 +4,27 @@
 #include <morula/output/csv_rows.h>
 #include <morula/output/statistics.h>
 
+#include <stdexcept>
+
 namespace Morula
 {
+  double &
+  StatisticsRow::of_effect(const std::string &name)
+  {
+    for (auto &column : of_effects)
+      if (column.first == name)
+        return column.second;
+    throw std::out_of_range("No effect has a column " + name + '.');
+  }
+
+
+  double
+  StatisticsRow::of_effect(const std::string &name) const
+  {
+    return const_cast<StatisticsRow *>(this)->of_effect(name);
+  }
+
+
   std::vector<std::pair<std::string, double>>
   StatisticsRow::columns() const
   {
@@ -46,27 +65,7 @@ namespace Morula
       {"proximal_paths", number(proximal_paths)}};
     if (step_error)
       list.emplace_back("step_error", *step_error);
-    for (const auto &[name, n] : cells_of_types)
-      list.emplace_back("cells_" + name, number(n));
-    if (death)
-      {
-        list.emplace_back("dying", number(death->dying));
-        list.emplace_back("deaths", number(death->deaths));
-        list.emplace_back("removed", number(death->removed));
-        list.emplace_back("pieces", number(death->pieces));
-      }
-    if (lumen)
-      {
-        list.emplace_back("lumen_volume", lumen->volume);
-        list.emplace_back("lumen_pressure", lumen->pressure);
-      }
-    for (const FieldStatistics &field : fields)
-      {
-        list.emplace_back(field.name + "_min", field.min);
-        list.emplace_back(field.name + "_mean", field.mean);
-        list.emplace_back(field.name + "_max", field.max);
-        list.emplace_back(field.name + "_clipped", number(field.clipped));
-      }
+    list.insert(list.end(), of_effects.begin(), of_effects.end());
     if (surface)
       {
         list.emplace_back("surface_distance", surface->distance);

@@ -86,6 +86,18 @@ namespace Morula
       return topic.empty() ? choice.name() : topic;
     }
 
+    /** A row for each effect that its keys switch on. */
+    template <template <int> class Interface>
+    void
+    add_effects(EffectRows &rows, const Choices<Interface> &choices)
+    {
+      for (const auto &choice : choices)
+        add_effect(rows,
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
+    }
+
     /** What `Method` stands for in this scene, a key a line. */
     void
     print_method(std::ostream &out, const Scene &scene)
@@ -168,25 +180,11 @@ namespace Morula
                    details_of(catalogue.division_rules, cycle.division_axis) +
                    (cycle.axis_follows_rotation ? ", follows rotation" : "") +
                    (cycle.stay_inside ? ", inside the surface" : ""));
-      add_effect(out,
-                 "contraction",
-                 scene.has_contraction(),
-                 "gamma = " + scene.contraction.stretch.text() + ", along " +
-                   scene.contraction.direction.text() +
-                   (scene.contraction.keep_volume ? ", keeps volume" : ""));
-      add_effect(out,
-                 "death",
-                 scene.has_death(),
-                 "rate = " + scene.death.rate.text() +
-                   " /day, when = " + scene.death.when.text() +
-                   ", shrinking time = " + scene.death.shrinking_time.text() +
-                   " day");
+      add_effects(out, catalogue.growth_factors);
+      add_effects(out, catalogue.fates);
       add_fields(out, scene);
-      for (const auto &choice : catalogue.fates)
-        add_effect(out,
-                   topic_of(choice),
-                   choice.keys().is_on(),
-                   choice.keys().details());
+      add_effects(out, catalogue.traits);
+      add_effects(out, catalogue.step_effects);
       for (const auto &choice : catalogue.boundary_conditions)
         {
           const types::particle_index n     = counts.acting.at(choice.name());
@@ -198,22 +196,13 @@ namespace Morula
                        (where == nullptr ? "" : ", where " + where->text()) +
                        choice.keys().details());
         }
-      for (const auto &choice : catalogue.forces)
-        add_effect(out,
-                   topic_of(choice),
-                   choice.keys().is_on(),
-                   choice.keys().details());
+      add_effects(out, catalogue.forces);
       add_effect(out,
                  "heterogeneous stiffness",
                  !scene.material.youngs_modulus.expression(scene.dimension)
                     .is_constant(),
                  "E = " + scene.material.youngs_modulus.text() + " kPa");
-      add_effect(out,
-                 "relaxation",
-                 scene.material.relaxes(),
-                 "tau = " + scene.material.relaxation_time.text() +
-                   " day, yield stress = " +
-                   scene.material.yield_stress.text() + " kPa");
+      add_effects(out, catalogue.flows);
       add_effect(out,
                  "surface refinement",
                  scene.tissue.refine_surface,
@@ -279,7 +268,7 @@ namespace Morula
         return "";
       const CellCycleParameters &cycle = scene.cell_cycle;
       const unsigned int         dim   = scene.dimension;
-      return has_checkpoint(scene) || scene.has_death() ||
+      return has_checkpoint(scene) || Scene::has_any(scene.catalogue.fates) ||
                  depends_on_more_than_place(cycle.duration.expression(dim)) ||
                  depends_on_more_than_place(cycle.exit_rate.expression(dim)) ?
                "at least " :

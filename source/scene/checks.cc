@@ -22,14 +22,20 @@ namespace Morula
       const SceneEffects<dim> effects = effects_of<dim>(scene);
       if (effects.development.law)
         effects.development.law->check(at);
-      for (const auto &rule : effects.development.rules)
-        rule->check(at);
-      for (const auto &fate : effects.fates)
+      const Proliferation<dim> *const cells = effects.development.proliferation;
+      if (cells != nullptr)
+        for (const auto &rule : cells->rules())
+          rule->check(at);
+      for (const auto &fate : effects.development.fates)
         fate->check(at);
+      for (const auto &trait : effects.traits)
+        trait->check(at);
+      for (const auto &[name, effect] : effects.step_effects)
+        effect->check(at);
       for (const auto &[name, force] : effects.forces)
         force->check(at);
-      if (effects.development.cycle)
-        effects.development.cycle->check(at.founders, scene.time.step);
+      if (cells != nullptr)
+        cells->cycle().check(at.founders, scene.time.step);
     }
 
     /** Number of founders, over all ranks, that proliferate. Refuses a cell

@@ -45,8 +45,7 @@ namespace Morula
     is_driven(const Scene &scene)
     {
       const SceneEffects<dim> effects = effects_of<dim>(scene);
-      return scene.has_growth() || scene.has_contraction() ||
-             scene.has_proliferation() || !effects.forces.empty() ||
+      return scene.has_active_tissue() || !effects.forces.empty() ||
              std::any_of(effects.conditions.begin(),
                          effects.conditions.end(),
                          [](const auto &named) {

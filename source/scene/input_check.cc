@@ -113,7 +113,8 @@ namespace Morula
     {
       choice.keys().check_each(dim);
       CellColumns<dim>  columns;
-      StateColumns<dim> state;
+      StateColumns<dim> state(scene.cell_types.name_list(),
+                              scene.fields.name_list());
       columns.need_growth();
       choice.template make<dim>(EffectSetting<dim>{
         scene.random_seed, scene.time.slack(), columns, state});
@@ -151,17 +152,17 @@ namespace Morula
           if (choice.keys().is_on())
             {
               try_effect<dim>(scene, choice);
+              choice.keys().check_with(scene.material);
+              continue;
             }
-          else if (switch_key != nullptr)
-            {
-              for (const AnyKey *key : choice.keys().list())
-                if (!key->is_default())
-                  key->check(dim);
-              refuse_forgotten(scene,
-                               *switch_key,
-                               choice.keys(),
-                               "Say where it acts by " + switch_key->path());
-            }
+          for (const AnyKey *key : choice.keys().list())
+            if (!key->is_default())
+              key->check(dim);
+          if (switch_key != nullptr)
+            refuse_forgotten(scene,
+                             *switch_key,
+                             choice.keys(),
+                             choice.keys().how_to_switch_on());
         }
     }
 
@@ -229,20 +230,6 @@ namespace Morula
         }
     }
 
-    template <int dim>
-    void
-    check_contraction(const Scene &scene)
-    {
-      const ContractionParameters &contraction = scene.contraction;
-      if (!scene.has_contraction())
-        refuse_forgotten(scene,
-                         contraction.stretch,
-                         contraction,
-                         "Set " + contraction.stretch.path());
-      contraction.check_each(dim);
-    }
-
-
     /** Refuses fields that contradict themselves, and those whose columns have
      *  the names of others. */
     template <int dim>
@@ -271,29 +258,6 @@ namespace Morula
         }
     }
 
-
-    template <int dim>
-    void
-    check_death(const Scene &scene)
-    {
-      const DeathParameters &death = scene.death;
-      death.check_each(dim);
-      if (!scene.has_death())
-        {
-          refuse_forgotten(scene,
-                           death.rate,
-                           death,
-                           "Set " + death.rate.path() + " or " +
-                             death.when.path());
-          return;
-        }
-      if (death.shrinks() && !scene.material.per_grown_volume())
-        scene.material.energy_per.refuse(
-          "grown volume, as cells die and shrink",
-          "A shrunken cell would pull with the stiffness of a whole one. Cells "
-          "may also go at once: " +
-            death.shrinking_time.path() + " = 0.");
-    }
 
     template <int dim>
     void
@@ -332,10 +296,12 @@ namespace Morula
                        scene.growth_law,
                        {scene.law_of_growth()});
       check_proliferation<dim>(scene);
-      check_contraction<dim>(scene);
-      check_death<dim>(scene);
-      check_fields<dim>(scene);
+      check_switched<dim>(scene, scene.catalogue.growth_factors);
+      check_switched<dim>(scene, scene.catalogue.flows);
       check_switched<dim>(scene, scene.catalogue.fates);
+      check_fields<dim>(scene);
+      check_switched<dim>(scene, scene.catalogue.traits);
+      check_switched<dim>(scene, scene.catalogue.step_effects);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
       scene.solver.check_each(dim);

@@ -64,12 +64,14 @@ namespace Morula
         if (feels_others(rate))
           list.push_back({rate, type});
       };
-      if (effects.types)
+      if (effects.types != nullptr)
         for (unsigned int type = 0; type < effects.types->size(); ++type)
           for (const Expression *rate : effects.types->rates(type))
             add(*rate, type);
-      if (effects.death)
-        add(effects.death->rate(), {});
+      for (const auto &fate : effects.fates)
+        if (fate.get() != effects.types)
+          for (const Expression *rate : fate->rates(0))
+            add(*rate, {});
       return list;
     }
 

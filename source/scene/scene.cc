@@ -173,16 +173,17 @@ namespace Morula
 
 
   bool
-  Scene::has_contraction() const
+  Scene::has_active_tissue() const
   {
-    return contraction.is_on();
+    return has_growth() || has_any(catalogue.growth_factors) ||
+           has_proliferation();
   }
 
 
   bool
-  Scene::has_death() const
+  Scene::flows() const
   {
-    return death.is_on();
+    return has_any(catalogue.flows);
   }
 
 
@@ -266,6 +267,8 @@ namespace Morula
     KeyList list = {&method, &dimension, &output_directory, &random_seed};
     for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
       append(list, section->list());
+    for (auto &flow : catalogue.flows)
+      append(list, flow.keys().list());
     list.push_back(&growth_law);
     for (auto &law : catalogue.growth_laws)
       append(list, law.keys().list());
@@ -273,11 +276,15 @@ namespace Morula
     append(list, cell_cycle.list());
     for (auto &rule : catalogue.division_rules)
       append(list, rule.keys().list());
-    append(list, contraction.list());
-    append(list, death.list());
-    append(list, fields.list());
+    for (auto &factor : catalogue.growth_factors)
+      append(list, factor.keys().list());
     for (auto &fate : catalogue.fates)
       append(list, fate.keys().list());
+    append(list, fields.list());
+    for (auto &trait : catalogue.traits)
+      append(list, trait.keys().list());
+    for (auto &effect : catalogue.step_effects)
+      append(list, effect.keys().list());
     // Nitsche's term belongs to the library's own conditions.
     for (auto &condition : catalogue.boundary_conditions)
       if (!condition.has_section())

@@ -2,10 +2,15 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/axis_rules.h>
+#include <morula/effects/growth/forgetting.h>
+#include <morula/effects/state/direction.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/shape.h>
 
 #include <map>
+#include <memory>
+#include <utility>
+#include <vector>
 
 // All effects of a scene are made here.
 
@@ -29,8 +34,10 @@ namespace Morula
     add_rules(const Scene              &scene,
               const EffectSetting<dim> &setting,
               const Make               &make,
-              DevelopmentEffects<dim>  &development)
+              Proliferation<dim>       &proliferation)
     {
+      typename Proliferation<dim>::Rules               list;
+      std::vector<const DivisionRule<dim> *>           of_type;
       std::map<std::string, const DivisionRule<dim> *> rules;
       for (const std::string &axis : scene.division_axes())
         {
@@ -41,14 +48,14 @@ namespace Morula
           if (field.empty() && choice == nullptr)
             continue;
           if (field.empty())
-            development.rules.push_back(make(*choice));
+            list.push_back(make(*choice));
           else
-            development.rules.push_back(
-              std::make_unique<GradientAxis<dim>>(field, setting));
-          rules[axis] = development.rules.back().get();
+            list.push_back(std::make_unique<GradientAxis<dim>>(field, setting));
+          rules[axis] = list.back().get();
         }
       for (unsigned int type = 0; type < scene.cell_types.types.size(); ++type)
-        development.rule_of_type.push_back(rules.at(scene.division_axis(type)));
+        of_type.push_back(rules.at(scene.division_axis(type)));
+      proliferation.set_rules(std::move(list), std::move(of_type));
     }
   } // namespace
 
@@ -66,18 +73,15 @@ namespace Morula
     DevelopmentEffects<dim> &development = effects.development;
     if (scene.has_growth())
       effects.columns.need_growth();
+    std::unique_ptr<Proliferation<dim>> proliferation;
     if (scene.has_proliferation())
-      {
-        const auto &cycle = development.cycle.emplace(scene.cell_cycle,
-                                                      scene.random_seed,
-                                                      scene.time.slack(),
-                                                      effects.state);
-        development.clock.emplace(effects.columns,
-                                  cycle.has_own_duration(),
-                                  cycle.has_own_hazard(),
-                                  cycle.keeps_exit_rate(),
-                                  cycle.has_checkpoint());
-      }
+      proliferation =
+        std::make_unique<Proliferation<dim>>(CellCycle<dim>(scene.cell_cycle,
+                                                            scene.random_seed,
+                                                            scene.time.slack(),
+                                                            effects.state),
+                                             effects.columns,
+                                             scene.random_seed);
     const EffectSetting<dim> setting{scene.random_seed,
                                      scene.time.slack(),
                                      effects.columns,
@@ -90,65 +94,100 @@ namespace Morula
         development.with_state.push_back(effect.get());
       return effect;
     };
+    const auto make_all = [&](const auto &choices, const auto &add) {
+      for (const auto &choice : choices)
+        if (choice.keys().is_on())
+          add(choice.name(), make(choice));
+    };
 
+    const Catalogue                &catalogue = scene.catalogue;
+    std::unique_ptr<CellTypes<dim>> types;
     if (scene.cell_types.present())
       {
-        development.types.emplace(scene.cell_types, setting);
-        for (unsigned int type = 0; type < development.types->size(); ++type)
+        types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
+        for (unsigned int type = 0; type < types->size(); ++type)
           development.grows.push_back(scene.grows(type));
       }
-    const Catalogue &catalogue = scene.catalogue;
     if (scene.has_growth())
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
-    if (scene.has_proliferation())
-      add_rules(scene, setting, make, development);
-    if (scene.has_contraction())
-      {
-        development.contraction =
-          std::make_unique<Contraction<dim>>(scene.contraction, setting);
-        if (scene.has_growth())
-          development.law_growth = effects.columns.template add<Tensor<2, dim>>(
-            {"law_growth",
-             "",
-             "F_g of the growth law",
-             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
-      }
-    if (scene.material.relaxes())
+    if (proliferation)
+      add_rules(scene, setting, make, *proliferation);
+    make_all(catalogue.growth_factors, [&](const auto &, auto factor) {
+      development.factors.push_back(std::move(factor));
+    });
+    const auto identity = Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    if (scene.has_growth() && !development.factors.empty())
+      development.law_growth = effects.columns.template add<Tensor<2, dim>>(
+        {"law_growth", "", "F_g of the growth law", identity});
+    if (types && scene.material.forgets_stress())
       {
         effects.columns.need_growth();
-        development.relaxation =
-          std::make_unique<Relaxation<dim>>(scene.material,
-                                            effects.state,
-                                            effects.columns);
+        development.flows.push_back(std::make_unique<Forgetting<dim>>());
       }
-    development.forgets_stress =
-      scene.cell_types.present() && scene.material.forgets_stress();
-    if ((development.relaxation || development.forgets_stress) &&
-        !scene.has_proliferation())
-      {
-        effects.columns.need_growth();
-        development.relaxed = effects.columns.template add<Tensor<2, dim>>(
-          {"relaxed",
-           "",
-           "F_r, what has relaxed of F_g",
-           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
-      }
-    if (scene.has_death())
-      development.death.emplace(scene.death, setting);
-    for (const auto &choice : catalogue.fates)
-      if (choice.keys().is_on())
-        effects.fates.push_back(make(choice));
-    for (const auto &choice : catalogue.forces)
-      if (choice.keys().is_on())
-        effects.forces.push_back({choice.name(), make(choice)});
-    for (const auto &choice : catalogue.boundary_conditions)
-      if (choice.keys().is_on())
-        effects.conditions.push_back({choice.name(), make(choice)});
+    make_all(catalogue.flows, [&](const auto &, auto flow) {
+      development.flows.push_back(std::move(flow));
+    });
+    if (!development.flows.empty() && !proliferation)
+      development.relaxed = effects.columns.template add<Tensor<2, dim>>(
+        {"relaxed", "", "F_r, what has relaxed of F_g", identity});
+
+    // Of two events at the same time that of the later fate happens: a change
+    // of type before a death, both before the division.
+    if (proliferation)
+      development.proliferation =
+        development.add_fate(std::move(proliferation));
+    make_all(catalogue.fates, [&](const auto &, auto fate) {
+      development.add_fate(std::move(fate));
+    });
+    if (types)
+      development.types = development.add_fate(std::move(types));
+    make_all(catalogue.traits, [&](const auto &, auto trait) {
+      effects.traits.push_back(std::move(trait));
+    });
+    make_all(catalogue.step_effects, [&](const auto &name, auto effect) {
+      effects.step_effects.push_back({name, std::move(effect)});
+    });
+    make_all(catalogue.forces, [&](const auto &name, auto force) {
+      effects.forces.push_back({name, std::move(force)});
+    });
+    make_all(catalogue.boundary_conditions,
+             [&](const auto &name, auto condition) {
+               effects.conditions.push_back({name, std::move(condition)});
+             });
     if (scene.fields.present())
       effects.fields = Fields<dim>(scene.fields, setting);
     effects.state.declare(effects.columns);
     return effects;
+  }
+
+
+  template <int dim>
+  Tables<dim>
+  SceneEffects<dim>::tables() const
+  {
+    Tables<dim> tables;
+    if (development.types != nullptr)
+      development.types->declare(tables);
+    for (const auto &fate : development.fates)
+      if (fate.get() != development.types)
+        fate->declare(tables);
+    if (development.law)
+      development.law->declare(tables);
+    for (const auto &factor : development.factors)
+      factor->declare(tables);
+    for (const auto &flow : development.flows)
+      flow->declare(tables);
+    for (const auto &trait : traits)
+      trait->declare(tables);
+    for (const auto &[name, effect] : step_effects)
+      effect->declare(tables);
+    for (const auto &[name, force] : forces)
+      force->declare(tables);
+    for (const auto &[name, condition] : conditions)
+      condition->declare(tables);
+    fields.declare(tables);
+    return tables;
   }
 
 
@@ -161,6 +200,7 @@ namespace Morula
 
 
 #define INSTANTIATE(dim)                                      \
+  template struct SceneEffects<dim>;                          \
   template SceneEffects<dim>       effects_of(const Scene &); \
   template BoundaryConditions<dim> boundary_conditions_of(const Scene &);
   INSTANTIATE(2)

@@ -57,7 +57,7 @@ namespace Morula
     const GrowthLaw<dim> *const     law     = effects.development.law.get();
     std::optional<Descendants<dim>> descendants;
     // How many die, only the run can tell.
-    if (scene.has_proliferation() && !scene.has_death())
+    if (scene.has_proliferation() && !Scene::has_any(scene.catalogue.fates))
       descendants.emplace(scene.cell_cycle, t);
     SceneSize size;
     for (const Point<dim> &X : founders)

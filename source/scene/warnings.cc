@@ -67,29 +67,35 @@ namespace Morula
     SceneEffects<dim>             effects = effects_of<dim>(scene);
     const BoundaryConditions<dim> conditions(std::move(effects.conditions),
                                              scene.nitsche);
-    const bool slips = conditions.has(SurfaceCondition::slip) &&
-                       (scene.has_growth() || scene.has_contraction() ||
-                        scene.has_proliferation());
+    const bool                    slips =
+      conditions.has(SurfaceCondition::slip) && scene.has_active_tissue();
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
     review_bodies(scene.grid, scene.tissue, founders, comm, review);
 
-    const Preview<dim> at = preview<dim>(
+    Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);
-    if (effects.development.law)
-      effects.development.law->review(at, review);
-    if (effects.development.contraction)
-      effects.development.contraction->review(at, review);
-    if (effects.development.relaxation &&
-        (has_loads(counts) || !effects.forces.empty()))
-      effects.development.relaxation->review(at, review);
-    if (scene.has_proliferation())
-      review_cell_cycle(scene.cell_cycle, at, review);
-    for (const auto &rule : effects.development.rules)
-      rule->review(at, review);
+    at.is_loaded = has_loads(counts) || !effects.forces.empty();
+    const DevelopmentEffects<dim> &development = effects.development;
+    if (development.law)
+      development.law->review(at, review);
+    for (const auto &factor : development.factors)
+      factor->review(at, review);
+    for (const auto &flow : development.flows)
+      flow->review(at, review);
+    if (development.proliferation != nullptr)
+      {
+        review_cell_cycle(scene.cell_cycle, at, review);
+        for (const auto &rule : development.proliferation->rules())
+          rule->review(at, review);
+      }
     review_rates(scene, founders, surface, comm, review);
-    for (const auto &fate : effects.fates)
+    for (const auto &fate : development.fates)
       fate->review(at, review);
+    for (const auto &trait : effects.traits)
+      trait->review(at, review);
+    for (const auto &[name, effect] : effects.step_effects)
+      effect->review(at, review);
     for (const auto &[name, force] : effects.forces)
       force->review(at, review);
     review_unused(scene.tissue, review);

@@ -60,7 +60,7 @@ namespace Morula
     , timer(timer)
     , comm(comm)
     , longest_edge(0.5 * model.scene.grid.spacing)
-    , flows(model.scene.material.relaxes())
+    , flows(model.scene.flows())
     , exists_(has_surface<dim>(model.scene))
   {}
 

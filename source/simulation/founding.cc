@@ -32,8 +32,10 @@ namespace Morula
                                        model.development.columns());
       const PresentCell<dim>      founder(cell, id, X, reader);
       model.fields.check_cell(founder);
-      for (const auto &fate : model.fates)
-        fate->check_cell(founder, model.scene.time.step);
+      for (const auto &trait : model.traits)
+        trait->check_cell(founder, model.scene.time.step);
+      for (const auto &named : model.step_effects)
+        named.effect->check_cell(founder, model.scene.time.step);
       for (const auto &named : model.forces)
         named.force->check_cell(founder, model.scene.time.step);
       points.cells.add(id, X, make_array_view(row));

@@ -21,31 +21,53 @@ namespace Morula
   } // namespace
 
 
-  template <int dim>
-  std::optional<LumenMemory>
-  lumen_at_start(const TissueModel<dim> &model, const Tissue<dim> &tissue)
+  void
+  keep_lumen(const LumenMemory &lumen, NamedNumbers &kept)
   {
-    const Lumen<dim> *lumen = model.boundary_conditions.lumen();
-    if (lumen == nullptr)
-      return {};
-    return LumenMemory{enclosed_volume(lumen_patches(*lumen, tissue),
-                                       tissue.communicator()),
-                       lumen->keeps_volume() ? 0. : lumen->pressure(0.)};
+    kept["lumen_at_start"] = lumen.volume_at_start;
+    kept["lumen_pressure"] = lumen.pressure;
   }
 
 
   template <int dim>
-  std::optional<LumenState>
-  lumen_state(const TissueModel<dim>           &model,
-              const Tissue<dim>                &tissue,
-              const std::optional<LumenMemory> &memory)
+  void
+  begin_lumen(const TissueModel<dim> &model,
+              const Tissue<dim>      &tissue,
+              NamedNumbers           &kept)
   {
-    if (!memory)
+    const Lumen<dim> *lumen = model.boundary_conditions.lumen();
+    if (lumen != nullptr)
+      keep_lumen({enclosed_volume(lumen_patches(*lumen, tissue),
+                                  tissue.communicator()),
+                  lumen->keeps_volume() ? 0. : lumen->pressure(0.)},
+                 kept);
+  }
+
+
+  template <int dim>
+  std::optional<LumenMemory>
+  saved_lumen(const TissueModel<dim> &model, const NamedNumbers &kept)
+  {
+    if (model.boundary_conditions.lumen() == nullptr)
       return {};
-    return LumenState{
+    return LumenMemory{kept.at("lumen_at_start"), kept.at("lumen_pressure")};
+  }
+
+
+  template <int dim>
+  void
+  describe_lumen(const TissueModel<dim> &model,
+                 const Tissue<dim>      &tissue,
+                 const NamedNumbers     &kept,
+                 NamedNumbers           &columns)
+  {
+    const auto memory = saved_lumen(model, kept);
+    if (!memory)
+      return;
+    columns["lumen_volume"] =
       enclosed_volume(lumen_patches(*model.boundary_conditions.lumen(), tissue),
-                      tissue.communicator()),
-      memory->pressure};
+                      tissue.communicator());
+    columns["lumen_pressure"] = memory->pressure;
   }
 
 
@@ -132,17 +154,20 @@ namespace Morula
 
 
 #define INSTANTIATE(dim)                                                       \
-  template std::optional<LumenMemory> lumen_at_start(const TissueModel<dim> &, \
-                                                     const Tissue<dim> &);     \
-  template std::optional<LumenState>  lumen_state(                             \
-     const TissueModel<dim> &,                                                 \
-     const Tissue<dim> &,                                                      \
-     const std::optional<LumenMemory> &);                                      \
-  template EnclosedContent lumen_content(const Lumen<dim> &,                   \
-                                         const LumenMemory &,                  \
-                                         const double,                         \
-                                         const double,                         \
-                                         const double);                        \
+  template void                       begin_lumen(const TissueModel<dim> &,    \
+                                                  const Tissue<dim> &,         \
+                                                  NamedNumbers &);             \
+  template std::optional<LumenMemory> saved_lumen(const TissueModel<dim> &,    \
+                                                  const NamedNumbers &);       \
+  template void                       describe_lumen(const TissueModel<dim> &, \
+                                                     const Tissue<dim> &,      \
+                                                     const NamedNumbers &,     \
+                                                     NamedNumbers &);          \
+  template EnclosedContent            lumen_content(const Lumen<dim> &,        \
+                                                    const LumenMemory &,       \
+                                                    const double,              \
+                                                    const double,              \
+                                                    const double);             \
   template class LumenPressure<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -38,26 +38,14 @@ namespace Morula
                              0;
     }
 
-    EventsContents
-    contents_of(const Scene &scene)
-    {
-      return {scene.cell_types.name_list(), scene.has_death()};
-    }
-
     /** A row with the columns of such a run. */
     template <int dim>
     StatisticsRow
-    row_like(const Scene &scene)
+    row_like(const Scene &scene, const Tables<dim> &tables)
     {
       StatisticsRow row;
-      for (const std::string &name : scene.cell_types.name_list())
-        row.cells_of_types.emplace_back(name, 0);
-      for (const std::string &name : scene.fields.name_list())
-        row.fields.push_back({name});
-      if (scene.has_death())
-        row.death.emplace();
-      if (scene.keys<LumenParameters>().is_on())
-        row.lumen.emplace();
+      for (const auto &column : tables.columns())
+        row.of_effects.emplace_back(column.name, 0.);
       if (has_surface<dim>(scene))
         row.surface.emplace();
       if (effects_of<dim>(scene).development.states_error())
@@ -75,15 +63,14 @@ namespace Morula
 
     template <int dim>
     std::vector<Table>
-    tables_of(const Scene &scene)
+    tables_of(const Scene &scene, const Tables<dim> &of_effects)
     {
-      const EventsContents            contents = contents_of(scene);
-      const std::vector<std::string> &types    = contents.type_names;
-      std::vector<Table>              tables   = {
-        {"statistics", statistics_columns(row_like<dim>(scene))},
-        {"lineage", lineage_columns(!types.empty())}};
-      if (contents.any())
-        tables.push_back({"events", event_columns(contents)});
+      std::vector<Table> tables = {
+        {"statistics", statistics_columns(row_like(scene, of_effects))},
+        {"lineage", lineage_columns(scene.cell_types.present())}};
+      if (of_effects.records_events())
+        tables.push_back(
+          {"events", event_columns({{}, of_effects.has_causes()})});
       if (scene.output.condition_estimate)
         tables.push_back({"condition", condition_columns(), true});
       if (scene.output.newton_trace)
@@ -120,12 +107,14 @@ namespace Morula
 
   template <int dim>
   RunFiles<dim>::RunFiles(const Scene                            &scene,
+                          const Tables<dim>                      &of_effects,
                           const std::optional<SnapshotData<dim>> &resumed_from,
                           const Timer                            &clock,
                           const MPI_Comm                          comm)
     : scene(scene)
     , comm(comm)
-    , contents(contents_of(scene))
+    , records_events(of_effects.records_events())
+    , contents{scene.cell_types.name_list(), of_effects.has_causes()}
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
     , next_output(
@@ -149,7 +138,7 @@ namespace Morula
                                                                section),
                                            seconds};
             }
-        continue_tables(*resumed_from);
+        continue_tables(of_effects, *resumed_from);
         prepare_resume(scene.output_directory,
                        setup(),
                        output_times.size(),
@@ -157,7 +146,7 @@ namespace Morula
       }
     else
       prepare_directory(scene.output_directory, setup(), comm);
-    for (const Table &table : tables_of<dim>(scene))
+    for (const Table &table : tables_of(scene, of_effects))
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
@@ -208,11 +197,12 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::continue_tables(const SnapshotData<dim> &resumed_from)
+  RunFiles<dim>::continue_tables(const Tables<dim>       &of_effects,
+                                 const SnapshotData<dim> &resumed_from)
   {
     // All tables are checked before the first of them is cut.
     for (const bool check : {true, false})
-      for (const Table &table : tables_of<dim>(scene))
+      for (const Table &table : tables_of(scene, of_effects))
         {
           const std::string &name = table.name;
           const std::string  file = path(name + ".csv");
@@ -262,7 +252,7 @@ namespace Morula
     tables.at("statistics").append(statistics_row(row));
     tables.at("lineage").append_parts(
       lineage_rows(births, !contents.type_names.empty(), comm));
-    if (contents.any())
+    if (records_events)
       tables.at("events").append_parts(event_rows(events, contents, comm));
     progress->step({row.step,
                     row.time,

@@ -36,11 +36,7 @@ namespace Morula
       }
     if (has_boundary_ids)
       data.numbers["next_boundary_id"] = state.next_boundary_id;
-    if (state.lumen)
-      {
-        data.numbers["lumen_at_start"] = state.lumen->volume_at_start;
-        data.numbers["lumen_pressure"] = state.lumen->pressure;
-      }
+    data.numbers.insert(state.kept.begin(), state.kept.end());
     if (state.enclosed_share)
       data.numbers["enclosed_share"] = *state.enclosed_share;
     const GridBox<dim> &box = tissue.grid().box();
@@ -109,7 +105,7 @@ namespace Morula
   RunState
   saved_run_state(const SnapshotData<dim> &data,
                   const bool               has_boundary_ids,
-                  const bool               has_lumen)
+                  const NamedNumbers      &kept)
   {
     RunState state;
     state.next_id    = data.number("next_id");
@@ -117,9 +113,10 @@ namespace Morula
     state.n_rejected = data.number("rejected_steps");
     if (has_boundary_ids && data.numbers.count("next_boundary_id") > 0)
       state.next_boundary_id = data.number("next_boundary_id");
-    if (has_lumen)
-      state.lumen = LumenMemory{data.number("lumen_at_start"),
-                                data.number("lumen_pressure")};
+    state.kept = kept;
+    for (auto &[name, value] : state.kept)
+      if (data.numbers.count(name) > 0)
+        value = data.number(name);
     // Snapshots of versions that did not know it are without it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
@@ -140,7 +137,7 @@ namespace Morula
   template TimeSteps::State  saved_time_steps(const SnapshotData<dim> &);        \
   template RunState          saved_run_state(const SnapshotData<dim> &,          \
                                              const bool,                         \
-                                             const bool);
+                                             const NamedNumbers &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -35,12 +35,10 @@ namespace Morula
     {
       std::set<types::particle_index> killed;
       for (const CellEvent &event : events)
-        if (event.kind == CellEvent::Kind::death &&
-            event.cause == DeathCause::when)
+        if (event.at_once)
           killed.insert(event.id);
       return std::any_of(events.begin(), events.end(), [&](const auto &event) {
-        return event.kind == CellEvent::Kind::removal &&
-               killed.count(event.id) > 0;
+        return event.kind == CellEvent::removal && killed.count(event.id) > 0;
       });
     }
   } // namespace
@@ -53,6 +51,7 @@ namespace Morula
     row                       = StatisticsRow();
     newton_report             = NewtonReport();
     newton_report.wants_trace = model.scene.output.newton_trace;
+    of_step                   = {};
     births                    = {};
     events                    = {};
     ++run_state.n_steps;
@@ -64,6 +63,7 @@ namespace Morula
     if (run_state.n_steps > 1)
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
+    for_step_effects(&StepEffect<dim>::before, time_steps.time(), 0.);
     adapt_step();
     const auto   solution = solve_step(space);
     const double mu       = error_of_step(growth_of_step.missed_growth);
@@ -87,7 +87,22 @@ namespace Morula
     count(space);
     follow_surface(space, former);
     renew_carriers(tissue);
+    for_step_effects(&StepEffect<dim>::after, time_steps.time(), row.dt);
     complete_row();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::for_step_effects(const MomentOfStep moment,
+                                    const double       t,
+                                    const double       dt)
+  {
+    for (const auto &[name, effect] : model.step_effects)
+      {
+        const TimerOutput::Scope section(timer, name);
+        const CellReader<dim>    reader = model.development.reader(t);
+        (*effect.*moment)(tissue, {t, dt, reader, run_state.kept, of_step});
+      }
   }
 
   template <int dim>
@@ -197,7 +212,7 @@ namespace Morula
                               t_next,
                               growth_of_step,
                               typical_stiffness,
-                              run_state.lumen,
+                              saved_lumen(model, run_state.kept),
                               time_steps.can_halve() &&
                                 time_steps.state().level < most_plain_halves},
                              newton_report,
@@ -253,17 +268,10 @@ namespace Morula
   void
   Simulation<dim>::remove_the_dead()
   {
-    if (model.development.death() == nullptr)
+    if (!model.development.is_mortal())
       return;
     const TimerOutput::Scope section(timer, "removal");
-    const auto               count = [this](const CellEvent::Kind kind) {
-      const std::uint64_t n =
-        std::count_if(events.begin(), events.end(), [kind](const auto &event) {
-          return event.kind == kind;
-        });
-      return Utilities::MPI::sum(n, comm);
-    };
-    const auto n_points = [&]() {
+    const auto               n_points = [&]() {
       return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
                                                 comm);
     };
@@ -274,9 +282,6 @@ namespace Morula
     // The surface is open where it was cut, unless it is made anew.
     if (surface.is_cut(n_before, n_points()))
       run_state.enclosed_share.reset();
-    row.death.emplace();
-    row.death->deaths  = count(CellEvent::Kind::death);
-    row.death->removed = count(CellEvent::Kind::removal);
     if (Utilities::MPI::logical_or(cuts(events), comm))
       time_steps.begin_anew();
   }

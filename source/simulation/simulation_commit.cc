@@ -173,9 +173,10 @@ namespace Morula
       if (surface.motions[p].f.norm() <= limit.f &&
           determinant(surface.motions[p].f) > 0.)
         tissue.boundary_point(p).deform(surface.motions[p].f);
-    run_state.lumen = solution.lumen;
-    events          = std::move(growth_of_step.events);
-    growth_of_step  = {};
+    if (solution.lumen)
+      keep_lumen(*solution.lumen, run_state.kept);
+    events         = std::move(growth_of_step.events);
+    growth_of_step = {};
     tissue.move(cells.positions, surface.positions);
   }
 

@@ -4,6 +4,9 @@
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/tissue_tables.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 
 // What a run tells of its state.
@@ -55,10 +58,18 @@ namespace Morula
   {
     row.step = run_state.n_steps;
     set_state(model, tissue, time_steps.time(), row);
-    if (row.death)
-      row.death->pieces = pieces.n_pieces();
-    row.lumen  = lumen_state(model, tissue, run_state.lumen);
-    row.fields = fields.statistics(tissue);
+    if (model.development.is_mortal())
+      of_step["pieces"] = pieces.n_pieces();
+    describe_lumen(model, tissue, run_state.kept, of_step);
+    fields.describe(tissue, of_step);
+    for (const auto &column : model.tables.columns())
+      {
+        if (column.counted)
+          row.of_effect(column.name) = count(*column.counted);
+        if (const auto value = of_step.find(column.name);
+            value != of_step.end())
+          row.of_effect(column.name) = value->second;
+      }
     if (surface.exists())
       row.surface = surface_fit(tissue);
     if (model.development.states_error() && !row.step_error)
@@ -91,6 +102,17 @@ namespace Morula
         warned_of_misfit = true;
         files->message(misfit_warning(row, *run_state.enclosed_share));
       }
+  }
+
+  template <int dim>
+  std::uint64_t
+  Simulation<dim>::count(const EventKind &kind) const
+  {
+    const std::uint64_t n =
+      std::count_if(events.begin(), events.end(), [&kind](const auto &event) {
+        return event.kind == kind;
+      });
+    return Utilities::MPI::sum(n, comm);
   }
 
   template <int dim>
@@ -139,7 +161,7 @@ namespace Morula
                        time_steps.state(),
                        run_state,
                        model.scene.tissue.refine_surface ||
-                         model.scene.material.relaxes());
+                         model.scene.flows());
   }
 
   template class Simulation<2>;

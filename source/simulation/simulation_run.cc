@@ -29,7 +29,7 @@ namespace Morula
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , tissue(model.empty_tissue(comm))
     , time_steps(scene.time)
-    , pieces(model.development.death() != nullptr,
+    , pieces(model.development.is_mortal(),
              [this](const std::string &text) { files->message(text); })
     , fields(model,
              timer,
@@ -68,11 +68,12 @@ namespace Morula
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births                     = std::move(points.births);
     warnings                   = seeded.warnings;
+    run_state.kept             = model.tables.kept();
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
     run_state.enclosed_share   = surface.begin(tissue);
     renew_carriers(tissue);
-    run_state.lumen   = lumen_at_start(model, tissue);
+    begin_lumen(model, tissue, run_state.kept);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }
 
@@ -87,10 +88,10 @@ namespace Morula
                   tissue.cells().columns(),
                   tissue.boundary_points().columns(),
                   comm);
-    run_state = saved_run_state(*resumed_from,
-                                model.scene.tissue.refine_surface ||
-                                  model.scene.material.relaxes(),
-                                model.boundary_conditions.lumen() != nullptr);
+    run_state =
+      saved_run_state(*resumed_from,
+                      model.scene.tissue.refine_surface || model.scene.flows(),
+                      model.tables.kept());
     time_steps.restore(saved_time_steps(*resumed_from));
     restore_tissue(*resumed_from, tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
@@ -147,7 +148,7 @@ namespace Morula
   void
   Simulation<dim>::begin()
   {
-    files.emplace(model.scene, resumed_from, clock, comm);
+    files.emplace(model.scene, model.tables, resumed_from, clock, comm);
     if (!resumed_from)
       {
         for (const std::string &warning : warnings)
@@ -163,33 +164,42 @@ namespace Morula
         find_steady();
         if (carve())
           find_steady();
+        begin_step_effects();
         pieces.count(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
         write_rows();
         output(must_stop());
       }
+    else
+      begin_step_effects();
     resumed_from.reset();
     warned_of_long_cells = row.lengths.n_too_long > 0;
     warned_of_misfit     = surface_misfits();
   }
 
   template <int dim>
+  void
+  Simulation<dim>::begin_step_effects()
+  {
+    const double          t      = time_steps.time();
+    const CellReader<dim> reader = model.development.reader(t);
+    for (const auto &[name, effect] : model.step_effects)
+      effect->start(tissue, {t, 0., reader, run_state.kept, of_step});
+  }
+
+  template <int dim>
   bool
   Simulation<dim>::carve()
   {
-    if (model.development.death() == nullptr)
+    if (!model.development.is_mortal())
       return false;
     events = Morula::carve(tissue, model.development);
-    const std::uint64_t n =
-      Utilities::MPI::sum<std::uint64_t>(events.size() / 2, comm);
-    row.death.emplace();
-    row.death->deaths = row.death->removed = n;
-    if (n == 0)
+    if (count(CellEvent::removal) == 0)
       return false;
     run_state.enclosed_share = surface.close_cuts(tissue);
     renew_carriers(tissue);
-    run_state.lumen   = lumen_at_start(model, tissue);
+    begin_lumen(model, tissue, run_state.kept);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     return true;
   }
@@ -243,7 +253,7 @@ namespace Morula
     const auto limit = model.scene.time.stop_at_cells;
     if (time_steps.finished())
       return true;
-    if (limit == 0 && model.development.death() == nullptr)
+    if (limit == 0 && !model.development.is_mortal())
       return false;
     const auto n_cells =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
@@ -318,7 +328,8 @@ namespace Morula
     step.pointwise =
       model.material.volumetric_form() == VolumetricStrain::pointwise;
     step.loaded = conditions.has(SurfaceCondition::loaded) ||
-                  !model.forces.empty() || run_state.lumen;
+                  !model.forces.empty() ||
+                  model.boundary_conditions.lumen() != nullptr;
     step.friction = friction_against(step.curvature,
                                      typical_stiffness,
                                      model.scene.grid.spacing,

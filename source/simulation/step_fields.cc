@@ -177,17 +177,20 @@ namespace Morula
 
 
   template <int dim>
-  std::vector<FieldStatistics>
-  StepFields<dim>::statistics(const Tissue<dim> &tissue) const
+  void
+  StepFields<dim>::describe(const Tissue<dim> &tissue,
+                            NamedNumbers      &columns) const
   {
-    std::vector<FieldStatistics> list;
-    for (const FieldTotals &field : model.fields.totals(tissue))
-      list.push_back({field.name,
-                      field.min,
-                      field.mean,
-                      field.max,
-                      list.size() < clipped.size() ? clipped[list.size()] : 0});
-    return list;
+    const std::vector<FieldTotals> totals = model.fields.totals(tissue);
+    for (std::size_t k = 0; k < totals.size(); ++k)
+      {
+        const FieldTotals &field      = totals[k];
+        columns[field.name + "_min"]  = field.min;
+        columns[field.name + "_mean"] = field.mean;
+        columns[field.name + "_max"]  = field.max;
+        columns[field.name + "_clipped"] =
+          k < clipped.size() ? double(clipped[k]) : 0.;
+      }
   }
 
 

@@ -20,6 +20,7 @@ namespace Morula
   template <int dim>
   TissueModel<dim>::TissueModel(const Scene &scene, SceneEffects<dim> &&effects)
     : scene(scene)
+    , tables(effects.tables())
     , material(scene.material)
     , boundary_conditions(std::move(effects.conditions), scene.nitsche)
     , development(std::move(effects.development),
@@ -28,7 +29,8 @@ namespace Morula
                   material,
                   scene.random_seed)
     , fields(std::move(effects.fields))
-    , fates(std::move(effects.fates))
+    , traits(std::move(effects.traits))
+    , step_effects(std::move(effects.step_effects))
     , forces(std::move(effects.forces))
   {}
 

@@ -19,25 +19,22 @@ namespace Morula
             const double            t,
             StatisticsRow          &row)
   {
-    const CellDevelopment<dim>     &development = model.development;
-    const Death<dim>               *death       = development.death();
-    const std::vector<std::string> &types  = development.state().type_names();
-    const Cells<dim>               &cells  = tissue.cells();
-    const CellReader<dim>           reader = development.reader(t);
-    const MPI_Comm                  comm   = tissue.communicator();
-    TissueSums<dim>                 sums;
-    LongestCell<dim>                longest(model.scene.grid.spacing);
-    std::vector<std::uint64_t>      of_types(types.size(), 0);
-    std::uint64_t                   held  = 0;
-    std::uint64_t                   dying = 0;
+    const auto           &columns = model.tables.columns();
+    const Cells<dim>     &cells   = tissue.cells();
+    const CellReader<dim> reader  = model.development.reader(t);
+    const MPI_Comm        comm    = tissue.communicator();
+    TissueSums<dim>       sums;
+    LongestCell<dim>      longest(model.scene.grid.spacing);
+    std::vector<double>   of_effects(columns.size(), 0.);
+    std::uint64_t         held = 0;
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
         sums.add_cell(cell.scalars(), cell.position());
         held += model.is_held(cell, t);
-        dying += death != nullptr && death->is_dead(cells[p]);
-        if (!of_types.empty())
-          ++of_types[cell.type()];
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          if (columns[k].of_cell)
+            of_effects[k] += columns[k].of_cell(cell);
         longest.add(cell.position(), cell_shape<dim>(cell.cell()));
       }
     for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
@@ -48,16 +45,10 @@ namespace Morula
     row.tissue  = sums.totals(comm);
     row.lengths = longest.over_all_ranks(comm);
     row.held_at_checkpoint = Utilities::MPI::sum(held, comm);
-    if (death != nullptr)
-      {
-        if (!row.death)
-          row.death.emplace();
-        row.death->dying = Utilities::MPI::sum(dying, comm);
-      }
-    Utilities::MPI::sum(of_types, comm, of_types);
-    row.cells_of_types.clear();
-    for (std::size_t type = 0; type < of_types.size(); ++type)
-      row.cells_of_types.emplace_back(types[type], of_types[type]);
+    Utilities::MPI::sum(of_effects, comm, of_effects);
+    row.of_effects.clear();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      row.of_effects.emplace_back(columns[k].name, of_effects[k]);
   }
 
 

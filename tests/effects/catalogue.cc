@@ -113,7 +113,7 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
   EXPECT_NO_THROW(scene.check());
   EXPECT_EQ(expected_volume_ratio<2>(scene), 3.);
   EXPECT_EQ(expected_volume_ratio<3>(scene), 3.);
-  EXPECT_NE(effects_of<3>(scene).development.rule(0), nullptr);
+  EXPECT_NE(effects_of<3>(scene).development.proliferation->rule(0), nullptr);
 
   // Values belong to one scene.
   EXPECT_EQ(catalogue().growth_laws.back().keys().list()[0]->text(), "2");
@@ -147,7 +147,7 @@ TEST(Catalogue, LeavesTheLibrarysOwnEffectsAlone)
                             "Proliferation/Law=cell cycle"});
   EXPECT_NO_THROW(scene.check());
   EXPECT_NEAR(expected_volume_ratio<2>(scene), 1.21, 1e-12);
-  EXPECT_EQ(effects_of<2>(scene).development.rule(0), nullptr);
+  EXPECT_EQ(effects_of<2>(scene).development.proliferation->rule(0), nullptr);
   EXPECT_EQ(effects_of<2>(read({})).development.law, nullptr);
 }
 

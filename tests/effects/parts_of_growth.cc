@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/growth/contraction.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/scene/scene.h>
 
 #include <gtest/gtest.h>
@@ -56,11 +58,12 @@ namespace
       }
     if (wanted.contraction)
       {
-        scene.contraction.stretch   = stretch;
-        scene.contraction.direction = dim == 2 ? "3; 4" : "3; 4; 0";
+        auto &contraction     = scene.keys<ContractionParameters>();
+        contraction.stretch   = stretch;
+        contraction.direction = dim == 2 ? "3; 4" : "3; 4; 0";
       }
-    scene.material.relaxation_time = wanted.relaxation_time;
-    auto effects                   = effects_of<dim>(scene);
+    scene.keys<RelaxationParameters>().time = wanted.relaxation_time;
+    auto effects                            = effects_of<dim>(scene);
     return CellDevelopment<dim>(std::move(effects.development),
                                 effects.columns,
                                 effects.state,
@@ -178,8 +181,8 @@ namespace
     scene.dimension                                 = dim;
     scene.growth_law                                = "isotropic";
     scene.material.energy_per                       = energy_per;
-    scene.material.relaxation_time                  = "1e-9";
-    scene.material.yield_stress                     = yield_stress;
+    scene.keys<RelaxationParameters>().time         = "1e-9";
+    scene.keys<RelaxationParameters>().yield_stress = yield_stress;
     scene.keys<IsotropicGrowthParameters>().stretch = "1.1";
     auto                       effects              = effects_of<dim>(scene);
     TissueMaterial             material(scene.material);

@@ -24,7 +24,7 @@ namespace
   template <int dim>
   Tensor<2, dim>
   relax(const Tensor<2, dim> &F_e,
-        const Flow           &flow,
+        const FlowLaw        &flow,
         const double          dt,
         const std::string    &law = "neo-Hookean")
   {
@@ -74,7 +74,7 @@ TEST(Relaxation, OfAHeldStretchInOneStep)
 {
   const Tensor<2, 3> F_e =
     diagonal<3>({1.5, 1. / std::sqrt(1.5), 1. / std::sqrt(1.5)});
-  const auto b = [&](const Flow &flow, const unsigned int n_steps = 1) {
+  const auto b = [&](const FlowLaw &flow, const unsigned int n_steps = 1) {
     Tensor<2, 3> F = F_e;
     for (unsigned int n = 0; n < n_steps; ++n)
       F = relax(F, flow, 0.7 / n_steps);
@@ -167,7 +167,7 @@ namespace
           const Tensor<2, dim> F_e = some_strain<dim>(generator);
           const Tensor<2, dim> Q   = some_rotation<dim>(generator);
           const Tensor<2, dim> R   = some_rotation<dim>(generator);
-          const Flow           flow{0.3, yield_stress};
+          const FlowLaw        flow{0.3, yield_stress};
           const auto           D = [&](const Tensor<2, dim> &F_e) {
             return flow_of_step<dim>(F_e, constants, neo_hookean(), flow, 0.1);
           };
@@ -215,8 +215,8 @@ TEST(Relaxation, AddsAMultipleOfTheIdentityToTheInverse)
 
 TEST(Relaxation, IsSmoothWhereStretchesAreEqual)
 {
-  const Flow   flow{0.3};
-  std::mt19937 generator(5);
+  const FlowLaw flow{0.3};
+  std::mt19937  generator(5);
   for (const double stretch : {1., 1.3})
     {
       const Tensor<2, 3> F_e = diagonal<3>({1.1, stretch, stretch});

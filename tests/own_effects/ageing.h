@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// A fate: cells know the time since they were born.
+// A trait: cells know the time since they were born.
 
 #ifndef own_effects_ageing_h
 #define own_effects_ageing_h
 
-#include <morula/effects/fate/fate.h>
+#include <morula/effects/state/trait.h>
 
 namespace Own
 {
@@ -35,7 +35,7 @@ namespace Own
   };
 
   template <int dim>
-  class Ageing : public Fate<dim>
+  class Ageing : public Trait<dim>
   {
   public:
     using Parameters = AgeingKeys;

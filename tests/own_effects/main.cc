@@ -8,9 +8,14 @@
 
 #include "ageing.h"
 #include "along_rule.h"
+#include "anoikis.h"
+#include "census.h"
+#include "conversion.h"
 #include "dose_law.h"
 #include "drag.h"
+#include "melting.h"
 #include "pull.h"
+#include "swelling.h"
 #include "twofold.h"
 
 int
@@ -19,7 +24,12 @@ main(int argc, char *argv[])
   Morula::Program program;
   program.catalogue.add_growth_law<Own::DoseLaw>("dose");
   program.catalogue.add_division_rule<Own::AlongRule>("along");
-  program.catalogue.add_fate<Own::Ageing>("ageing");
+  program.catalogue.add_trait<Own::Ageing>("ageing");
+  program.catalogue.add_growth_factor<Own::Swelling>("swelling");
+  program.catalogue.add_flow<Own::Melting>("melting");
+  program.catalogue.add_fate<Own::Anoikis>("anoikis");
+  program.catalogue.add_step_effect<Own::Conversion>("conversion");
+  program.catalogue.add_step_effect<Own::Census>("census");
   program.catalogue.add_force<Own::Pull>("pull");
   program.catalogue.add_boundary_condition<Own::Drag>("drag");
   program.catalogue.materials.add("twofold",

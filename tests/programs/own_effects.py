@@ -26,6 +26,8 @@ TWOFOLD = overrides({
     "Boundary conditions/Nitsche penalty": "2000",
     "Solver/Newton tolerance": "1e-10"})
 DIVISION = 0.5  # day
+DEATH = 0.3  # day
+FOUNDERS, LOST = 100, 9
 STEP = 0.125  # day
 
 
@@ -46,12 +48,24 @@ class OwnEffects(ProgramTest):
     def check_closed_forms(self, output):
         rows = read_csv(output / "statistics.csv")
         t = rows["time"]
-        # the law's dose, and the cycle: both whatever the stress is
-        expected = (1 + 0.1 * 0.5 * t)**2 * (1 + t)
+        # the swelling, the law's dose, and the cycle: all whatever the stress is
+        left = numpy.where(t < DEATH, FOUNDERS, FOUNDERS - LOST)
+        expected = ((1 + 0.04 * t) * (1 + 0.1 * 0.5 * t))**2 * (1 + t)
         numpy.testing.assert_allclose(
-            rows["grown_volume"] / rows["grown_volume"][0], expected,
-            rtol=1e-9)  # of ten digits
-        self.assertEqual(list(rows["cells"]), [100] * 4 + [200] * 3)
+            rows["grown_volume"] / rows["grown_volume"][0],
+            expected * left / FOUNDERS, rtol=1e-9)  # of ten digits
+        self.assertEqual(list(rows["cells"]),
+                         list(numpy.where(t < DIVISION - 1e-9, 1, 2) * left))
+        self.assertEqual(list(rows["lost"]), [0] * 3 + [LOST] + [0] * 3)
+        # cells that live through steps
+        numpy.testing.assert_allclose(
+            rows["cell_days"], numpy.cumsum(rows["cells"] * rows["dt"]),
+            rtol=1e-9)
+        events = (output / "events.csv").read_text().splitlines()
+        self.assertEqual(events[0], "time,id,event,from,to,cause")
+        self.assertEqual(sorted(line.split(",", 2)[2] for line in events[1:]),
+                         ["anoikis,,,no hold"] * LOST + ["removal,,,"] * LOST)
+        self.assertEqual({line.split(",")[0] for line in events[1:]}, {"0.3"})
         for number, time in enumerate(t):
             cells = read_csv(output / f"cells-{number:04d}.csv")
             # Daughters grow old twice as fast: the pace is 1 + generation.
@@ -60,9 +74,14 @@ class OwnEffects(ProgramTest):
             # An effect sees what others had at the beginning of the step.
             numpy.testing.assert_allclose(
                 cells["earlier_dose"], 0.5 * max(0, time - STEP), atol=1e-12)
+            # Growth dilutes both fields alike, and no cell makes any.
+            numpy.testing.assert_allclose(
+                cells["made"] / (cells["raw"] + cells["made"]),
+                -numpy.expm1(-2 * time), rtol=1e-9)
         # every cell has divided along y
         cells = read_csv(output / "cells-0004.csv")
-        for mother in range(100):
+        self.assertEqual(len(set(cells["parent"])), FOUNDERS - LOST)
+        for mother in set(cells["parent"]):
             pair = cells[cells["parent"] == mother]
             self.assertEqual(len(pair), 2)
             self.assertLess(abs(pair["x"][0] - pair["x"][1]), 1e-9)
@@ -97,6 +116,24 @@ class OwnEffects(ProgramTest):
                                           err_msg=name)
         self.assertGreater(own["mean_energy_density"][-1], 0)
 
+    def test_melting_takes_the_shear(self):
+        # Tissue that does not grow, sheared evenly by its whole surface and then
+        # held: nothing but the shear is in it.
+        still = overrides({
+            "Growth/Dose/Uptake": "0", "Swelling/Stretch": "1",
+            "Proliferation/Cell cycle/Start": "waiting",
+            "Anoikis/Where": "", "Anoikis/After": "0",
+            "Boundary conditions/Drag/Load": "0; 0", "Pull/Density": "0; 0",
+            "Boundary conditions/Fixed where": "1",
+            "Boundary conditions/Displacement": "0.4*Y*min(t, 0.5); 0"})
+        shear = []
+        for when in ("t > 0.7", "t > 9"):
+            output = self.work / when.replace(" ", "")
+            self.execute(*still, "-s", f"Melting/When={when}", output=output)
+            cells = read_csv(output / "cells-0006.csv")
+            shear.append(numpy.abs(cells["sigma_xy"]).mean())
+        self.assertLess(shear[0], 0.01 * shear[1])
+
     def test_resumed(self):
         for ranks in (1, 2):
             whole = self.work / f"whole-{ranks}"
@@ -117,6 +154,9 @@ class OwnEffects(ProgramTest):
                      "axis = along, Direction = 0, 1, 0",
                      ", Record = true, Pace = 1 + generation",
                      ", Density = 0; 1e-4*t*volume/100",
+                     ", Stretch = 1 + 0.04*t", ", When = t > 0.7",
+                     ", Where = X > 40 && Y > -40, After = 0.3",
+                     ", Rate = 2", ", Take = true",
                      "at 10 boundary points, where Y > 49"):
             self.assertIn(line, text)
         text = self.execute("-s", "Boundary conditions/Drag/Where=Y > 999",

@@ -3,7 +3,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/random.h>
+#include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/isotropic.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/slip.h>
@@ -426,9 +428,9 @@ TEST(SceneWarnings, OfFormerNames)
 
 TEST(SceneWarnings, OfStepsThatAreLongForCreep)
 {
-  Scene scene                    = good_scene();
-  scene.material.relaxation_time = "1 + X/100"; // from 0.55 on
-  EXPECT_TRUE(warnings_of<3>(scene).empty());   // nothing pulls
+  Scene scene                             = good_scene();
+  scene.keys<RelaxationParameters>().time = "1 + X/100"; // from 0.55 on
+  EXPECT_TRUE(warnings_of<3>(scene).empty());            // nothing pulls
   scene.keys<TractionParameters>().where    = "Z > 49";
   scene.keys<TractionParameters>().traction = "0; 0; 0.1";
   expect_warning(scene,
@@ -437,32 +439,32 @@ TEST(SceneWarnings, OfStepsThatAreLongForCreep)
                   "0.55 day",
                   "creeps too late",
                   "Shorten the step"});
-  scene.material.relaxation_time = "1";
+  scene.keys<RelaxationParameters>().time = "1";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
   // Parts of a step are of use above a yield stress only.
-  scene.material.relaxation_passes = 3;
+  scene.keys<RelaxationParameters>().passes = 3;
   expect_warning(scene,
                  {"Material/Relaxation passes = '3'",
                   "exact in one pass where there is no Material/Yield stress",
                   "Leave it out"});
-  scene.material.yield_stress = "0.1";
+  scene.keys<RelaxationParameters>().yield_stress = "0.1";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
 
 TEST(SceneWarnings, OfContractionsThatJump)
 {
-  Scene scene                 = good_scene();
-  scene.contraction.direction = "1; 0; 0";
-  scene.contraction.stretch   = "1 - 0.1*t*(X > 0)";
+  Scene scene                                   = good_scene();
+  scene.keys<ContractionParameters>().direction = "1; 0; 0";
+  scene.keys<ContractionParameters>().stretch   = "1 - 0.1*t*(X > 0)";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.contraction.stretch = "1 - 0.11*min(t, 2)*(X > 0)";
+  scene.keys<ContractionParameters>().stretch = "1 - 0.11*min(t, 2)*(X > 0)";
   expect_warning(scene,
                  {"Time/Step = '1 day'",
                   "Contraction/Stretch changes by up to 0.11;",
                   "ramp the stretch"});
   // At the start, too.
-  scene.contraction.stretch = "if(X > 0, 1.2, 1)";
+  scene.keys<ContractionParameters>().stretch = "if(X > 0, 1.2, 1)";
   expect_warning(scene, {"by up to 0.2;"});
 }
 

@@ -53,7 +53,7 @@ namespace
         if (row.step > 0)
           return;
         // Where nothing is left; 19 % for h = 40 um.
-        EXPECT_LE(row.fields[0].clipped, row.cells / 4);
+        EXPECT_LE(row.of_effect("signal_clipped"), row.cells / 4);
         std::vector<double> sums(2);
         for (unsigned int p = 0; p < cells.size(); ++p)
           {
@@ -225,7 +225,7 @@ TEST(UptakeOfAField, WithoutDiffusionEachCellIsByItself)
                        c = (c + 0.1 * 3. * (X[0] > -20.)) / (1. + 0.1 * k);
                      EXPECT_NEAR(values[p], c, 1e-9);
                    }
-                 EXPECT_EQ(row.fields[0].clipped, 0u);
+                 EXPECT_EQ(row.of_effect("signal_clipped"), 0.);
                });
 }
 
@@ -299,7 +299,7 @@ TEST(UptakeOfAField, ValuesSetToZeroChangeNoBalance)
                    }
                  Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
                  // The first step has the configuration of t = 0.
-                 EXPECT_EQ(row.fields[0].clipped > 0, row.step == 0);
+                 EXPECT_EQ(row.of_effect("signal_clipped") > 0, row.step == 0);
                  EXPECT_NEAR(sums[0], sums[1], 1e-9 * sums[1]);
                });
 }

@@ -120,7 +120,7 @@ namespace
                    way = std::max(way, (mean - start).norm());
                    EXPECT_NEAR(sums[0], before, 1e-12 * before);
                    EXPECT_LE(sums[1], (1. + 1e-12) * spread);
-                   EXPECT_EQ(row.fields[0].clipped, 0u);
+                   EXPECT_EQ(row.of_effect("signal_clipped"), 0.);
                    spread = sums[1];
                  });
     EXPECT_GT(n_cells, least_cells);

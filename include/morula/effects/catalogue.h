@@ -8,7 +8,11 @@
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/fate.h>
 #include <morula/effects/forces/force.h>
+#include <morula/effects/growth/flow.h>
+#include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/growth/growth_law.h>
+#include <morula/effects/state/trait.h>
+#include <morula/effects/step_effect.h>
 #include <morula/effects/surface/boundary_condition.h>
 #include <morula/mechanics/materials/materials.h>
 
@@ -62,8 +66,50 @@ namespace Morula
       forces.push_back(Choice<Force>::of<AddedForce>(name, section("", name)));
     }
 
-    /** Adds a fate. A scene has it if its keys say so; they stand in `<Name>`.
+    /** Adds a factor of F_g, left of those before. A scene has it if its keys
+     *  say so; they stand in `<Name>`. */
+    template <template <int> class Factor>
+    void
+    add_growth_factor(const std::string &name)
+    {
+      check_name(name);
+      growth_factors.push_back(
+        Choice<GrowthFactor>::of<Factor>(name, section("", name)));
+    }
+
+    /** Adds a flow, which acts after those before. A scene has it if its keys
+     *  say so; they stand in `<Name>`. */
+    template <template <int> class AddedFlow>
+    void
+    add_flow(const std::string &name)
+    {
+      check_name(name);
+      flows.push_back(Choice<Flow>::of<AddedFlow>(name, section("", name)));
+    }
+
+    /** Adds a trait. A scene has it if its keys say so; they stand in `<Name>`.
      */
+    template <template <int> class AddedTrait>
+    void
+    add_trait(const std::string &name)
+    {
+      check_name(name);
+      traits.push_back(Choice<Trait>::of<AddedTrait>(name, section("", name)));
+    }
+
+    /** Adds a step effect, whose moments come after those before. A scene has
+     * it if its keys say so; they stand in `<Name>`. */
+    template <template <int> class Added>
+    void
+    add_step_effect(const std::string &name)
+    {
+      check_name(name);
+      step_effects.push_back(
+        Choice<StepEffect>::of<Added>(name, section("", name)));
+    }
+
+    /** Adds a fate, which is asked after those before. A scene has it if its
+     *  keys say so; they stand in `<Name>`. */
     template <template <int> class AddedFate>
     void
     add_fate(const std::string &name)
@@ -115,7 +161,11 @@ namespace Morula
 
     Choices<GrowthLaw>         growth_laws;
     Choices<DivisionRule>      division_rules;
+    Choices<GrowthFactor>      growth_factors;
+    Choices<Flow>              flows;
     Choices<Fate>              fates;
+    Choices<Trait>             traits;
+    Choices<StepEffect>        step_effects;
     Choices<Force>             forces;
     Choices<BoundaryCondition> boundary_conditions;
 
@@ -129,7 +179,15 @@ namespace Morula
         action(choice);
       for (auto &choice : division_rules)
         action(choice);
+      for (auto &choice : growth_factors)
+        action(choice);
+      for (auto &choice : flows)
+        action(choice);
       for (auto &choice : fates)
+        action(choice);
+      for (auto &choice : traits)
+        action(choice);
+      for (auto &choice : step_effects)
         action(choice);
       for (auto &choice : forces)
         action(choice);

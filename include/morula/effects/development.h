@@ -4,13 +4,12 @@
 #ifndef morula_effects_development_h
 #define morula_effects_development_h
 
-#include <morula/effects/division/division_rule.h>
-#include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_types.h>
-#include <morula/effects/fate/death.h>
-#include <morula/effects/growth/contraction.h>
+#include <morula/effects/fate/life.h>
+#include <morula/effects/fate/proliferation.h>
+#include <morula/effects/growth/flow.h>
+#include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/growth/growth_law.h>
-#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/cell_event.h>
@@ -18,6 +17,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -40,7 +40,7 @@ namespace Morula
     /** The step before. */
     PastStep past = {};
     /** Which part of an error of the forecast motion is an error of what flows,
-     *  by cell, if tissue relaxes; else empty. */
+     *  by cell and flow. */
     std::vector<double> flow_shares = {};
     /** |missed| of the step before, by cell, if growth follows the state; else
      *  empty. */
@@ -60,37 +60,41 @@ namespace Morula
   template <int dim>
   struct DevelopmentEffects
   {
+    /** In the order in which they are asked. */
+    Fates<dim> fates;
+    /** Those of the fates that others speak to, or null. */
+    const Proliferation<dim> *proliferation = nullptr;
+    const CellTypes<dim>     *types         = nullptr;
     /** Or null. */
     std::unique_ptr<const GrowthLaw<dim>> law;
-    std::optional<CellCycle<dim>>         cycle;
-    /** The columns in which the cycle keeps its clock; present with the cycle.
-     */
-    std::optional<CycleColumns<dim>> clock;
-    /** The rules for axes that the cell types use, each of them once. */
-    std::vector<std::unique_ptr<const DivisionRule<dim>>> rules;
-    /** The rule of each type of cells, or null; empty: all have the first. */
-    std::vector<const DivisionRule<dim> *> rule_of_type = {};
-    std::optional<CellTypes<dim>>          types        = {};
-    std::optional<Death<dim>>              death        = {};
     /** Whether cells grow by the law, by type; empty: all do. */
     std::vector<bool> grows = {};
-    /** Or null. */
-    std::unique_ptr<const Contraction<dim>> contraction;
-    /** Or null. */
-    std::unique_ptr<const Relaxation<dim>> relaxation;
-    /** Whether cells that change their type forget their stress. */
-    bool forgets_stress = false;
-    /** F_law, if a contraction is multiplied from its left. */
+    /** Factors of F_g left of the law, from the right. */
+    std::vector<std::unique_ptr<const GrowthFactor<dim>>> factors;
+    /** In the order in which they act. */
+    std::vector<std::unique_ptr<const Flow<dim>>> flows;
+    /** F_law, if there are factors to its left. */
     Column<Tensor<2, dim>> law_growth;
     /** F_r of (8.7), if there is no cycle that keeps it. */
     Column<Tensor<2, dim>> relaxed;
-    /** All effects that have columns of their own; others own these effects. */
+    /** All effects that have columns of their own, but for the proliferation;
+     *  others own these effects. */
     std::vector<const Effect<dim> *> with_state = {};
 
-    /** The rule of a type of cells, or null: its axes are those that the cycle
-     *  draws. */
-    const DivisionRule<dim> *
-    rule(const unsigned int type) const;
+    /** Adds a fate, behind those before. @return the fate */
+    template <typename OwnFate>
+    const OwnFate *
+    add_fate(std::unique_ptr<OwnFate> fate)
+    {
+      const OwnFate *const added = fate.get();
+      fates.push_back(std::move(fate));
+      return added;
+    }
+
+    /** Whether the law follows the cells' state, so that a step can miss some
+     *  growth. */
+    bool
+    law_follows_state() const;
 
     /** Whether a step's error is known: growth follows the state, or tissue
      *  flows. */
@@ -233,9 +237,13 @@ namespace Morula
                 const double                end,
                 const unsigned int          n_steps) const;
 
-    /** How cells die, or null. */
-    const Death<dim> *
-    death() const;
+    /** What befalls cells. */
+    const Fates<dim> &
+    fates() const;
+
+    /** Whether cells can die. */
+    bool
+    is_mortal() const;
 
     /**
      * Sets what distinguishes a daughter from her mother, and lets her live
@@ -260,175 +268,66 @@ namespace Morula
     placement_axis(const CellView<dim, const double> &cell) const;
 
   private:
-    /** The clock at t1 of a cell in its state at t0, as in
-     *  CellCycle::advance(). */
-    CycleState<dim>
-    next_clock(const PresentCell<dim> &cell,
-               const CycleState<dim>  &before,
-               const double            t0,
-               const double            t1) const;
-
-    /** The first event of a cell, or none. */
-    struct NextEvent
-    {
-      double                                         time; // day
-      bool                                           dies   = false;
-      std::optional<typename CellTypes<dim>::Change> change = {};
-    };
-
-    /**
-     * Death, or the first way out of its type, in (t, t1], but not after its
-     * division. Integrates the rates until then.
-     * @param cell  of its present type
-     * @param after keeps the integrals
-     * @param next  its clock at t1 if nothing happens to it
-     */
-    NextEvent
-    next_event(const PresentCell<dim>      &cell,
-               const CellView<dim, double> &after,
-               const CycleState<dim>       &next,
-               const double                 t,
-               const double                 t1) const;
-
-    /**
-     * The clock at t1, or at the cell's death if that comes first, through all
-     * changes of type in (t0, t1]; sets the columns of type and death. What
-     * happens after a division happens to the daughters, not to the mother.
-     * @param before the cell at the beginning of the step
-     * @param after  a copy of its row
-     */
-    CycleState<dim>
-    advance(const PresentCell<dim>      &before,
-            const CellView<dim, double> &after,
-            const double                 t0,
-            const double                 t1,
-            std::vector<CellEvent>      &changes) const;
-
-    /** Lets the cell in @p after die at @p time (day), and returns the clock of
-     *  the dead. @param state its clock at this time */
-    CycleState<dim>
-    kill(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &after,
-         CycleState<dim>              state,
-         const double                 time,
-         const DeathCause             cause,
-         std::vector<CellEvent>      &events) const;
-
-    /** Whether the cell is dead at the beginning of a step, or dies then. */
-    bool
-    is_dead_at(const double                 t0,
-               const PresentCell<dim>      &before,
-               const CellView<dim, double> &after,
-               std::vector<CellEvent>      &events) const;
-
-    /** If a cycle begins between these states, sets its axis by the rule. */
-    void
-    choose_axis(const CycleState<dim>  &before,
-                const PresentCell<dim> &cell,
-                const double            t,
-                CycleState<dim>        &after) const;
-
-    /** The factors of F_g to the right of the law's part, at the time @p t of
-     *  the clock: the cycle's part and what has relaxed. */
-    Tensor<2, dim>
-    growth_behind_law(const CellView<dim, const double> &cell,
-                      const CycleState<dim>             &clock,
-                      const double                       t) const;
-
-    /** The law's part at t1 of a cell in its state at t0. Only with a law. */
-    Tensor<2, dim>
-    law_growth(const GrowingCell<dim> &cell,
-               const double            t0,
-               const double            t1) const;
-
-    /** The law's part and the factors to its right, at t1, of a cell in its
-     *  state at t0. */
-    Tensor<2, dim>
-    growth(const PresentCell<dim> &cell,
-           const CycleState<dim>  &next,
-           const double            t0,
-           const double            t1) const;
-
-    /**
-     * F_g of law, cycle and contraction at t1, also written to @p after.
-     * @param next   the clock of t1
-     * @param missed set to |missed| of the step before, of the law
-     */
-    Tensor<2, dim>
-    living_growth(const PresentCell<dim>      &before,
-                  const CellView<dim, double> &after,
-                  const CycleState<dim>       &next,
-                  const double                 t0,
-                  const double                 t1,
-                  double                      &missed) const;
-
-    /**
-     * D F_g, also written to @p after, as if D had come before all growth.
-     * @param F_g   of all effects at t1
-     * @param after has the clock of t1
-     */
-    Tensor<2, dim>
-    absorb(const Tensor<2, dim>        &D,
-           const Tensor<2, dim>        &F_g,
-           const CellView<dim, double> &after) const;
-
-    /**
-     * F_g after relaxation, also written to @p after.
-     * @param F_g   of the other effects at t1
-     * @param after has the clock of t1
-     * @param share set to the part of an error of the forecast that is one of
-     *              the flow
-     */
-    Tensor<2, dim>
-    relax(const PresentCell<dim>      &before,
-          const CellView<dim, double> &after,
-          const Tensor<2, dim>        &F_g,
-          const double                 t0,
-          const double                 t1,
-          double                      &share) const;
-
-    /** What the law sees of a cell in its state at t0. */
-    GrowingCell<dim>
-    growing(const PresentCell<dim> &cell, const double t0) const;
-
-    /** F_g without the cycle's part, at the time @p t of the state. */
-    Tensor<2, dim>
-    growth_left_of_cycle(const CellView<dim, const double> &cell,
-                         const double                       t) const;
-
-    /** Adds what the last step missed of hazards: doc/theory.md (5.9). */
-    void
-    make_good(const PresentCell<dim>      &before,
-              const CellView<dim, double> &after) const;
-
-    /**
-     * Keeps the rates of hazards that the next step will compare.
-     * @param is_whole whether the cell has lived the step without an event that
-     *                 changes its rates
-     */
-    void
-    expect_rates(const PresentCell<dim>      &before,
-                 const CellView<dim, double> &after,
-                 const double                 t0,
-                 const double                 t1,
-                 const bool                   is_whole) const;
-
     /** What is known of errors when a cell develops. */
     struct Errors
     {
       /** |missed| of the step before. */
       double missed_growth = 0.;
-      /** Which part of an error of the motion is one of the flow. */
-      double flow_share = 0.;
+      /** Which part of an error of the motion is one of the flow, by flow. */
+      std::vector<double> flow_shares = {};
     };
 
     /** Sets all columns of @p after but F. */
-    Errors
+    void
     develop(const PresentCell<dim>      &before,
             const CellView<dim, double> &after,
             const double                 t0,
             const double                 t1,
-            std::vector<CellEvent>      &changes) const;
+            std::vector<CellEvent>      &events,
+            Errors                      &errors) const;
+
+    /** Whether cells of the type of this one grow by the law. */
+    bool
+    grows_by_law(const PresentCell<dim> &cell) const;
+
+    /** What the law sees of a cell in its state at t0. */
+    GrowingCell<dim>
+    growing(const PresentCell<dim> &cell, const double t0) const;
+
+    /** The factors of F_g to the right of the law's part, at the time @p t of
+     *  the clock: the cycle's part and what has relaxed. */
+    Tensor<2, dim>
+    growth_behind_law(const CellView<dim, const double> &cell,
+                      const double                       t) const;
+
+    /**
+     * F_g of law, cycle and factors at @p t1, also written to @p after.
+     * @param after  has the clock of t1
+     * @param missed set to |missed| of the step before, of the law
+     */
+    Tensor<2, dim>
+    living_growth(const PresentCell<dim>      &before,
+                  const CellView<dim, double> &after,
+                  const double                 t0,
+                  const double                 t1,
+                  double                      &missed) const;
+
+    /** F_g after all flows, what has flowed written to @p after.
+     *  @param F_g    of the other effects at t1
+     *  @param shares set to FlowOfStep::share of each flow */
+    Tensor<2, dim>
+    flow(const PresentCell<dim>      &before,
+         const CellView<dim, double> &after,
+         Tensor<2, dim>               F_g,
+         const double                 t0,
+         const double                 t1,
+         std::vector<double>         &shares) const;
+
+    /** D F_g, also written to @p after, as if D had come before all growth. */
+    Tensor<2, dim>
+    absorb(const Tensor<2, dim>        &D,
+           const Tensor<2, dim>        &F_g,
+           const CellView<dim, double> &after) const;
 
     DevelopmentEffects<dim> effects;
     CellColumns<dim>        columns_;

@@ -23,6 +23,8 @@ namespace Morula
 {
   using namespace dealii;
 
+  struct MaterialParameters;
+
   /**
    * The keys of an effect. Unless a scene chooses the effect by its name, they
    * say whether it is on.
@@ -46,6 +48,15 @@ namespace Morula
     virtual void
     declare_sections(const std::string &text);
 
+    /** How a scene gets the effect, a sentence without its end, for values that
+     *  do nothing without it. */
+    virtual std::string
+    how_to_switch_on() const;
+
+    /** Refuses what the keys contradict in the material. @throws InputError */
+    virtual void
+    check_with(const MaterialParameters &material) const;
+
     /** What it is called in --explain; empty: the effect's name. */
     virtual std::string
     topic() const;
@@ -57,6 +68,8 @@ namespace Morula
 
   template <int dim>
   class PresentCell;
+  template <int dim>
+  class Tables;
 
   /** What a scene offers to the constructor of every effect. */
   template <int dim>
@@ -101,6 +114,8 @@ namespace Morula
     /** h, µm. */
     double   grid_spacing;
     MPI_Comm comm;
+    /** Whether forces act on cells or on the surface. */
+    bool is_loaded = false;
   };
 
   /** What all effects have in common. An effect keeps nothing between calls: a
@@ -110,6 +125,11 @@ namespace Morula
   {
   public:
     virtual ~Effect() = default;
+
+    /** Says what the effect adds to the tables of a run, and which of its
+     *  numbers outlive a step. */
+    virtual void
+    declare(Tables<dim> &tables) const;
 
     /** Sets the effect's columns of a founder at t = 0, if they differ from the
      *  declared values. Only called if the effect has columns. */

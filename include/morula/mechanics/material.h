@@ -21,15 +21,12 @@ namespace Morula
     /** @param materials what the law can be */
     explicit MaterialParameters(const Materials &materials = Materials());
 
-    ExpressionKey     youngs_modulus; // kPa
-    ExpressionKey     poissons_ratio;
-    Key<std::string>  energy_per;
-    Key<std::string>  volumetric_strain;
-    Key<std::string>  law;
-    ExpressionKey     relaxation_time; // day
-    ExpressionKey     yield_stress;    // kPa
-    Key<unsigned int> relaxation_passes;
-    Key<std::string>  on_transition;
+    ExpressionKey    youngs_modulus; // kPa
+    ExpressionKey    poissons_ratio;
+    Key<std::string> energy_per;
+    Key<std::string> volumetric_strain;
+    Key<std::string> law;
+    Key<std::string> on_transition;
     /** What the law can be. */
     Materials materials;
 
@@ -43,10 +40,6 @@ namespace Morula
     /** Whether cells forget their stress when they change their type. */
     bool
     forgets_stress() const;
-
-    /** Whether the shear of some cells relaxes. */
-    bool
-    relaxes() const;
 
     /** Warns of tissue that locks. */
     void

@@ -14,7 +14,7 @@ namespace Morula
   using namespace dealii;
 
   /** How the shear of a piece of tissue relaxes, at one moment. */
-  struct Flow
+  struct FlowLaw
   {
     /** τ_r, day; > 0. In it the shear stress of held tissue falls to 1/e. */
     double relaxation_time;
@@ -53,7 +53,7 @@ namespace Morula
   flow_of_step(const Tensor<2, dim> &F_e,
                const Lame           &lame,
                const Material       &material,
-               const Flow           &flow,
+               const FlowLaw        &flow,
                const double          dt);
 } // namespace Morula
 

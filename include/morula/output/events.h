@@ -18,15 +18,8 @@ namespace Morula
   {
     /** By the types' numbers; empty: there are no types. */
     std::vector<std::string> type_names;
-    /** Whether cells die. */
-    bool with_death = false;
-
-    /** Whether there is a file at all. */
-    bool
-    any() const
-    {
-      return with_death || !type_names.empty();
-    }
+    /** Whether deaths have causes. */
+    bool with_causes = false;
   };
 
   /** The columns of events.csv. */
@@ -34,9 +27,9 @@ namespace Morula
   event_columns(const EventsContents &contents);
 
   /**
-   * This rank's part of a step's rows of events.csv: one for each change of a
-   * cell's type, its death and its removal on any rank, ordered by time, then
-   * by the cell's id. Collective.
+   * This rank's part of a step's rows of events.csv: one for each event of a
+   * cell on any rank, ordered by time, then by the cell's id, then by kind.
+   * Collective.
    * @param events of this rank, in any order
    */
   std::string

@@ -16,30 +16,6 @@
 
 namespace Morula
 {
-  /** What statistics.csv says of death. */
-  struct DeathCounts
-  {
-    std::uint64_t dying   = 0; // dead cells that are still there
-    std::uint64_t deaths  = 0; // in this step
-    std::uint64_t removed = 0; // in this step
-    std::uint64_t pieces  = 0; // that hold cells, on the grid of the step
-  };
-
-  /** What statistics.csv says of a lumen. */
-  struct LumenState
-  {
-    double volume   = 0.; // µm^dim
-    double pressure = 0.; // kPa, above that around the tissue
-  };
-
-  /** What statistics.csv says of a field. */
-  struct FieldStatistics
-  {
-    std::string   name;
-    double        min = 0., mean = 0., max = 0.; // mean over the volume
-    std::uint64_t clipped = 0; // values < 0 that were set to 0 in this step
-  };
-
   /** One row of statistics.csv: the state after a step, and the step's cost. */
   struct StatisticsRow
   {
@@ -62,19 +38,19 @@ namespace Morula
     double        residual       = 0.; // relative to the step's first
     double        wall_seconds   = 0.; // since the start, across resumes
     CellLengths   lengths;
-    /** By the types' names; empty without types. */
-    std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
-    /** Only where cells die. */
-    std::optional<DeathCounts> death = {};
-    /** Only with a lumen. */
-    std::optional<LumenState> lumen = {};
-    /** By the fields' numbers; empty without fields. */
-    std::vector<FieldStatistics> fields = {};
+    /** Columns of the scene's effects, by name: Tables::columns(). */
+    std::vector<std::pair<std::string, double>> of_effects = {};
     /** Only with boundary points. */
     std::optional<SurfaceFit> surface = {};
     /** What the step before missed of growth and flow, relative to the volume;
      *  only where they follow the state. */
     std::optional<double> step_error = {};
+
+    /** A column of the effects. @throws std::out_of_range */
+    double &
+    of_effect(const std::string &name);
+    double
+    of_effect(const std::string &name) const;
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>

@@ -6,36 +6,42 @@
 
 #include <deal.II/particles/property_pool.h>
 
+#include <cstring>
+
 namespace Morula
 {
   using namespace dealii;
 
-  /** Why a cell died. */
-  enum class DeathCause
+  /** A kind of events, as a constant of the program. */
+  struct EventKind
   {
-    none, // it did not die
-    rate, // Death/Rate
-    when  // Death/When
+    /** In events.csv. */
+    const char *name;
+    /** Of events that happen to a cell at the same time, which comes first. */
+    unsigned int order;
+
+    bool
+    operator==(const EventKind &other) const
+    {
+      return std::strcmp(name, other.name) == 0;
+    }
   };
 
   /** Something that happens to a cell between its birth and its end: a row of
    *  events.csv. */
   struct CellEvent
   {
-    /** In the order in which they can happen to a cell at the same time. */
-    enum class Kind
-    {
-      transition, // to another type
-      death,
-      removal // of a dead cell
-    };
+    static constexpr EventKind transition{"transition", 0}; // to another type
+    static constexpr EventKind death{"death", 1};
+    static constexpr EventKind removal{"removal", 2}; // of a dead cell
 
     double                time; // day, exact
     types::particle_index id;   // of the cell
-    Kind                  kind;
+    EventKind             kind;
     unsigned int          from; // number of the cell's type before
     unsigned int          to;   // and after; differs in transitions only
-    DeathCause            cause = DeathCause::none;
+    const char           *cause   = "";    // of a death
+    bool                  at_once = false; // a death by a condition that held
   };
 } // namespace Morula
 

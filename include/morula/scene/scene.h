@@ -9,7 +9,6 @@
 #include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_type_parameters.h>
-#include <morula/effects/fate/death.h>
 #include <morula/effects/fields/fields.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
@@ -18,6 +17,7 @@
 #include <morula/seeding/seeding.h>
 #include <morula/solver/solver_parameters.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,20 +46,18 @@ namespace Morula
     Key<std::string>  output_directory; // read() fills in what is empty
     Key<unsigned int> random_seed;
 
-    TimeParameters        time;
-    TissueParameters      tissue;
-    GridParameters        grid;
-    MaterialParameters    material;
-    Key<std::string>      growth_law;
-    Key<std::string>      proliferation_law;
-    CellCycleParameters   cell_cycle;
-    CellTypesParameters   cell_types;
-    ContractionParameters contraction;
-    DeathParameters       death;
-    FieldsParameters      fields;
-    NitscheParameters     nitsche;
-    SolverParameters      solver;
-    OutputParameters      output;
+    TimeParameters      time;
+    TissueParameters    tissue;
+    GridParameters      grid;
+    MaterialParameters  material;
+    Key<std::string>    growth_law;
+    Key<std::string>    proliferation_law;
+    CellCycleParameters cell_cycle;
+    CellTypesParameters cell_types;
+    FieldsParameters    fields;
+    NitscheParameters   nitsche;
+    SolverParameters    solver;
+    OutputParameters    output;
 
     /** The effects, with the values of their keys. */
     Catalogue catalogue;
@@ -105,13 +103,23 @@ namespace Morula
     bool
     grows(const unsigned int type) const;
 
-    /** Whether cells contract. */
-    bool
-    has_contraction() const;
+    /** Whether some effect of a kind is on, which its keys switch on. */
+    template <template <int> class Interface>
+    static bool
+    has_any(const Choices<Interface> &choices)
+    {
+      return std::any_of(choices.begin(), choices.end(), [](const auto &c) {
+        return c.keys().is_on();
+      });
+    }
 
-    /** Whether cells can die. */
+    /** Whether anything lets the tissue grow, shrink or change its shape. */
     bool
-    has_death() const;
+    has_active_tissue() const;
+
+    /** Whether the shear of some cells relaxes. */
+    bool
+    flows() const;
 
     bool
     has_proliferation() const;
@@ -208,6 +216,17 @@ namespace Morula
       std::unique_ptr<const Force<dim>> force;
     };
 
+    /** A step effect, and what it is called. */
+    struct NamedStepEffect
+    {
+      std::string                            name;
+      std::unique_ptr<const StepEffect<dim>> effect;
+    };
+
+    /** What they add to the tables of a run. Refers to them. */
+    Tables<dim>
+    tables() const;
+
     /** The columns that the effects need in a cell. */
     CellColumns<dim> columns;
     /** Which variables their expressions use. */
@@ -215,7 +234,8 @@ namespace Morula
 
     DevelopmentEffects<dim>                              development;
     Fields<dim>                                          fields;
-    std::vector<std::unique_ptr<const Fate<dim>>>        fates;
+    std::vector<std::unique_ptr<const Trait<dim>>>       traits;
+    std::vector<NamedStepEffect>                         step_effects;
     std::vector<NamedForce>                              forces;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;
   };

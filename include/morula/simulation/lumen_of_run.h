@@ -6,7 +6,6 @@
 
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/momentum_balance.h>
-#include <morula/output/statistics.h>
 #include <morula/simulation/tissue_model.h>
 #include <morula/solver/turns.h>
 
@@ -24,17 +23,29 @@ namespace Morula
     double pressure        = 0.; // kPa, above that around the tissue
   };
 
-  /** The lumen at t = 0; nothing without one. Collective. */
+  /** Keeps this of a lumen. */
+  void
+  keep_lumen(const LumenMemory &lumen, NamedNumbers &kept);
+
+  /** Keeps the lumen of t = 0, if there is one. Collective. */
+  template <int dim>
+  void
+  begin_lumen(const TissueModel<dim> &model,
+              const Tissue<dim>      &tissue,
+              NamedNumbers           &kept);
+
+  /** What is kept of the lumen; nothing without one. */
   template <int dim>
   std::optional<LumenMemory>
-  lumen_at_start(const TissueModel<dim> &model, const Tissue<dim> &tissue);
+  saved_lumen(const TissueModel<dim> &model, const NamedNumbers &kept);
 
-  /** The lumen's state for statistics.csv. Collective. */
+  /** The lumen's columns of statistics.csv, if there is one. Collective. */
   template <int dim>
-  std::optional<LumenState>
-  lumen_state(const TissueModel<dim>           &model,
-              const Tissue<dim>                &tissue,
-              const std::optional<LumenMemory> &memory);
+  void
+  describe_lumen(const TissueModel<dim> &model,
+                 const Tissue<dim>      &tissue,
+                 const NamedNumbers     &kept,
+                 NamedNumbers           &columns);
 
   /** The lumen's content before the pressure of the step is known.
    *  @param t_next end of the step, day

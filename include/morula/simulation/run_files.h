@@ -40,16 +40,18 @@ namespace Morula
     /**
      * Locks the directory for this run and makes it ready, for a new run or for
      * one resumed from a snapshot.
+     * @param tables what the effects add
      * @param clock runs since this program began the run; kept as a reference
      * @throws InputError, or std::runtime_error with path and reason
      */
     RunFiles(const Scene                            &scene,
+             const Tables<dim>                      &tables,
              const std::optional<SnapshotData<dim>> &resumed_from,
              const Timer                            &clock,
              const MPI_Comm                          comm);
 
-    /** Appends to statistics.csv, lineage.csv and, where cells have types or
-     *  die, events.csv, and shows the step. Writes the wall time into @p row.
+    /** Appends to statistics.csv, lineage.csv and, where effects ask for it,
+     *  events.csv, and shows the step. Writes the wall time into @p row.
      */
     void
     step(StatisticsRow                 &row,
@@ -122,7 +124,8 @@ namespace Morula
     void
     warn_of_missing_states(); // written with another Output/Formats
     void
-    continue_tables(const SnapshotData<dim> &resumed_from);
+    continue_tables(const Tables<dim>       &of_effects,
+                    const SnapshotData<dim> &resumed_from);
 
     RunSetup
     setup() const;
@@ -143,8 +146,9 @@ namespace Morula
 
     const Scene                  scene;
     const MPI_Comm               comm;
-    const EventsContents         contents;
-    std::optional<DirectoryLock> lock; // until the end
+    const bool                   records_events;
+    const EventsContents         contents; // of events.csv
+    std::optional<DirectoryLock> lock;     // until the end
     const double                 wall_seconds_before;
     const Timer                 &clock;
     std::vector<double>          output_times;

@@ -4,9 +4,9 @@
 #ifndef morula_simulation_run_state_h
 #define morula_simulation_run_state_h
 
+#include <morula/effects/tables.h>
 #include <morula/output/snapshot.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/lumen_of_run.h>
 #include <morula/simulation/step_error.h>
 #include <morula/simulation/time_steps.h>
 
@@ -21,7 +21,8 @@ namespace Morula
     types::particle_index next_boundary_id = 0; // if the surface is refined
     unsigned int          n_steps          = 0;
     unsigned int          n_rejected       = 0;
-    std::optional<LumenMemory> lumen       = {};
+    /** Numbers of the effects: Tables::kept(). */
+    NamedNumbers kept = {};
     /** The volume that the surface enclosed at t = 0 over that of the cells;
      *  nothing if it was not closed. */
     std::optional<double> enclosed_share = {};
@@ -52,13 +53,13 @@ namespace Morula
   TimeSteps::State
   saved_time_steps(const SnapshotData<dim> &data);
 
-  /** The run state. @param has_lumen whether the scene has a lumen. @throws
-   *  InputError likewise */
+  /** The run state. @param kept the numbers of the effects at t = 0: what the
+   *  snapshot does not know of them is that. @throws InputError likewise */
   template <int dim>
   RunState
   saved_run_state(const SnapshotData<dim> &data,
                   const bool               has_boundary_ids,
-                  const bool               has_lumen);
+                  const NamedNumbers      &kept);
 } // namespace Morula
 
 #endif

@@ -88,6 +88,8 @@ namespace Morula
      *  closes the surface. @return whether that was anything. Collective. */
     bool
     carve();
+    void
+    begin_step_effects();
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);
@@ -106,6 +108,13 @@ namespace Morula
      *  by cell. Collective. */
     double
     error_of_step(const std::vector<double> &missed) const;
+    using MomentOfStep =
+      void (StepEffect<dim>::*)(Tissue<dim> &, const MomentOfRun<dim> &) const;
+    /** Calls this moment of all step effects. Collective. */
+    void
+    for_step_effects(const MomentOfStep moment,
+                     const double       t,
+                     const double       dt);
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution
@@ -130,6 +139,9 @@ namespace Morula
     complete_row();
     void
     count(const SplineSpace<dim> &space);
+    /** How many events of this kind the step had. Collective. */
+    std::uint64_t
+    count(const EventKind &kind) const;
     /** Whether the surface encloses another part of the cells' volume than at
      *  t = 0, by 5 % or more. */
     bool
@@ -174,6 +186,7 @@ namespace Morula
     std::vector<CellEvent>           events; // likewise
     NewtonReport                     newton_report;
     StatisticsRow                    row;
+    NamedNumbers                     of_step;   // columns of the effects
     std::optional<ConditionEstimate> condition; // if the scene asks for it
     /** The step's first attempt, if that has failed. */
     struct

@@ -4,7 +4,6 @@
 #ifndef morula_simulation_step_fields_h
 #define morula_simulation_step_fields_h
 
-#include <morula/output/statistics.h>
 #include <morula/simulation/announce.h>
 #include <morula/simulation/tissue_model.h>
 
@@ -52,9 +51,9 @@ namespace Morula
     void
     forget_configuration();
 
-    /** What statistics.csv says of the fields. Collective. */
-    std::vector<FieldStatistics>
-    statistics(const Tissue<dim> &tissue) const;
+    /** The fields' columns of statistics.csv. Collective. */
+    void
+    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const;
 
   private:
     /** The fields of one kind at @p t1. */

@@ -26,13 +26,15 @@ namespace Morula
     /** @throws InputError */
     explicit TissueModel(const Scene &scene);
 
-    const Scene                                         scene;
-    const TissueMaterial                                material;
-    const BoundaryConditions<dim>                       boundary_conditions;
-    const CellDevelopment<dim>                          development;
-    const Fields<dim>                                   fields;
-    const std::vector<std::unique_ptr<const Fate<dim>>> fates;
-    const std::vector<typename SceneEffects<dim>::NamedForce> forces;
+    const Scene                                          scene;
+    const Tables<dim>                                    tables;
+    const TissueMaterial                                 material;
+    const BoundaryConditions<dim>                        boundary_conditions;
+    const CellDevelopment<dim>                           development;
+    const Fields<dim>                                    fields;
+    const std::vector<std::unique_ptr<const Trait<dim>>> traits;
+    const std::vector<typename SceneEffects<dim>::NamedStepEffect> step_effects;
+    const std::vector<typename SceneEffects<dim>::NamedForce>      forces;
 
     /** The columns of the boundary points that the scene needs. */
     BoundaryColumns<dim>

@@ -11,8 +11,9 @@
 
 namespace Morula
 {
-  /** Sets the columns of @p row about the tissue at @p t (day), except those of
-   *  pieces, fields and lumen. The columns about the step stay. Collective. */
+  /** Sets the columns of @p row about the tissue at @p t (day); those of the
+   *  effects that count events or belong to the step are 0 then. Other columns
+   *  about the step stay. Collective. */
   template <int dim>
   void
   set_state(const TissueModel<dim> &model,

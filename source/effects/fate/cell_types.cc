@@ -5,6 +5,7 @@
 #include <morula/effects/fate/hazard.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/effects/tables.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,7 +16,8 @@ namespace Morula
   template <int dim>
   CellTypes<dim>::CellTypes(const CellTypesParameters &parameters,
                             const EffectSetting<dim>  &setting)
-    : random_seed(setting.random_seed)
+    : names(parameters.name_list())
+    , random_seed(setting.random_seed)
   {
     std::size_t most = 0;
     for (unsigned int type = 0; type < parameters.types.size(); ++type)
@@ -74,40 +76,106 @@ namespace Morula
 
 
   template <int dim>
-  std::pair<unsigned int, unsigned int>
-  CellTypes<dim>::daughters(const unsigned int type) const
+  typename CellTypes<dim>::Outlook
+  CellTypes<dim>::outlook(const PresentCell<dim>            &cell,
+                          const CellView<dim, const double> &row,
+                          const Stretch                     &stretch) const
   {
-    return daughters_[type];
+    const std::vector<Transition> &ways = transitions[cell.type()];
+    Outlook                        outlook;
+    if (ways.empty())
+      return outlook;
+    const unsigned int  n      = row.get(n_changes);
+    const std::uint64_t key    = cell.lineage_key();
+    const double        middle = 0.5 * (stretch.begin + stretch.end);
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      {
+        outlook.ways.push_back(
+          {cell.value(ways[k].rate, middle),
+           row.get(hazards[k]),
+           Random::transition_threshold(random_seed, key, n, k)});
+        const double latest = outlook.time.value_or(stretch.end);
+        if (const auto time = outlook.ways[k].event(stretch.begin, latest))
+          {
+            outlook.time = time;
+            outlook.to   = ways[k].to;
+          }
+      }
+    return outlook;
   }
 
 
   template <int dim>
-  std::optional<typename CellTypes<dim>::Change>
-  CellTypes<dim>::next_change(const PresentCell<dim>      &cell,
-                              const CellView<dim, double> &after,
-                              const double                 t0,
-                              const double                 t1) const
+  void
+  CellTypes<dim>::integrate(const Outlook               &outlook,
+                            const Stretch               &stretch,
+                            const double                 s,
+                            const CellView<dim, double> &row) const
   {
-    const std::vector<Transition> &ways = transitions[cell.type()];
-    std::optional<Change>          change;
-    if (ways.empty())
-      return change;
-    const unsigned int  n   = after.get(n_changes);
-    const std::uint64_t key = cell.lineage_key();
-    std::vector<Hazard> all;
-    for (std::size_t k = 0; k < ways.size(); ++k)
-      {
-        all.push_back({cell.value(ways[k].rate, 0.5 * (t0 + t1)),
-                       after.get(hazards[k]),
-                       Random::transition_threshold(random_seed, key, n, k)});
-        const double latest = change ? change->time : t1;
-        if (const auto time = all[k].event(t0, latest))
-          change = Change{*time, ways[k].to};
-      }
-    const double until = change ? change->time : t1;
-    for (std::size_t k = 0; k < ways.size(); ++k)
-      after.set(hazards[k], all[k].integral_at(t0, until));
-    return change;
+    for (std::size_t k = 0; k < outlook.ways.size(); ++k)
+      row.set(hazards[k], outlook.ways[k].integral_at(stretch.begin, s));
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  CellTypes<dim>::next(const PresentCell<dim>      &cell,
+                       const CellView<dim, double> &row,
+                       const Stretch               &stretch) const
+  {
+    const Outlook outlook = this->outlook(cell, row, stretch);
+    integrate(outlook, stretch, outlook.time.value_or(stretch.end), row);
+    return outlook.time;
+  }
+
+
+  template <int dim>
+  void
+  CellTypes<dim>::pass(const PresentCell<dim>      &cell,
+                       const CellView<dim, double> &row,
+                       const Stretch               &stretch,
+                       const double                 s) const
+  {
+    integrate(outlook(cell, cell.cell(), stretch), stretch, s, row);
+  }
+
+
+  template <int dim>
+  LifeAfter
+  CellTypes<dim>::happen(const PresentCell<dim>      &cell,
+                         const CellView<dim, double> &row,
+                         const Stretch               &stretch,
+                         const double                 s,
+                         std::vector<CellEvent>      &events) const
+  {
+    const unsigned int       to      = *outlook(cell, cell.cell(), stretch).to;
+    const StateColumns<dim> &columns = cell.reader().columns;
+    events.push_back({s, cell.id(), CellEvent::transition, cell.type(), to});
+    row.set(columns.type, to);
+    if (columns.type_since.exists())
+      row.set(columns.type_since, s);
+    row.set(n_changes, row.get(n_changes) + 1);
+    for (const Column<double> &hazard : hazards)
+      row.set(hazard, 0.);
+    return LifeAfter::goes_on;
+  }
+
+
+  template <int dim>
+  void
+  CellTypes<dim>::inherit(const CellView<dim, double> &daughter,
+                          const StateColumns<dim>     &columns,
+                          const unsigned int           which,
+                          const double                 birth) const
+  {
+    const unsigned int type = daughter.get(columns.type);
+    const unsigned int own =
+      which == 0 ? daughters_[type].first : daughters_[type].second;
+    if (own == type)
+      return;
+    daughter.set(columns.type, own);
+    if (columns.type_since.exists())
+      daughter.set(columns.type_since, birth);
   }
 
 
@@ -118,6 +186,8 @@ namespace Morula
   {
     const PastStep                &past = cell.reader().past;
     const std::vector<Transition> &ways = transitions[cell.type()];
+    if (!past.exists())
+      return;
     for (std::size_t k = 0; k < ways.size(); ++k)
       if (expected[k].exists())
         row.set(hazards[k],
@@ -130,10 +200,10 @@ namespace Morula
 
   template <int dim>
   void
-  CellTypes<dim>::expect_rates(const PresentCell<dim>      &cell,
-                               const CellView<dim, double> &row,
-                               const double                 t,
-                               const bool                   is_whole) const
+  CellTypes<dim>::expect(const PresentCell<dim>      &cell,
+                         const CellView<dim, double> &row,
+                         const double                 t,
+                         const bool                   is_whole) const
   {
     const std::vector<Transition> &ways = transitions[cell.type()];
     for (std::size_t k = 0; k < expected.size(); ++k)
@@ -146,24 +216,21 @@ namespace Morula
 
   template <int dim>
   void
-  CellTypes<dim>::change(const CellView<dim, double> &cell,
-                         const StateColumns<dim>     &columns,
-                         const unsigned int           to,
-                         const double                 time) const
+  CellTypes<dim>::declare(Tables<dim> &tables) const
   {
-    cell.set(columns.type, to);
-    if (columns.type_since.exists())
-      cell.set(columns.type_since, time);
-    if (n_changes.exists())
-      cell.set(n_changes, cell.get(n_changes) + 1);
-    for (const Column<double> &hazard : hazards)
-      cell.set(hazard, 0.);
+    tables.record_events();
+    for (unsigned int type = 0; type < names.size(); ++type)
+      tables.add_sum("cells_" + names[type],
+                     [type](const PresentCell<dim> &cell) {
+                       return cell.type() == type ? 1. : 0.;
+                     });
   }
 
 
   template <int dim>
   void
-  CellTypes<dim>::check_cell(const PresentCell<dim> &founder) const
+  CellTypes<dim>::check_cell(const PresentCell<dim> &founder,
+                             const double) const
   {
     for (const Transition &way : transitions[founder.type()])
       founder.value(way.rate, 0.);

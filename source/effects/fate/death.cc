@@ -4,6 +4,7 @@
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/effects/tables.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,7 @@ namespace Morula
 
   template <int dim>
   double
-  Death<dim>::time(const CellView<dim, const double> &cell) const
+  Death<dim>::time_of_death(const CellView<dim, const double> &cell) const
   {
     return is_dead(cell) ? cell.get(time_) :
                            std::numeric_limits<double>::infinity();
@@ -88,25 +89,86 @@ namespace Morula
 
   template <int dim>
   bool
-  Death<dim>::condition_holds(const PresentCell<dim> &cell,
-                              const double            t) const
+  Death<dim>::is_deadly() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  Death<dim>::strikes(const PresentCell<dim> &cell, const double t) const
   {
     return has_condition && cell.value(when, t) > 0.;
   }
 
 
   template <int dim>
-  std::optional<Hazard>
+  void
+  Death<dim>::strike(const PresentCell<dim>      &cell,
+                     const CellView<dim, double> &row,
+                     const double                 t,
+                     std::vector<CellEvent>      &events) const
+  {
+    kill(cell, row, t);
+    events.push_back(
+      {t, cell.id(), CellEvent::death, cell.type(), cell.type(), "when", true});
+  }
+
+
+  template <int dim>
+  Hazard
   Death<dim>::hazard(const PresentCell<dim>            &cell,
                      const CellView<dim, const double> &row,
-                     const double                       t0,
-                     const double                       t1) const
+                     const Stretch                     &stretch) const
+  {
+    return {cell.value(rate_, 0.5 * (stretch.begin + stretch.end)),
+            row.get(integral),
+            Random::death_threshold(random_seed, cell.lineage_key())};
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  Death<dim>::next(const PresentCell<dim>      &cell,
+                   const CellView<dim, double> &row,
+                   const Stretch               &stretch) const
   {
     if (!has_rate)
       return {};
-    return Hazard{cell.value(rate_, 0.5 * (t0 + t1)),
-                  row.get(integral),
-                  Random::death_threshold(random_seed, cell.lineage_key())};
+    const Hazard hazard = this->hazard(cell, row, stretch);
+    const auto   time   = hazard.event(stretch.begin, stretch.end);
+    row.set(integral,
+            hazard.integral_at(stretch.begin, time ? *time : stretch.end));
+    return time;
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::pass(const PresentCell<dim>      &cell,
+                   const CellView<dim, double> &row,
+                   const Stretch               &stretch,
+                   const double                 s) const
+  {
+    if (has_rate)
+      row.set(integral,
+              hazard(cell, cell.cell(), stretch).integral_at(stretch.begin, s));
+  }
+
+
+  template <int dim>
+  LifeAfter
+  Death<dim>::happen(const PresentCell<dim>      &cell,
+                     const CellView<dim, double> &row,
+                     const Stretch &,
+                     const double            s,
+                     std::vector<CellEvent> &events) const
+  {
+    kill(cell, row, s);
+    events.push_back(
+      {s, cell.id(), CellEvent::death, cell.type(), cell.type(), "rate"});
+    return LifeAfter::ends;
   }
 
 
@@ -116,7 +178,7 @@ namespace Morula
                         const CellView<dim, double> &row) const
   {
     const PastStep &past = cell.reader().past;
-    if (expected.exists() && !is_dead(row))
+    if (past.exists() && expected.exists())
       row.set(integral,
               with_missed(row.get(integral),
                           cell.value(rate_, past.middle()),
@@ -127,22 +189,13 @@ namespace Morula
 
   template <int dim>
   void
-  Death<dim>::expect_rate(const PresentCell<dim>      &cell,
-                          const CellView<dim, double> &row,
-                          const double                 t,
-                          const bool                   is_whole) const
+  Death<dim>::expect(const PresentCell<dim>      &cell,
+                     const CellView<dim, double> &row,
+                     const double                 t,
+                     const bool                   is_whole) const
   {
     if (expected.exists())
       row.set(expected, is_whole ? cell.value(rate_, t) : not_expected);
-  }
-
-
-  template <int dim>
-  void
-  Death<dim>::set_integral(const CellView<dim, double> &row,
-                           const double                 value) const
-  {
-    row.set(integral, value);
   }
 
 
@@ -189,7 +242,7 @@ namespace Morula
 
   template <int dim>
   bool
-  Death<dim>::may_remove_at_once() const
+  Death<dim>::may_strike() const
   {
     return has_condition && !(shrinking_time.is_constant() &&
                               shrinking_time.number().value_or(0.) > 0.);
@@ -197,10 +250,10 @@ namespace Morula
 
 
   template <int dim>
-  const Expression &
-  Death<dim>::rate() const
+  std::vector<const Expression *>
+  Death<dim>::rates(const unsigned int) const
   {
-    return rate_;
+    return {&rate_};
   }
 
 
@@ -218,6 +271,20 @@ namespace Morula
                                  const double                       t) const
   {
     return removal_time(cell) <= t + slack;
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::declare(Tables<dim> &tables) const
+  {
+    tables.record_events(true);
+    tables.add_sum("dying", [this](const PresentCell<dim> &cell) {
+      return is_dead(cell.cell()) ? 1. : 0.;
+    });
+    tables.add_count("deaths", CellEvent::death);
+    tables.add_count("removed", CellEvent::removal);
+    tables.add_number("pieces");
   }
 
 

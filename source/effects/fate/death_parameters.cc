@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/death.h>
+#include <morula/mechanics/material.h>
 
 namespace Morula
 {
@@ -54,11 +55,41 @@ namespace Morula
   }
 
 
-  bool
-  DeathParameters::shrinks() const
+  const AnyKey *
+  DeathParameters::switch_key() const
   {
-    return !shrinking_time.expression(3).is_always(0.) ||
-           !keep_debris.is_default() || keep_debris.differs_by_type();
+    return &rate;
+  }
+
+
+  std::string
+  DeathParameters::how_to_switch_on() const
+  {
+    return "Set " + rate.path() + " or " + when.path();
+  }
+
+
+  void
+  DeathParameters::check_with(const MaterialParameters &material) const
+  {
+    // Cells that go at once are never in the balance of momentum as dead ones.
+    const bool shrink = !shrinking_time.expression(3).is_always(0.) ||
+                        !keep_debris.is_default() ||
+                        keep_debris.differs_by_type();
+    if (shrink && !material.per_grown_volume())
+      material.energy_per.refuse(
+        "grown volume, as cells die and shrink",
+        "A shrunken cell would pull with the stiffness of a whole one. Cells "
+        "may also go at once: " +
+          shrinking_time.path() + " = 0.");
+  }
+
+
+  std::string
+  DeathParameters::details() const
+  {
+    return "rate = " + rate.text() + " /day, when = " + when.text() +
+           ", shrinking time = " + shrinking_time.text() + " day";
   }
 
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <Random123/philox.h>
+#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -210,6 +211,20 @@ namespace Morula::Random
   {
     return daughter_key(seed, founder_key, Draw::phase);
   }
+
+  double
+  threshold_of(const std::string  &name,
+               const std::uint64_t seed,
+               const std::uint64_t key,
+               const unsigned int  n)
+  {
+    boost::crc_32_type word;
+    word.process_bytes(name.data(), name.size());
+    word.process_bytes(&n, sizeof(n));
+    const auto draw = static_cast<std::uint32_t>(Draw::named) | word.checksum();
+    return exponential_of(bits(seed, key, draw, Domain::lineage));
+  }
+
 
   double
   noise(const std::uint64_t seed, const std::uint64_t key)

@@ -19,6 +19,16 @@ namespace Morula
 {
   namespace
   {
+    /** Whether some fate is like this. */
+    template <int dim, typename Condition>
+    bool
+    any_of(const Fates<dim> &fates, const Condition &condition)
+    {
+      return std::any_of(fates.begin(), fates.end(), [&](const auto &fate) {
+        return condition(*fate);
+      });
+    }
+
     /**
      * Hands the volumes of shrunken cells that go to those that stay in their
      * grid cell: without it each would leave a hole, and the tissue would
@@ -27,7 +37,7 @@ namespace Morula
     template <int dim>
     void
     hand_on(Tissue<dim>                     &tissue,
-            const Death<dim>                &death,
+            const Fates<dim>                &fates,
             const std::vector<unsigned int> &gone)
     {
       const Cells<dim> &cells = tissue.cells();
@@ -39,7 +49,9 @@ namespace Morula
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             if (next != gone.end() && *next == p)
               {
-                if (death.shrinks(cells[p]))
+                if (any_of(fates, [&](const Fate<dim> &fate) {
+                      return fate.shrinks(cells[p]);
+                    }))
                   from += cells.volume(p);
                 ++next;
               }
@@ -85,22 +97,29 @@ namespace Morula
                           std::back_inserter(left));
       return left;
     }
-    /** Whether Death/When kills a living cell at @p t (day), and it is to be
-     *  removed then. */
+
+    /** The fate that strikes a living cell at @p t (day) such that it is to be
+     *  removed then, or null. @throws InputError */
     template <int dim>
-    bool
-    goes_at_once(const PresentCell<dim> &cell,
-                 const Death<dim>       &death,
-                 const double            t)
+    const Fate<dim> *
+    takes_at_once(const Fates<dim>       &fates,
+                  const PresentCell<dim> &cell,
+                  const double            t)
     {
-      if (!death.condition_holds(cell, t))
-        return false;
-      std::vector<double>         row(cell.cell().row().begin(),
-                              cell.cell().row().end());
-      const CellView<dim, double> after(make_array_view(row),
-                                        cell.cell().columns());
-      death.kill(cell, after, t);
-      return death.is_due_for_removal(after, t);
+      for (const auto &fate : fates)
+        {
+          if (!fate->strikes(cell, t))
+            continue;
+          std::vector<double>         row(cell.cell().row().begin(),
+                                  cell.cell().row().end());
+          const CellView<dim, double> after(make_array_view(row),
+                                            cell.cell().columns());
+          std::vector<CellEvent>      events;
+          fate->strike(cell, after, t, events);
+          // The first that strikes a cell has it.
+          return fate->is_due_for_removal(after, t) ? fate.get() : nullptr;
+        }
+      return nullptr;
     }
 
     /** Boundary points of this rank whose nearest cell is one of these, by
@@ -125,34 +144,55 @@ namespace Morula
       return list;
     }
 
-    /** Cells of this rank that live, and that Death/When removes at @p t (day).
-     *  Where the condition has no value, the next step says so. Collective. */
+    /** A cell, by its place in the store, and what takes it at once. */
     template <int dim>
-    std::vector<unsigned int>
-    cells_to_cut(const Tissue<dim>     &tissue,
-                 const Death<dim>      &death,
-                 const CellReader<dim> &reader,
-                 const double           t)
+    struct Taken
     {
-      std::vector<unsigned int> list;
-      if (!death.may_remove_at_once())
-        return list;
+      unsigned int     p;
+      const Fate<dim> *by;
+    };
+
+    /** Living cells of this rank that are removed at once in the reader's
+     * state. Collective. @throws InputError on all ranks */
+    template <int dim>
+    std::vector<Taken<dim>>
+    cells_taken(const Tissue<dim>     &tissue,
+                const Fates<dim>      &fates,
+                const CellReader<dim> &reader)
+    {
+      std::vector<Taken<dim>> list;
+      everywhere(tissue.communicator(), [&]() {
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          if (!is_dead(fates, tissue.cells()[p]))
+            if (const Fate<dim> *fate = takes_at_once(
+                  fates, present_cell(tissue, p, reader), reader.time))
+              list.push_back({p, fate});
+      });
+      return list;
+    }
+
+    /** The same after a step. Where a condition has no value, the next step
+     *  says so. Collective. */
+    template <int dim>
+    std::vector<Taken<dim>>
+    cells_to_cut(const Tissue<dim>     &tissue,
+                 const Fates<dim>      &fates,
+                 const CellReader<dim> &reader)
+    {
+      if (!any_of(fates,
+                  [](const Fate<dim> &fate) { return fate.may_strike(); }))
+        return {};
       try
         {
-          everywhere(tissue.communicator(), [&]() {
-            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-              if (!death.is_dead(tissue.cells()[p]) &&
-                  goes_at_once(present_cell(tissue, p, reader), death, t))
-                list.push_back(p);
-          });
+          return cells_taken(tissue, fates, reader);
         }
       catch (const InputError &)
         {
-          list.clear();
+          return {};
         }
-      return list;
     }
   } // namespace
+
 
   template <int dim>
   std::vector<CellEvent>
@@ -161,66 +201,48 @@ namespace Morula
                     const double                t)
   {
     const Cells<dim>         &cells  = tissue.cells();
+    const Fates<dim>         &fates  = development.fates();
     const CellReader<dim>     reader = development.reader(t);
     std::vector<unsigned int> gone;
     std::vector<CellEvent>    events;
-    for (const unsigned int p :
-         cells_to_cut(tissue, *development.death(), reader, t))
-      {
-        const PresentCell<dim> cell = present_cell(tissue, p, reader);
-        development.death()->kill(cell, tissue.cell(p), t);
-        events.push_back({t,
-                          cell.id(),
-                          CellEvent::Kind::death,
-                          cell.type(),
-                          cell.type(),
-                          DeathCause::when});
-      }
+    for (const auto &[p, fate] : cells_to_cut(tissue, fates, reader))
+      fate->strike(present_cell(tissue, p, reader), tissue.cell(p), t, events);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (development.death()->is_due_for_removal(cells[p], t))
-        {
-          const unsigned int type =
-            PresentCell<dim>(cells[p], cells.id(p), cells.position(p), reader)
-              .type();
-          gone.push_back(p);
-          events.push_back({development.death()->removal_time(cells[p]),
-                            cells.id(p),
-                            CellEvent::Kind::removal,
-                            type,
-                            type});
-        }
-    hand_on(tissue, *development.death(), gone);
+      for (const auto &fate : fates)
+        if (fate->is_due_for_removal(cells[p], t))
+          {
+            const unsigned int type = present_cell(tissue, p, reader).type();
+            gone.push_back(p);
+            events.push_back({fate->removal_time(cells[p]),
+                              cells.id(p),
+                              CellEvent::removal,
+                              type,
+                              type});
+            break;
+          }
+    hand_on(tissue, fates, gone);
     if (Utilities::MPI::max(gone.size(), tissue.communicator()) > 0)
       tissue.remove({}, take_out(tissue, gone));
     return events;
   }
 
+
   template <int dim>
   std::vector<CellEvent>
   carve(Tissue<dim> &tissue, const CellDevelopment<dim> &development)
   {
-    const Death<dim>         &death  = *development.death();
-    const Cells<dim>         &cells  = tissue.cells();
     const CellReader<dim>     reader = development.reader(0.);
     std::vector<unsigned int> gone;
     std::vector<CellEvent>    events;
-    everywhere(tissue.communicator(), [&]() {
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        {
-          const PresentCell<dim> cell(cells[p],
-                                      cells.id(p),
-                                      cells.position(p),
-                                      reader);
-          if (!goes_at_once(cell, death, 0.))
-            continue;
-          const types::particle_index id   = cells.id(p);
-          const unsigned int          type = cell.type();
-          gone.push_back(p);
-          events.push_back(
-            {0., id, CellEvent::Kind::death, type, type, DeathCause::when});
-          events.push_back({0., id, CellEvent::Kind::removal, type, type});
-        }
-    });
+    for (const auto &[p, fate] :
+         cells_taken(tissue, development.fates(), reader))
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        gone.push_back(p);
+        fate->strike(cell, tissue.cell(p), 0., events);
+        events.push_back(
+          {0., cell.id(), CellEvent::removal, cell.type(), cell.type()});
+      }
     if (Utilities::MPI::logical_or(!gone.empty(), tissue.communicator()))
       tissue.remove(gone, points_of(tissue, gone));
     return events;

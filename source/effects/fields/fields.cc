@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/fields/fields.h>
+#include <morula/effects/tables.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -221,6 +222,16 @@ namespace Morula
     for (unsigned int k = 0; k < fields.size(); ++k)
       if (fields[k].is_diluted())
         cell.set(columns[k], cell.get(columns[k]) / ratio);
+  }
+
+
+  template <int dim>
+  void
+  Fields<dim>::declare(Tables<dim> &tables) const
+  {
+    for (const Field<dim> &field : fields)
+      for (const std::string what : {"min", "mean", "max", "clipped"})
+        tables.add_number(field.name() + "_" + what);
   }
 
 

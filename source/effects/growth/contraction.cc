@@ -45,6 +45,28 @@ namespace Morula
   }
 
 
+  const AnyKey *
+  ContractionParameters::switch_key() const
+  {
+    return &stretch;
+  }
+
+
+  std::string
+  ContractionParameters::how_to_switch_on() const
+  {
+    return "Set " + stretch.path();
+  }
+
+
+  std::string
+  ContractionParameters::details() const
+  {
+    return "gamma = " + stretch.text() + ", along " + direction.text() +
+           (keep_volume ? ", keeps volume" : "");
+  }
+
+
   KeyList
   ContractionParameters::list()
   {
@@ -85,9 +107,10 @@ namespace Morula
 
   template <int dim>
   Tensor<2, dim>
-  Contraction<dim>::strain(const PresentCell<dim>      &before,
+  Contraction<dim>::factor(const PresentCell<dim>      &before,
                            const CellView<dim, double> &after,
-                           const double                 t1) const
+                           const double,
+                           const double t1) const
   {
     const double gamma = before.value(stretch, t1);
     after.set(column, gamma);

@@ -43,40 +43,89 @@ namespace Morula
   } // namespace
 
 
-  template <int dim>
-  Relaxation<dim>::Relaxation(const MaterialParameters &parameters,
-                              StateColumns<dim>        &state,
-                              CellColumns<dim>         &columns)
-    : time(state.use(parameters.relaxation_time))
-    , yield_stress(state.use(parameters.yield_stress))
-    , passes(parameters.relaxation_passes)
-    , material(parameters)
-    , motion(columns.template add<SymmetricTensor<2, dim>>(
-        {"motion_of_step",
-         "",
-         "f^T f of the last step: its stretch, squared",
-         unit_symmetric_tensor<dim>()}))
-  {}
+  RelaxationParameters::RelaxationParameters()
+    : time(
+        "Material/Relaxation time",
+        "0",
+        "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
+        "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
+        "day.",
+        Evaluated::step)
+    , yield_stress("Material/Yield stress",
+                   "0",
+                   "The von Mises stress up to which nothing relaxes; >= 0. "
+                   "Units: kPa.",
+                   Evaluated::step)
+    , passes("Material/Relaxation passes",
+             1,
+             "Into how many parts the relaxation of a step with a "
+             "Yield stress is cut. More are more exact where tissue "
+             "is held, and less so under a load.",
+             {1, 10000})
+  {
+    time.not_negative("day", "0 is elastic tissue.");
+    yield_stress.not_negative("kPa", "With 0 any shear stress relaxes.");
+  }
+
+
+  bool
+  RelaxationParameters::is_on() const
+  {
+    return !time.expression(3).is_always(0.);
+  }
+
+
+  std::string
+  RelaxationParameters::details() const
+  {
+    return "tau = " + time.text() +
+           " day, yield stress = " + yield_stress.text() + " kPa";
+  }
+
+
+  KeyList
+  RelaxationParameters::list()
+  {
+    return {&time, &yield_stress, &passes};
+  }
 
 
   template <int dim>
-  typename Relaxation<dim>::FlowOfStep
+  Relaxation<dim>::Relaxation(const Parameters         &parameters,
+                              const EffectSetting<dim> &setting)
+    : time(setting.state.use(parameters.time))
+    , yield_stress(setting.state.use(parameters.yield_stress))
+    , keys(parameters)
+  {
+    setting.columns.need_growth();
+    motion = setting.columns.template add<SymmetricTensor<2, dim>>(
+      {"motion_of_step",
+       "",
+       "f^T f of the last step: its stretch, squared",
+       unit_symmetric_tensor<dim>()});
+  }
+
+
+  template <int dim>
+  FlowOfStep<dim>
   Relaxation<dim>::flow(const PresentCell<dim> &cell,
-                        const Tensor<2, dim>   &before,
-                        const Tensor<2, dim>   &F_g,
-                        const double            t0,
-                        const double            t1) const
+                        const CellView<dim, double> &,
+                        const Tensor<2, dim> &before,
+                        const Tensor<2, dim> &F_g,
+                        const double          t0,
+                        const double          t1) const
   {
     const double t = 0.5 * (t0 + t1);
-    Flow         flow{cell.value(time, t)};
+    FlowLaw      flow{cell.value(time, t)};
     if (flow.relaxation_time == 0.)
-      return {Tensor<2, dim>(unit_symmetric_tensor<dim>()), 0.};
-    const CellView<dim, const double> &view = cell.cell();
-    const Tensor<2, dim>               F    = view.F();
+      return {};
+    const CellView<dim, const double> &view     = cell.cell();
+    const TissueMaterial              &material = cell.reader().material;
+    const Tensor<2, dim>               F        = view.F();
     const Tensor<2, dim>               F_then =
       Tensor<2, dim>(forecast(view, cell.reader().past, t1 - t0)) * F;
     const Tensor<2, dim> end = F_then * invert(F_g);
-    flow.passes              = passes;
+    flow.passes              = keys.passes;
     // Of τ = V σ / W.
     flow.yield_stress =
       cell.value(yield_stress, t) *
@@ -88,8 +137,10 @@ namespace Morula
     const double         gamma = (t1 - t0) / flow.relaxation_time;
     const double         w = flow.yield_stress > 0. ? 1. : weight_of_end(gamma);
     const Tensor<2, dim> F_e = end + (1. - w) * (F * invert(before) - end);
-    return {Tensor<2, dim>(flow_of_step<dim>(
-              F_e, cell.lame(), material.material(), flow, t1 - t0)),
+    const Tensor<2, dim> D(
+      flow_of_step<dim>(F_e, cell.lame(), material.material(), flow, t1 - t0));
+    const bool flows = D != Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
             w * -std::expm1(-gamma)};
   }
 
@@ -111,6 +162,14 @@ namespace Morula
                                    const Tensor<2, dim>        &f) const
   {
     cell.set(motion, symmetrize(transpose(f) * f));
+  }
+
+
+  template <int dim>
+  bool
+  Relaxation<dim>::has_forecast() const
+  {
+    return true;
   }
 
 
@@ -140,6 +199,14 @@ namespace Morula
   void
   Relaxation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
+    if (keys.passes > 1 && keys.yield_stress.expression(3).is_always(0.))
+      review.warn(keys.passes.path(),
+                  keys.passes.text(),
+                  "the flow of a step is exact in one pass where there is no " +
+                    keys.yield_stress.path() + ", so this is ignored.",
+                  "Leave it out.");
+    if (!scene.is_loaded)
+      return;
     // What depends on the state, only the run can tell.
     constexpr double none     = std::numeric_limits<double>::max();
     double           shortest = none;

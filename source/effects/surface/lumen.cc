@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/lumen.h>
+#include <morula/effects/tables.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -254,6 +255,17 @@ namespace Morula
                     " times Grid/Spacing; at 2 times its pressure was 20 % "
                     "wrong (doc/theory.md, section 4.3).",
                   "Choose a Grid/Spacing of at most a third of its width.");
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::declare(Tables<dim> &tables) const
+  {
+    tables.add_number("lumen_volume");
+    tables.add_number("lumen_pressure");
+    tables.keep_number("lumen_at_start", 0.);
+    tables.keep_number("lumen_pressure", 0.);
   }
 
 

@@ -105,20 +105,22 @@ namespace
     make(const typename Rule<dim>::Parameters &keys,
          const CellCycleParameters            &cycle_keys)
     {
-      CellColumns<dim>         columns;
-      StateColumns<dim>        state;
-      DevelopmentEffects<dim>  effects;
-      const EffectSetting<dim> setting{seed, slack, columns, state};
+      CellColumns<dim>                   columns;
+      StateColumns<dim>                  state;
+      DevelopmentEffects<dim>            effects;
+      const EffectSetting<dim>           setting{seed, slack, columns, state};
+      typename Proliferation<dim>::Rules rules;
       if constexpr (std::is_constructible<
                       Rule<dim>,
                       const typename Rule<dim>::Parameters &,
                       const EffectSetting<dim> &>::value)
-        effects.rules.push_back(
-          std::make_unique<const Rule<dim>>(keys, setting));
+        rules.push_back(std::make_unique<const Rule<dim>>(keys, setting));
       else
-        effects.rules.push_back(std::make_unique<const Rule<dim>>(keys));
-      effects.cycle.emplace(cycle_keys, seed, slack, state);
-      effects.clock.emplace(columns);
+        rules.push_back(std::make_unique<const Rule<dim>>(keys));
+      auto proliferation = std::make_unique<Proliferation<dim>>(
+        CellCycle<dim>(cycle_keys, seed, slack, state), columns, seed);
+      proliferation->set_rules(std::move(rules));
+      effects.proliferation = effects.add_fate(std::move(proliferation));
       state.declare(columns);
       return CellDevelopment<dim>(std::move(effects),
                                   columns,

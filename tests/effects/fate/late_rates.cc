@@ -32,7 +32,7 @@ namespace
     const Lives         lives = lead(scene_of(all), n_founders, 1.6, step);
     std::vector<double> times = lives.births;
     for (const CellEvent &event : lives.events)
-      if (event.kind != CellEvent::Kind::removal)
+      if (!(event.kind == CellEvent::removal))
         times.push_back(event.time);
     return times;
   }

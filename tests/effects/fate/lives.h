@@ -150,7 +150,7 @@ namespace Morula
             for (const auto &birth : divisions.births)
               lives.births.push_back(birth.time);
           }
-        if (development.death() != nullptr)
+        if (development.is_mortal())
           note(remove_dead_cells(tissue, development, t1));
       }
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)

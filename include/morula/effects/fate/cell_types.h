@@ -4,10 +4,12 @@
 #ifndef morula_effects_fate_cell_types_h
 #define morula_effects_fate_cell_types_h
 
-#include <morula/effects/effect.h>
 #include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/effects/fate/fate.h>
+#include <morula/effects/fate/hazard.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,7 +24,7 @@ namespace Morula
    * the rates do not depend on steps, neither do the events.
    */
   template <int dim>
-  class CellTypes
+  class CellTypes : public Fate<dim>
   {
   public:
     /** Only with at least one type. @throws InputError */
@@ -34,60 +36,49 @@ namespace Morula
     unsigned int
     founder_type(const Point<dim> &X) const;
 
-    /** The types of the daughters of a cell of this type, -n_s daughter first.
-     */
-    std::pair<unsigned int, unsigned int>
-    daughters(const unsigned int type) const;
-
-    /** A change that is due. */
-    struct Change
-    {
-      double       time; // day
-      unsigned int to;   // number of the type
-    };
-
-    /**
-     * The first change of type in (t0, t1], if there is one; until then, or t1,
-     * the integrals go on. The rates are those of the cell's present type.
-     * @param cell  in its state, but of its present type
-     * @param after the row that keeps the integrals
-     * @throws InputError for negative rates
-     */
-    std::optional<Change>
-    next_change(const PresentCell<dim>      &cell,
-                const CellView<dim, double> &after,
-                const double                 t0,
-                const double                 t1) const;
-
-    /** Adds what the last step missed of the rates' integrals, where rates
-     *  follow the state: doc/theory.md (5.9). */
     void
     make_good(const PresentCell<dim>      &cell,
-              const CellView<dim, double> &row) const;
+              const CellView<dim, double> &row) const override;
 
-    /** Keeps the rates for the time @p t (day), the middle of the step, if the
-     *  next step is to compare them: if the cell has @p is_whole lived the step
-     *  without an event. */
+    std::optional<double>
+    next(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch) const override;
+
     void
-    expect_rates(const PresentCell<dim>      &cell,
-                 const CellView<dim, double> &row,
-                 const double                 t,
-                 const bool                   is_whole) const;
+    pass(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch,
+         const double                 s) const override;
 
-    /** Gives a cell another type. @param time day */
+    LifeAfter
+    happen(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const Stretch               &stretch,
+           const double                 s,
+           std::vector<CellEvent>      &events) const override;
+
     void
-    change(const CellView<dim, double> &cell,
-           const StateColumns<dim>     &columns,
-           const unsigned int           to,
-           const double                 time) const;
+    expect(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const double                 t,
+           const bool                   is_whole) const override;
 
-    /** Refuses negative rates of a founder in its state. @throws InputError */
     void
-    check_cell(const PresentCell<dim> &founder) const;
+    inherit(const CellView<dim, double> &daughter,
+            const StateColumns<dim>     &columns,
+            const unsigned int           which,
+            const double                 birth) const override;
 
-    /** The rates with which cells of a type leave it. */
+    void
+    declare(Tables<dim> &tables) const override;
+
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
     std::vector<const Expression *>
-    rates(const unsigned int type) const;
+    rates(const unsigned int type) const override;
 
     /** Number of types. */
     unsigned int
@@ -100,6 +91,30 @@ namespace Morula
       Expression   rate;
     };
 
+    /** The ways out of a cell's type in a stretch, and the first that is taken.
+     */
+    struct Outlook
+    {
+      std::vector<Hazard>         ways;
+      std::optional<double>       time; // day
+      std::optional<unsigned int> to;   // number of the type
+    };
+
+    /** @param row that of the beginning of the stretch. @throws InputError for
+     *  negative rates */
+    Outlook
+    outlook(const PresentCell<dim>            &cell,
+            const CellView<dim, const double> &row,
+            const Stretch                     &stretch) const;
+
+    /** Keeps the integrals of the ways at @p s, day. */
+    void
+    integrate(const Outlook               &outlook,
+              const Stretch               &stretch,
+              const double                 s,
+              const CellView<dim, double> &row) const;
+
+    std::vector<std::string>                           names;
     std::uint64_t                                      random_seed;
     std::vector<std::optional<Expression>>             where;
     std::vector<std::pair<unsigned int, unsigned int>> daughters_;

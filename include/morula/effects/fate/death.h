@@ -5,16 +5,13 @@
 #define morula_effects_fate_death_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/effect.h>
+#include <morula/effects/fate/fate.h>
 #include <morula/effects/fate/hazard.h>
 
 #include <optional>
 
 namespace Morula
 {
-  template <int dim>
-  class PresentCell;
-
   /** Section "Death". */
   struct DeathParameters : public EffectKeys
   {
@@ -29,10 +26,18 @@ namespace Morula
     bool
     is_on() const override;
 
-    /** Whether cells shrink before they are removed, or stay as debris: then
-     *  dead cells are in the balance of momentum. */
-    bool
-    shrinks() const;
+    const AnyKey *
+    switch_key() const override;
+
+    std::string
+    how_to_switch_on() const override;
+
+    /** Refuses dead cells that shrink with the stiffness of whole ones. */
+    void
+    check_with(const MaterialParameters &material) const override;
+
+    std::string
+    details() const override;
 
     using Keys::list;
     KeyList
@@ -47,7 +52,7 @@ namespace Morula
    * Keeps its state in columns of the cells.
    */
   template <int dim>
-  class Death : public Effect<dim>
+  class Death : public Fate<dim>
   {
   public:
     using Parameters = DeathParameters;
@@ -59,88 +64,92 @@ namespace Morula
     bool
     is_dead(const CellView<dim, const double> &cell) const;
 
-    /** When the cell died, day; infinity: it lives. */
-    double
-    time(const CellView<dim, const double> &cell) const;
-
     /** Whether the condition kills a living cell, at time @p t (day).
      *  @throws InputError */
     bool
-    condition_holds(const PresentCell<dim> &cell, const double t) const;
+    strikes(const PresentCell<dim> &cell, const double t) const override;
 
-    /**
-     * The chance of death in (t0, t1]; none without a rate.
-     * @param cell in its state
-     * @param row  keeps the integral
-     * @throws InputError for negative rates
-     */
-    std::optional<Hazard>
-    hazard(const PresentCell<dim>            &cell,
-           const CellView<dim, const double> &row,
-           const double                       t0,
-           const double                       t1) const;
+    void
+    strike(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const double                 t,
+           std::vector<CellEvent>      &events) const override;
 
-    /** Adds what the last step missed of the rate's integral, if the rate
-     *  follows the state: doc/theory.md (5.9). */
     void
     make_good(const PresentCell<dim>      &cell,
-              const CellView<dim, double> &row) const;
+              const CellView<dim, double> &row) const override;
 
-    /** Keeps the rate for the time @p t (day), the middle of the step, if the
-     *  next step is to compare it: if the cell has @p is_whole lived the step
-     *  without an event. */
-    void
-    expect_rate(const PresentCell<dim>      &cell,
-                const CellView<dim, double> &row,
-                const double                 t,
-                const bool                   is_whole) const;
-
-    /** Keeps the integral of the rate. Only with a hazard. */
-    void
-    set_integral(const CellView<dim, double> &row, const double value) const;
-
-    /**
-     * Lets the cell die at @p t (day). Shrinking time, final volume and whether
-     * debris stays are evaluated now.
-     * @throws InputError
-     */
-    void
-    kill(const PresentCell<dim>      &cell,
+    std::optional<double>
+    next(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
-         const double                 t) const;
+         const Stretch               &stretch) const override;
 
-    /** Lets a dead cell shrink until @p t (day). Returns the factor by which
-     *  the stretch of F_g changes, and stores it. */
-    double
-    shrink(const CellView<dim, double> &row, const double t) const;
+    void
+    pass(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch,
+         const double                 s) const override;
 
-    /** When the cell will be removed, day; infinity: never, as far as is known.
-     */
-    double
-    removal_time(const CellView<dim, const double> &cell) const;
+    LifeAfter
+    happen(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const Stretch               &stretch,
+           const double                 s,
+           std::vector<CellEvent>      &events) const override;
 
-    /** Whether the condition may remove cells at once. */
+    void
+    expect(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const double                 t,
+           const bool                   is_whole) const override;
+
     bool
-    may_remove_at_once() const;
+    is_deadly() const override;
 
-    /** The rate with which living cells die, 1/day. */
-    const Expression &
-    rate() const;
-
-    /** Whether a dead cell shrinks over time before it is removed. */
     bool
-    shrinks(const CellView<dim, const double> &cell) const;
+    may_strike() const override;
 
-    /** Whether it is removed at @p t (day) at the latest. */
+    double
+    time_of_death(const CellView<dim, const double> &cell) const override;
+
+    double
+    shrink(const CellView<dim, double> &row, const double t) const override;
+
+    double
+    removal_time(const CellView<dim, const double> &cell) const override;
+
     bool
     is_due_for_removal(const CellView<dim, const double> &cell,
-                       const double                       t) const;
+                       const double                       t) const override;
+
+    bool
+    shrinks(const CellView<dim, const double> &cell) const override;
+
+    std::vector<const Expression *>
+    rates(const unsigned int type) const override;
+
+    void
+    declare(Tables<dim> &tables) const override;
 
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
   private:
+    /** The chance of death from the beginning of a stretch on, in a row of that
+     *  time. Only with a rate. @throws InputError for negative rates */
+    Hazard
+    hazard(const PresentCell<dim>            &cell,
+           const CellView<dim, const double> &row,
+           const Stretch                     &stretch) const;
+
+    /** Lets the cell die at @p t (day). Shrinking time, final volume and
+     * whether debris stays are evaluated now. @throws InputError */
+    void
+    kill(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const double                 t) const;
+
     Expression           rate_, when, shrinking_time, final_volume;
     Expression           keep_debris;
     bool                 has_rate, has_condition;

@@ -6,23 +6,151 @@
 
 #include <morula/effects/effect.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/particles/cell_event.h>
+
+#include <optional>
+#include <vector>
 
 namespace Morula
 {
+  /** A time in which nothing happens to a cell, but perhaps at its end. */
+  struct Stretch
+  {
+    double begin, end; // day
+  };
+
+  /** What an event leaves of a cell's life in the step. */
+  enum class LifeAfter
+  {
+    goes_on,
+    divides, // what comes after the division happens to the daughters
+    ends
+  };
+
   /**
-   * What becomes of a cell over time, besides its growth and its cell cycle: a
-   * state in columns of its own, which other effects may read by the columns'
-   * names. The columns declare what a daughter inherits.
+   * What befalls cells, at exact times: the cell cycle, death, changes of type,
+   * a program's own. live() asks all fates of a cell for their next event and
+   * lets the first one happen; of two at the same time that of the later fate.
+   *
+   * A fate keeps nothing between calls: its integrals and clocks are in columns
+   * of the cell. @p cell is always the cell in its state at the beginning of
+   * the step, but of its present type, with the fate's columns as they are at
+   * the beginning of the stretch; @p row is to be written.
    */
   template <int dim>
   class Fate : public Effect<dim>
   {
   public:
-    void
-    advance(const PresentCell<dim>      &before,
-            const CellView<dim, double> &after,
-            const double                 t0,
-            const double                 t1) const override = 0;
+    /** Adds what the last step missed of integrals whose rates follow the
+     *  state, doc/theory.md (5.9), to the row of a living cell. */
+    virtual void
+    make_good(const PresentCell<dim>      &before,
+              const CellView<dim, double> &row) const;
+
+    /**
+     * Takes the fate's columns to the end of the stretch, or to the fate's next
+     * event if that comes before.
+     * @return when it comes, day; nothing if it does not
+     * @throws InputError for rates without a value
+     */
+    virtual std::optional<double>
+    next(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch) const = 0;
+
+    /** Takes the columns of @p cell to @p s (day) only: another fate's event
+     *  has come, before the end of the stretch of next(). */
+    virtual void
+    pass(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch,
+         const double                 s) const;
+
+    /** The event of next() happens at @p s, day. @param events gets what
+     *  events.csv shall tell. */
+    virtual LifeAfter
+    happen(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const Stretch               &stretch,
+           const double                 s,
+           std::vector<CellEvent>      &events) const = 0;
+
+    /** Keeps what the next step will compare in make_good().
+     *  @param t        middle of the step, day
+     *  @param is_whole whether nothing has happened to the cell in it */
+    virtual void
+    expect(const PresentCell<dim>      &before,
+           const CellView<dim, double> &row,
+           const double                 t,
+           const bool                   is_whole) const;
+
+    /** The cell's life ends at @p s (day), by this fate or another: sets what a
+     *  dead cell has of this one. */
+    virtual void
+    end_of_life(const PresentCell<dim>      &cell,
+                const CellView<dim, double> &row,
+                const double                 s) const;
+
+    /** Sets what distinguishes a daughter from her mother. @param which 0 for
+     *  the one at -n_s, 1 for the other. @param birth day */
+    virtual void
+    inherit(const CellView<dim, double> &daughter,
+            const StateColumns<dim>     &columns,
+            const unsigned int           which,
+            const double                 birth) const;
+
+    /** The rates, 1/day, with which the fate befalls cells of a type. */
+    virtual std::vector<const Expression *>
+    rates(const unsigned int type) const;
+
+    /** @name Fates that end lives */
+    ///@{
+
+    /** Whether lives may end by this fate at all. */
+    virtual bool
+    is_deadly() const;
+
+    /** Whether strikes() may tell of cells that are then removed at once. */
+    virtual bool
+    may_strike() const;
+
+    /** Whether the fate ends the life of a living cell at once, in its state at
+     *  @p t, day. Asked at the beginning of a step, and at its end of cells
+     *  that are then removed. @throws InputError */
+    virtual bool
+    strikes(const PresentCell<dim> &cell, const double t) const;
+
+    /** Ends the life of a cell that strikes() has told of. */
+    virtual void
+    strike(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const double                 t,
+           std::vector<CellEvent>      &events) const;
+
+    /** When the cell's life ended by this fate, day; infinity: it did not. */
+    virtual double
+    time_of_death(const CellView<dim, const double> &cell) const;
+
+    /** The factor by which the stretch of F_g of a cell that died of this fate
+     *  changes until @p t, day; may note it in the row. doc/theory.md (6.9) */
+    virtual double
+    shrink(const CellView<dim, double> &row, const double t) const;
+
+    /** When the dead cell will be removed, day; infinity: never. */
+    virtual double
+    removal_time(const CellView<dim, const double> &cell) const;
+
+    /** Whether the cell is to be removed at @p t (day) at the latest. */
+    virtual bool
+    is_due_for_removal(const CellView<dim, const double> &cell,
+                       const double                       t) const;
+
+    /** Whether the cell shrinks before it is removed, so that its place is that
+     *  of the cells around it: doc/theory.md (6.9b). */
+    virtual bool
+    shrinks(const CellView<dim, const double> &cell) const;
+
+    ///@}
   };
 } // namespace Morula
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <cstdint>
+#include <string>
 
 /**
  * Random numbers as pure functions of (seed, lineage key, draw), from the
@@ -28,7 +29,9 @@ namespace Morula::Random
     phase,
     death,
     // and from here on, one for each entry into a type and each way out of it
-    transition = 0x1000
+    transition = 0x1000,
+    // and from here on, by the names of effects
+    named = 0x80000000
   };
 
   /** Key of founder number @p id. */
@@ -60,6 +63,15 @@ namespace Morula::Random
    *  cell's life. */
   double
   death_threshold(const std::uint64_t seed, const std::uint64_t key);
+
+  /** Exponentially distributed with mean 1, for an effect of this name: when
+   *  the hazard number @p n that it has of the cell brings its event. Draws of
+   *  other names and numbers are independent of it. */
+  double
+  threshold_of(const std::string  &name,
+               const std::uint64_t seed,
+               const std::uint64_t key,
+               const unsigned int  n = 0);
 
   /** Uniform in (0, 1), the cell's own. */
   double

@@ -88,6 +88,11 @@ namespace Morula
     void
     dilute(const CellView<dim, double> &cell, const double ratio) const;
 
+    /** Least, mean and largest values in statistics.csv, and how many were
+     *  clipped. */
+    void
+    declare(Tables<dim> &tables) const;
+
     /** All 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;

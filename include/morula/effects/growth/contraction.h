@@ -5,7 +5,7 @@
 #define morula_effects_growth_contraction_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/effect.h>
+#include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/state/direction.h>
 
 #include <deal.II/base/tensor.h>
@@ -26,6 +26,15 @@ namespace Morula
     bool
     is_on() const override;
 
+    const AnyKey *
+    switch_key() const override;
+
+    std::string
+    how_to_switch_on() const override;
+
+    std::string
+    details() const override;
+
     using Keys::list;
     KeyList
     list() override;
@@ -45,7 +54,7 @@ namespace Morula
 
   /** Cells that contract, as a part of F_g: doc/theory.md, section 9. */
   template <int dim>
-  class Contraction : public Effect<dim>
+  class Contraction : public GrowthFactor<dim>
   {
   public:
     using Parameters = ContractionParameters;
@@ -60,9 +69,10 @@ namespace Morula
      * @throws InputError if γ is not positive
      */
     Tensor<2, dim>
-    strain(const PresentCell<dim>      &before,
+    factor(const PresentCell<dim>      &before,
            const CellView<dim, double> &after,
-           const double                 t1) const;
+           const double                 t0,
+           const double                 t1) const override;
 
     void
     check_cell(const PresentCell<dim> &founder,

@@ -89,6 +89,11 @@ namespace Morula
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
 
+    /** Volume and pressure in statistics.csv; what it had at t = 0 and its last
+     *  pressure are kept. */
+    void
+    declare(Tables<dim> &tables) const override;
+
     void
     check(const Preview<dim> &scene) const override;
     void

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_step_effect_h
+#define morula_effects_step_effect_h
+
+#include <morula/effects/tables.h>
+
+namespace Morula
+{
+  /** A moment of a run. */
+  template <int dim>
+  struct MomentOfRun
+  {
+    /** The time of the cells' state, day. */
+    double t;
+    /** Length of the step, day; 0 at the start of a run. */
+    double dt;
+    /** Reads the cells' variables. */
+    const CellReader<dim> &reader;
+    /** What outlives a step, of those declared by Tables::keep_number(). The
+     *  same on all ranks. */
+    NamedNumbers &kept;
+    /** Values of the columns of Tables::add_number(), likewise. */
+    NamedNumbers &of_step;
+  };
+
+  /**
+   * Something that happens to the tissue as a whole once a step, or that a run
+   * keeps account of. Both moments see a tissue that is whole: no attempt is
+   * under way, so that a step that is halved calls nothing twice. Collective.
+   */
+  template <int dim>
+  class StepEffect : public Effect<dim>
+  {
+  public:
+    /** The run begins at t = 0, or goes on from a snapshot whose numbers are in
+     *  @p moment already. */
+    virtual void
+    start(const Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+
+    /** The step begins, at @p moment.t: may write the cells' columns, but for
+     *  deformation and growth. */
+    virtual void
+    before(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+
+    /** The step is done, at @p moment.t its end: cells have moved, divided and
+     *  been removed. May write columns likewise. */
+    virtual void
+    after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/base/time_parameters.h>
+#include <morula/effects/fate/life.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace Morula
+{
+  namespace
+  {
+    /** More events of a cell in a step are a mistake in some rate. */
+    constexpr unsigned int most_events = 1000;
+
+    /** A copy of a cell's row, and a number for each fate: as a rule without
+     *  memory from the heap. */
+    using Row          = boost::container::small_vector<double, 128>;
+    using NumberOfFate = boost::container::small_vector<double, 8>;
+
+    /** The first event of a cell, and what the fates were asked. */
+    struct NextEvent
+    {
+      NumberOfFate               asked_until; // day
+      double                     time;        // day; the end if there is none
+      std::optional<std::size_t> fate;
+    };
+
+    /** Asks each fate for an event before those of the fates before it. */
+    template <int dim>
+    NextEvent
+    next_event(const Fates<dim>            &fates,
+               const PresentCell<dim>      &cell,
+               const CellView<dim, double> &row,
+               const double                 t,
+               const double                 t1)
+    {
+      NextEvent first{NumberOfFate(fates.size()), t1, {}};
+      for (std::size_t k = 0; k < fates.size(); ++k)
+        {
+          first.asked_until[k] = first.time;
+          if (const auto time = fates[k]->next(cell, row, {t, first.time}))
+            {
+              first.time = *time;
+              first.fate = k;
+            }
+        }
+      return first;
+    }
+
+    /** Lets the event happen, and takes the other fates to its time.
+     *  @return what it leaves of the cell's life */
+    template <int dim>
+    LifeAfter
+    happen(const Fates<dim>            &fates,
+           const NextEvent             &event,
+           const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const double                 t,
+           std::vector<CellEvent>      &events)
+    {
+      for (std::size_t k = 0; k < fates.size(); ++k)
+        if (k != *event.fate && event.asked_until[k] > event.time)
+          fates[k]->pass(cell, row, {t, event.asked_until[k]}, event.time);
+      const LifeAfter after = fates[*event.fate]->happen(
+        cell, row, {t, event.asked_until[*event.fate]}, event.time, events);
+      if (after == LifeAfter::ends)
+        for (const auto &fate : fates)
+          fate->end_of_life(cell, row, event.time);
+      return after;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  live(const Fates<dim>            &fates,
+       const PresentCell<dim>      &before,
+       const CellView<dim, double> &row,
+       const double                 t0,
+       const double                 t1,
+       std::vector<CellEvent>      &events)
+  {
+    if (fates.empty())
+      return;
+    // Each round takes the cell from one event to the next. All fates see it as
+    // it was when the step began, but for its type and what they keep of it.
+    double t = t0;
+    Row    at_t;
+    for (unsigned int n = 0; n < most_events; ++n)
+      {
+        at_t.assign(row.row().begin(), row.row().end());
+        const CellView<dim, const double> view(
+          ArrayView<const double>(at_t.data(), at_t.size()), row.columns());
+        const PresentCell<dim> cell(view,
+                                    before.id(),
+                                    before.position(),
+                                    before.reader());
+        const NextEvent        event = next_event(fates, cell, row, t, t1);
+        if (!event.fate ||
+            happen(fates, event, cell, row, t, events) != LifeAfter::goes_on)
+          return;
+        t = event.time;
+      }
+    throw InputError("Cell types",
+                     "",
+                     "at most " + std::to_string(most_events) +
+                       " changes of a cell's type in a step",
+                     "Lower the rates, or shorten " +
+                       TimeParameters::step_path + ".");
+  }
+
+
+  template <int dim>
+  bool
+  is_dead_at(const Fates<dim>            &fates,
+             const PresentCell<dim>      &before,
+             const CellView<dim, double> &row,
+             const double                 t,
+             std::vector<CellEvent>      &events)
+  {
+    if (is_dead(fates, before.cell()))
+      return true;
+    for (const auto &fate : fates)
+      if (fate->strikes(before, t))
+        {
+          fate->strike(before, row, t, events);
+          for (const auto &other : fates)
+            other->end_of_life(before, row, t);
+          return true;
+        }
+    return false;
+  }
+
+
+  template <int dim>
+  double
+  time_of_death(const Fates<dim>                  &fates,
+                const CellView<dim, const double> &cell)
+  {
+    double time = std::numeric_limits<double>::infinity();
+    for (const auto &fate : fates)
+      time = std::min(time, fate->time_of_death(cell));
+    return time;
+  }
+
+
+  template <int dim>
+  bool
+  is_dead(const Fates<dim> &fates, const CellView<dim, const double> &cell)
+  {
+    return std::isfinite(time_of_death(fates, cell));
+  }
+
+
+#define INSTANTIATE(dim)                                              \
+  template void   live(const Fates<dim> &,                            \
+                       const PresentCell<dim> &,                      \
+                       const CellView<dim, double> &,                 \
+                       const double,                                  \
+                       const double,                                  \
+                       std::vector<CellEvent> &);                     \
+  template bool   is_dead_at(const Fates<dim> &,                      \
+                             const PresentCell<dim> &,                \
+                             const CellView<dim, double> &,           \
+                             const double,                            \
+                             std::vector<CellEvent> &);               \
+  template double time_of_death(const Fates<dim> &,                   \
+                                const CellView<dim, const double> &); \
+  template bool   is_dead(const Fates<dim> &,                         \
+                          const CellView<dim, const double> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

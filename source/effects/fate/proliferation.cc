@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/proliferation.h>
+#include <morula/effects/fate/random.h>
+
+#include <utility>
+
+namespace Morula
+{
+  template <int dim>
+  Proliferation<dim>::Proliferation(CellCycle<dim>      cycle,
+                                    CellColumns<dim>   &columns,
+                                    const std::uint64_t seed)
+    : cycle_(std::move(cycle))
+    , columns_(columns,
+               cycle_.has_own_duration(),
+               cycle_.has_own_hazard(),
+               cycle_.keeps_exit_rate(),
+               cycle_.has_checkpoint())
+    , random_seed(seed)
+  {}
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::set_rules(Rules                                  rules,
+                                std::vector<const DivisionRule<dim> *> of_type)
+  {
+    rules_       = std::move(rules);
+    rule_of_type = std::move(of_type);
+  }
+
+
+  template <int dim>
+  const CellCycle<dim> &
+  Proliferation<dim>::cycle() const
+  {
+    return cycle_;
+  }
+
+
+  template <int dim>
+  const CycleColumns<dim> &
+  Proliferation<dim>::columns() const
+  {
+    return columns_;
+  }
+
+
+  template <int dim>
+  const typename Proliferation<dim>::Rules &
+  Proliferation<dim>::rules() const
+  {
+    return rules_;
+  }
+
+
+  template <int dim>
+  const DivisionRule<dim> *
+  Proliferation<dim>::rule(const unsigned int type) const
+  {
+    if (!rule_of_type.empty())
+      return rule_of_type[type];
+    return rules_.empty() ? nullptr : rules_.front().get();
+  }
+
+
+  template <int dim>
+  CycleState<dim>
+  Proliferation<dim>::clock(const CellView<dim, const double> &cell) const
+  {
+    return columns_.load(cell);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::set_clock(const CellView<dim, double> &cell,
+                                const CycleState<dim>       &state) const
+  {
+    columns_.store(state, cell);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::found(const PresentCell<dim>            &founder,
+                            const CellView<dim, double>       &row,
+                            const double                       step,
+                            const std::optional<unsigned int> &phase) const
+  {
+    // The key first: it is behind the noise that expressions read.
+    CycleState<dim> state;
+    state.key = Random::founder_key(random_seed, founder.id());
+    set_clock(row, state);
+    const CellAt<dim> at(founder, 0.);
+    if (step > 0.)
+      cycle_.check_cell(at, step);
+    state = phase ? cycle_.founder_in_phase(founder.id(), at, *phase) :
+                    cycle_.founder(founder.id(), at);
+    choose_axis(CycleState<dim>(), founder, 0., state);
+    if (phase)
+      cycle_.begin_growth(state, at);
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  Proliferation<dim>::growth(const CellView<dim, const double> &cell,
+                             const double                       t) const
+  {
+    return cycle_.growth(clock(cell), cell.founder_position(), t);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::absorb(const Tensor<2, dim>        &D,
+                             const Tensor<2, dim>        &F_g,
+                             const CellView<dim, double> &row) const
+  {
+    // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r).
+    CycleState<dim>      state = clock(row);
+    const Tensor<2, dim> K     = F_g * invert(state.growth_pre);
+    state.growth_pre           = invert(K) * D * F_g;
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Proliferation<dim>::placement_axis(const CellView<dim, const double> &cell,
+                                     const unsigned int type) const
+  {
+    const CycleState<dim>          state = clock(cell);
+    const DivisionRule<dim> *const rule  = this->rule(type);
+    if (rule == nullptr || rule->frame() == AxisFrame::reference)
+      return cycle_.placement_axis(state, cell.elastic_deformation());
+    // The running cycle stretches n_s along itself.
+    const Tensor<1, dim> carried =
+      cell.F() * (invert(state.growth_pre) * state.axis);
+    return carried / carried.norm();
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::make_good(const PresentCell<dim>      &before,
+                                const CellView<dim, double> &row) const
+  {
+    const PastStep &past = before.reader().past;
+    if (!past.exists() || !cycle_.keeps_exit_rate())
+      return;
+    CycleState<dim> state = clock(row);
+    cycle_.make_good(state, CellAt<dim>(before, past.middle()), past);
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  Proliferation<dim>::next(const PresentCell<dim>      &cell,
+                           const CellView<dim, double> &row,
+                           const Stretch               &stretch) const
+  {
+    // The clock goes on through the division, which daughters() looks up.
+    const CycleState<dim> state =
+      next_clock(cell, clock(row), stretch.begin, stretch.end);
+    set_clock(row, state);
+    const CellAt<dim> at(cell, stretch.begin);
+    if (!cycle_.divides(state, at, stretch.end))
+      return {};
+    return std::min(stretch.end, cycle_.division_time(state, at));
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::pass(const PresentCell<dim>      &cell,
+                           const CellView<dim, double> &row,
+                           const Stretch               &stretch,
+                           const double                 s) const
+  {
+    set_clock(row, next_clock(cell, clock(cell.cell()), stretch.begin, s));
+  }
+
+
+  template <int dim>
+  LifeAfter
+  Proliferation<dim>::happen(const PresentCell<dim> &,
+                             const CellView<dim, double> &,
+                             const Stretch &,
+                             const double,
+                             std::vector<CellEvent> &) const
+  {
+    return LifeAfter::divides;
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::expect(const PresentCell<dim>      &before,
+                             const CellView<dim, double> &row,
+                             const double                 t,
+                             const bool                   is_whole) const
+  {
+    if (!cycle_.keeps_exit_rate())
+      return;
+    CycleState<dim> state = clock(row);
+    const bool      waits =
+      clock(before.cell()).is_drawn_by_hazard() && state.is_drawn_by_hazard();
+    state.exit_rate = is_whole && waits ?
+                        cycle_.exit_rate_at(CellAt<dim>(before, t)) :
+                        not_expected;
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::end_of_life(const PresentCell<dim>      &cell,
+                                  const CellView<dim, double> &row,
+                                  const double                 s) const
+  {
+    // It keeps the size that it has, and never divides.
+    CycleState<dim> state = clock(row);
+    state.growth_pre      = cycle_.growth(state, CellAt<dim>(cell, s), s);
+    state.phase           = CyclePhase::never;
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::advance(const PresentCell<dim>      &before,
+                              const CellView<dim, double> &after,
+                              const double,
+                              const double) const
+  {
+    columns_.remember_size(before.cell(), after);
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::check_cell(const PresentCell<dim> &founder,
+                                 const double            step) const
+  {
+    const DivisionRule<dim> *const rule = this->rule(founder.type());
+    if (rule != nullptr && clock(founder.cell()).phase != CyclePhase::never)
+      rule->check_cell(founder, step);
+  }
+
+
+  template <int dim>
+  CycleState<dim>
+  Proliferation<dim>::next_clock(const PresentCell<dim> &cell,
+                                 const CycleState<dim>  &before,
+                                 const double            t0,
+                                 const double            t1) const
+  {
+    CycleState<dim> after =
+      cycle_.advance(before,
+                     CellAt<dim>(cell, t0),
+                     t0,
+                     t1,
+                     columns_.size(cell.cell(), cell.reader().past));
+    choose_axis(before, cell, t0, after);
+    return after;
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::choose_axis(const CycleState<dim>  &before,
+                                  const PresentCell<dim> &cell,
+                                  const double            t,
+                                  CycleState<dim>        &after) const
+  {
+    const bool begins =
+      before.phase != CyclePhase::growing && after.phase == CyclePhase::growing;
+    // a founder whose file says that it is in G1
+    const bool has_begun =
+      before.phase == CyclePhase::never && after.phase == CyclePhase::divided;
+    const DivisionRule<dim> *const rule = this->rule(cell.type());
+    if (rule == nullptr || !(begins || has_begun))
+      return;
+    const CellView<dim, const double> &view = cell.cell();
+    Tensor<1, dim> axis   = rule->axis({view.founder_position(),
+                                        view.elastic_deformation(),
+                                        after.axis,
+                                        &cell,
+                                        t,
+                                        cycle_.least_anisotropy(cell, t)});
+    const double   spread = cycle_.axis_spread(cell, t);
+    if (spread > 0.)
+      axis = Random::direction_around(axis / axis.norm(),
+                                      spread,
+                                      random_seed,
+                                      has_begun ? Random::past_key(random_seed,
+                                                                   after.key) :
+                                                  after.key);
+    // doc/theory.md (6.3e): through all growth but the cycle's.
+    if (rule->frame() == AxisFrame::present)
+      {
+        Tensor<2, dim>        F_g   = view.growth();
+        const CycleState<dim> state = clock(view);
+        if (state.phase != CyclePhase::never)
+          F_g = F_g * invert(cycle_.growth(state, view.founder_position(), t));
+        axis = invert(view.elastic_deformation() * F_g) * axis;
+      }
+    after.axis = axis / axis.norm();
+  }
+
+
+  template class Proliferation<2>;
+  template class Proliferation<3>;
+} // namespace Morula

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/step_effect.h>
+
+namespace Morula
+{
+  template <int dim>
+  void
+  StepEffect<dim>::start(const Tissue<dim> &, const MomentOfRun<dim> &) const
+  {}
+
+
+  template <int dim>
+  void
+  StepEffect<dim>::before(Tissue<dim> &, const MomentOfRun<dim> &) const
+  {}
+
+
+  template <int dim>
+  void
+  StepEffect<dim>::after(Tissue<dim> &, const MomentOfRun<dim> &) const
+  {}
+
+
+  template class StepEffect<2>;
+  template class StepEffect<3>;
+} // namespace Morula

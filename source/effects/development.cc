@@ -207,7 +207,11 @@ namespace Morula
       {
         for (const auto &fate : effects.fates)
           fate->make_good(before, after);
-        live(effects.fates, before, after, t0, t1, events);
+        // Nothing takes a clock back that no other fate can interrupt.
+        if (effects.proliferation && effects.fates.size() == 1)
+          effects.proliferation->run_clock(before, after, {t0, t1});
+        else
+          live(effects.fates, before, after, t0, t1, events);
         for (const auto &fate : effects.fates)
           fate->expect(before,
                        after,

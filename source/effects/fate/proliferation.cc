@@ -160,15 +160,25 @@ namespace Morula
 
 
   template <int dim>
+  CycleState<dim>
+  Proliferation<dim>::run_clock(const PresentCell<dim>      &cell,
+                                const CellView<dim, double> &row,
+                                const Stretch               &stretch) const
+  {
+    const CycleState<dim> state =
+      next_clock(cell, clock(row), stretch.begin, stretch.end);
+    set_clock(row, state);
+    return state;
+  }
+
+
+  template <int dim>
   std::optional<double>
   Proliferation<dim>::next(const PresentCell<dim>      &cell,
                            const CellView<dim, double> &row,
                            const Stretch               &stretch) const
   {
-    // The clock goes on through the division, which daughters() looks up.
-    const CycleState<dim> state =
-      next_clock(cell, clock(row), stretch.begin, stretch.end);
-    set_clock(row, state);
+    const CycleState<dim> state = run_clock(cell, row, stretch);
     const CellAt<dim> at(cell, stretch.begin);
     if (!cycle_.divides(state, at, stretch.end))
       return {};

@@ -73,6 +73,13 @@ namespace Morula
           const double                       step,
           const std::optional<unsigned int> &phase) const;
 
+    /** Takes the clock through a stretch, and through a division in it, which
+     *  daughters() looks up. @return the clock at its end */
+    CycleState<dim>
+    run_clock(const PresentCell<dim>      &cell,
+              const CellView<dim, double> &row,
+              const Stretch               &stretch) const;
+
     /** The cycle's part of F_g at @p t (day), which is that of the clock. */
     Tensor<2, dim>
     growth(const CellView<dim, const double> &cell, const double t) const;

@@ -2,13 +2,13 @@
 # Copyright (C) 2026 by the Morula authors
 """Runs the hard cases: scenes that break plain methods.
 
-    contrib/hard-cases                     every case, at the size of ctest
-    contrib/hard-cases cuts                these cases
-    contrib/hard-cases --document          writes the tables of this version,
+    contrib/upkeep/hard-cases                     every case, at the size of ctest
+    contrib/upkeep/hard-cases cuts                these cases
+    contrib/upkeep/hard-cases --document          writes the tables of this version,
                                            doc/measured
-    contrib/hard-cases cuts --full         the full size of a case
-    contrib/hard-cases --build build-debug with another build
-    contrib/hard-cases --list              the cases
+    contrib/upkeep/hard-cases cuts --full         the full size of a case
+    contrib/upkeep/hard-cases --build build-debug with another build
+    contrib/upkeep/hard-cases --list              the cases
 
 Prints figures and findings. The exit code is 3 if only limits are not met that a
 case asserts of its figures, 1 if anything else is not as it asserts. Runs that

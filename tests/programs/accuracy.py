@@ -352,7 +352,7 @@ class Documentation(AccuracyTest):
     def test_short_ladders(self):
         """The ladders of doc/accuracy-and-cost.md, few and coarse: what they
         are to show must show."""
-        self.run_words([str(ROOT / "contrib/accuracy-ladders"), "--short",
+        self.run_words([str(ROOT / "contrib/upkeep/accuracy-ladders"), "--short",
                         "--morula", self.options.morula, "--output",
                         str(self.work / "found")])
         by_run = {}

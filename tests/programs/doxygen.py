@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""contrib/doxygen: no warning, pages whole; what is wrong makes it fail."""
+"""contrib/upkeep/doxygen: no warning, pages whole; what is wrong makes it fail."""
 import re
 import shutil
 from html import unescape
@@ -18,7 +18,7 @@ class Doxygen(ProgramTest):
         self.assertTrue(shutil.which("doxygen"), "contrib/setup installs it")
 
     def make(self, root, output, code):
-        return self.run_words([root / "contrib/doxygen", "--output", output],
+        return self.run_words([root / "contrib/upkeep/doxygen", "--output", output],
                               code)
 
     def copy(self):

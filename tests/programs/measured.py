@@ -103,7 +103,7 @@ class Measured(ProgramTest):
                             self.assertEqual(len(row), len(part["header"]))
 
     def test_shown_by_the_command(self):
-        text = self.run_words([ROOT / "contrib/renew", "--show",
+        text = self.run_words([ROOT / "contrib/upkeep/renew", "--show",
                                "verification"]).stdout
         for name in read(data_file("verification"))["tables"]:
             self.assertIn(f"# verification: {name}\n", text)
@@ -124,9 +124,9 @@ class Prose(ProgramTest):
 
 class Limits(ProgramTest):
     def test_pages_have_the_limits_of_the_cases(self):
-        """`contrib/renew --limits` writes them."""
+        """`contrib/upkeep/renew --limits` writes them."""
         for page, text, wanted in limits.pages(ROOT):
-            self.assertEqual(text, wanted, f"{page}: contrib/renew --limits")
+            self.assertEqual(text, wanted, f"{page}: contrib/upkeep/renew --limits")
             self.assertGreater(len(limits.PLACE.findall(text)), 5)
 
     def test_sentences_name_their_limit(self):

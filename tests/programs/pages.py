@@ -18,7 +18,7 @@ ROOT = TESTS.parent
 STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
 # Further lines of the scenes that the pages' commands are tried with: whether they
 # can be followed does not depend on the number of cells. The figures that the
-# pages print are those of tests/steps and contrib/step-pages.
+# pages print are those of tests/steps and contrib/upkeep/step-pages.
 COARSER = {
     "step-2": "subsection Tissue\n  set Cell spacing = 20\nend\n",
     "step-4": "subsection Tissue\n  set Cell spacing = 25\nend\n"

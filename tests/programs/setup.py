@@ -114,7 +114,7 @@ class Setup(ProgramTest):
     def test_format_without_the_formatter(self):
         """A word, and no failure of all the other checks."""
         words = ["env", "-i", f"PATH={self.bin}", self.bin / "bash",
-                 ROOT / "contrib/indent"]
+                 ROOT / "contrib/upkeep/indent"]
         for version, found in ((None, "none"), (14, "14")):
             if version:
                 self.pretend("clang-format", "#!/bin/bash\n"

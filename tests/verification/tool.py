@@ -2,11 +2,11 @@
 # Copyright (C) 2026 by the Morula authors
 """Measures Morula's errors against solutions that do not come from it.
 
-    contrib/verify                       every case, the ladders of ctest
-    contrib/verify vortex patch          these cases
-    contrib/verify --plot                and draw errors-h.png, ...
-    contrib/verify --full --document     all rungs; writes doc/measured
-    contrib/verify --list                the cases
+    contrib/upkeep/verify                       every case, the ladders of ctest
+    contrib/upkeep/verify vortex patch          these cases
+    contrib/upkeep/verify --plot                and draw errors-h.png, ...
+    contrib/upkeep/verify --full --document     all rungs; writes doc/measured
+    contrib/upkeep/verify --list                the cases
 
 Prints errors and orders, and ends with exit code 3 if one is not what the case
 asserts, 1 if a run failed. Runs that are there already are not repeated.

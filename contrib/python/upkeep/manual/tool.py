@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Runs Doxygen on the pages and headers; see contrib/doxygen."""
+"""Runs Doxygen on the pages and headers; see contrib/upkeep/doxygen."""
 import argparse
 import os
 import shutil
@@ -82,7 +82,7 @@ def make(output):
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="contrib/doxygen",
+        prog="contrib/upkeep/doxygen",
         description="Writes all pages of the documentation, and a reference "
         "of all classes and functions, as HTML. A warning of Doxygen's, or a "
         "public class or function without a comment, gives exit code 1.")
@@ -92,13 +92,13 @@ def main():
     output = options.output.resolve()
     if output.exists() and any(output.iterdir()) and not (
             output / "doxygen.css").is_file():
-        sys.exit(f"contrib/doxygen: {output} holds something that Doxygen did "
+        sys.exit(f"contrib/upkeep/doxygen: {output} holds something that Doxygen did "
                  "not write; it is left alone. Give another --output.")
     complaints = make(output)
     for complaint in complaints:
         print(complaint, file=sys.stderr)
     if complaints:
-        sys.exit(f"contrib/doxygen: {len(complaints)} complaint(s).")
+        sys.exit(f"contrib/upkeep/doxygen: {len(complaints)} complaint(s).")
     if not MATHJAX.is_dir():
         print("Formulas are drawn by MathJax from the network, as Debian's "
               "libjs-mathjax is not here.")

@@ -87,7 +87,8 @@ foreach(tool accuracy cell-shapes import render report sweep)
 endforeach()
 
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${pages_directory})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGES.md
+  DESTINATION ${pages_directory})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   FILES_MATCHING PATTERN "*.md" PATTERN "*.ipynb"
   PATTERN changes EXCLUDE

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from upkeep.manual import python_reference
+from upkeep.manual import python_reference, search
 from upkeep.manual.coverage import undocumented
 from upkeep.manual.header import comments_linked
 from upkeep.manual.markdown import PICTURES, ROOT, Page, pages
@@ -23,7 +23,10 @@ def settings(folder):
     lines = [f'@INCLUDE = "{ROOT}/doc/Doxyfile"', f'OUTPUT_DIRECTORY = "{folder}"',
              f'WARN_LOGFILE = "{folder / "warnings.txt"}"',
              "GENERATE_XML = YES", "XML_OUTPUT = xml",
-             "XML_PROGRAMLISTING = NO"]
+             "XML_PROGRAMLISTING = NO",
+             "INPUT = " + " ".join(page.relative_to(ROOT).as_posix()
+                                   for page in pages()),
+             f"INPUT += {python_reference.PATH} include/morula"]
     if MATHJAX.is_dir():
         lines.append("MATHJAX_RELPATH = mathjax")
     return "\n".join(lines) + "\n"
@@ -66,6 +69,7 @@ def make(output):
         if not (aside / "index.html").is_file():
             return complaints + ["doxygen wrote no index.html"]
         complaints += undocumented(aside / "xml")
+        search.add_keys(aside)
         log.unlink(missing_ok=True)
         shutil.rmtree(aside / "xml")
         shutil.copytree(ROOT / "doc/images", aside / PICTURES)

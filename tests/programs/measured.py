@@ -40,7 +40,8 @@ MEASUREMENT = (
     r"\d(\.\d+)? times (as fast|faster|as long as)\b",
     r"\d\s%\s(too|faster|slower|off|low|high|less|more time)\b",
     r"\d\s(Newton|linear)\s+iterations\b",
-    r"\b\d[\d.,·]* instead of \d")
+    r"\b\d[\d.,·]* instead of \d",
+    r"\b([Aa]bout|[Ss]ome) (\d+|half an) (GB|MB|minutes|hours?)\b")
 
 
 def pages():

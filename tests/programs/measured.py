@@ -10,7 +10,7 @@ from upkeep import limits
 from upkeep.version_data import (LINK, data_file, markdown, parts, read, shown,
                                  store, version)
 
-from tests.hard.case import Case, Limit
+from tests.cases.case import Case, Limit
 
 ROOT = TESTS.parent
 DATA = sorted((ROOT / "doc/measured").glob("*/*.json"))
@@ -139,7 +139,7 @@ class Limits(ProgramTest):
     def test_a_limit_that_nothing_is_found_for(self):
         limit = Limit("The condition varies by less than a factor {at_most:g}.",
                       at_most=3)
-        case = Case("a", "b", "c", [], None, (limit,))
+        case = Case("a", [], None, (limit,))
         said = "The condition varies by less than a factor 3."
         self.assertEqual(case.sentences(), [said])
         self.assertEqual(case.unfounded([]), [said])

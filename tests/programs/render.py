@@ -315,8 +315,8 @@ class MissingLibraries(ProgramTest):
     def test_others(self):
         for tool in ("accuracy", "render", "report", "sweep",
                      *(f"upkeep/{name}" for name in (
-                         "accuracy-ladders", "half-fixed-sphere", "step-pages",
-                         "verify"))):
+                         "accuracy-ladders", "half-fixed-sphere",
+                         "step-pages"))):
             self.assert_sentence(self.without("numpy", tool, "--help"),
                                  Path(tool).name, "python3-numpy")
         for tool in ("render", "report", "accuracy"):

@@ -124,9 +124,9 @@ class Renew(ProgramTest):
         listed = self.run_words([tool, "--list"]).stdout
         for name, page in PAGES.items():
             self.assertIn(f"doc/{page.file} ({name})", listed)
-        self.assertIn("contrib/upkeep/verify --full --document", listed)
-        self.assertNotIn("contrib/upkeep/verify patch", listed)
-        self.assertIn("contrib/upkeep/verify patch",
+        self.assertIn("contrib/upkeep/cases verification --full --document", listed)
+        self.assertNotIn("contrib/upkeep/cases verification/patch", listed)
+        self.assertIn("contrib/upkeep/cases verification/patch",
                       self.run_words([tool, "--list", "--short"]).stdout)
         error = self.run_words([tool, "nopage"], code=2).stderr
         self.assertIn("there is no page 'nopage'; there are reproduction",

@@ -20,8 +20,7 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
     "doxygen": "upkeep.manual.tool", "renew": "upkeep.renew",
     "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
-    "benchmark": "tests.benchmarks.tool", "verify": "tests.verification.tool",
-    "hard-cases": "tests.hard.tool"}
+    "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "numpy": "python3-numpy", "scipy": "python3-scipy",

@@ -32,16 +32,16 @@ PAGES = {
           "WM983b, 2500 cells"),)),
     "verification": Page(
         "verification.md",
-        (("contrib/upkeep/verify", "--full", "--document"),),
-        (("contrib/upkeep/verify", "patch", "--plot"),)),
+        (("contrib/upkeep/cases", "verification", "--full", "--document"),),
+        (("contrib/upkeep/cases", "verification/patch", "--plot"),)),
     "accuracy-and-cost": Page(
         "accuracy-and-cost.md",
         (("contrib/upkeep/accuracy-ladders", "--document", "--again"),),
         (("contrib/upkeep/accuracy-ladders", "--short", "--again", "grid-offsets"),)),
     "hard-cases": Page(
         "hard-cases.md",
-        (("contrib/upkeep/hard-cases", "--full", "--document"),),
-        (("contrib/upkeep/hard-cases", "meshes", "--document"),)),
+        (("contrib/upkeep/cases", "hard", "--full", "--document"),),
+        (("contrib/upkeep/cases", "hard/meshes", "--document"),)),
     "performance": Page(
         "performance.md",
         (("contrib/upkeep/benchmark", "--document"),),

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What a hard case is: trials, each a run of a scene of prm/hard, and findings,
-the figures that they must have.
+"""What a case is: trials, each a run of a scene, and findings, the figures that
+they must have.
 
-A case's module stands in cases/ and defines a Case. What every trial must do
-anyhow is checked by engine.py: see tests/README.md.
+A case's module stands in tests/hard/cases or tests/verification/cases and
+defines CASE. What every trial must do anyhow is checked by engine.py: see
+tests/README.md.
 """
 from dataclasses import dataclass, field
 
+from tests.cases import rows_of_trials
 from tests.common.tables import with_powers
 
 
@@ -16,12 +18,13 @@ class Trial:
     """A run of a scene.
 
     name: unique in the case; also the directory of the run.
-    scene: a file of prm/hard. keys: differences from it; "{files}" in a value
+    scene: a file of prm/hard, or prm/verification, as the case is of one or the
+        other. keys: differences from it; "{files}" in a value
         stands for the directory of the files.
     quick: further differences unless the full size is asked for. Trials with
         full_only are not run then.
     files: name -> text, or a function that returns it: inputs of this trial
-        that are not worth a file in prm/hard (meshes, points).
+        that are not worth a file beside the scene (meshes, points).
     ranks: numbers of ranks; the first one's run is judged, the others must
         have the same cells to `agreement` µm.
     exit: the exit code, or several that are allowed.
@@ -165,19 +168,24 @@ class TrialRun:
 
 @dataclass(frozen=True)
 class Case:
-    """A hard case. breaks, cure: for the documentation, a phrase each.
+    """Trials, and what is found in them.
 
-    judge(runs) yields the Findings; runs: trial name -> TrialRun, of the trials
-    that were run, full_only ones only at full size. limits: those that the page
-    states (a list of sentences), each the Limit of at least one finding.
+    measure(runs) -> what judge and report work with; runs: trial name ->
+        TrialRun, of the trials that were run, full_only ones only at full size.
+        Default: the runs themselves.
+    judge(measured) yields the Findings.
+    limits: those that the page states (a list of sentences), each with
+        sentence(), which at least one finding says.
+    report: the module that shows what was measured, by lines(measured, findings)
+        and markdown(measured, findings, full).
     """
 
     title: str
-    breaks: str
-    cure: str
     trials: list
     judge: object
     limits: tuple = ()
+    measure: object = dict
+    report: object = rows_of_trials
 
     def sentences(self):
         """What the case asserts, for its page."""

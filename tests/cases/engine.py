@@ -6,7 +6,7 @@ import re
 import numpy
 
 from tests.common.results import positions, read_csv
-from tests.hard.case import Figures
+from tests.cases.case import Figures
 
 NOT_A_NUMBER = re.compile(r"(^|,)\s*[-+]?(nan|inf)", re.IGNORECASE)
 TIME = r"[Aa]t t = [-+.0-9e]+ day"

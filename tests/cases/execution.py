@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Runs of the trials of hard cases, each in its own directory."""
+"""Runs of the trials of cases, each in its own directory."""
 import shlex
 import shutil
 import subprocess
@@ -8,15 +8,14 @@ from pathlib import Path
 
 from morula.execute import command, overrides
 
+from tests.cases.case import TrialRun
+from tests.cases.engine import (different_cells, figures, numbers_missing,
+                                wrong_end, wrong_resume)
 from tests.common.forks import call
 from tests.common.kept import ROOT, digest, files_of_scene, kept, program_stamp
 from tests.common.results import Results
-from tests.hard.case import TrialRun
-from tests.hard.engine import (different_cells, figures, numbers_missing,
-                               wrong_end, wrong_resume)
 
 HERE = Path(__file__).resolve().parent
-SCENES = ROOT / "prm/hard"
 JUDGES = [HERE / "engine.py", HERE / "execution.py",
           ROOT / "contrib/python/morula/execute.py",
           ROOT / "tests/common/forks.py"]
@@ -30,11 +29,13 @@ class Execution:
         self.output = output / ("full" if full else "quick")
 
     def run(self, name, trial):
-        """(TrialRun of the first number of ranks, what is wrong as sentences)."""
+        """(TrialRun of the first number of ranks, what is wrong as sentences);
+        the scenes of the case hard/NAME are those of prm/hard."""
         directory = self.output / name / trial.name
+        scene = ROOT / "prm" / name.split("/")[0] / trial.scene
         wrong, first = [], None
         for ranks in trial.ranks:
-            run, found = self._on_ranks(trial, ranks, directory)
+            run, found = self._on_ranks(trial, scene, ranks, directory)
             where = f"{trial.name} on {ranks} ranks: " if ranks > 1 else \
                 f"{trial.name}: "
             if first is None:
@@ -45,13 +46,12 @@ class Execution:
             wrong += [where + text for text in found]
         return first, wrong
 
-    def _on_ranks(self, trial, ranks, directory):
+    def _on_ranks(self, trial, scene, ranks, directory):
         """A run is kept, and not repeated, if nothing was wrong with it and
         scene, keys, files, program and checks are what they were."""
         output = directory / f"ranks-{ranks}"
         keys = trial.all_keys(self.full, directory / "files")
         files = write_files(trial, directory / "files")
-        scene = SCENES / trial.scene
         origin = {"keys": keys, "program": program_stamp(self.morula),
                   "ranks": ranks, "resume": trial.resume_keys,
                   "expected": [list(trial.exit), trial.message],

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Tables of hard cases, for the terminal and for the documentation."""
+"""Tables with a row a trial, for the terminal and for the documentation."""
 import math
 import re
 
@@ -77,14 +77,9 @@ def rows(runs, findings):
             for label, of_row in collected.items()]
 
 
-def print_case(runs, findings):
-    for line in aligned(HEADER, rows(runs, findings)):
-        print("    " + line)
-    for finding in findings:
-        verdict = "ok" if finding.holds() else "WRONG"
-        print(f"    {verdict}: {finding.text}: {finding.value:.6g} "
-              f"({finding.limits()})")
-    print(flush=True)
+def lines(runs, findings):
+    """The table for the terminal."""
+    return aligned(HEADER, rows(runs, findings))
 
 
 def markdown(runs, findings, full):

@@ -12,7 +12,7 @@ import numpy
 import pandas
 from morula.prm import parse
 from morula.run import Run
-from program import TESTS, ProgramTest, main, overrides
+from program import ProgramTest, main, overrides
 from scipy.linalg import solve_banded
 from upkeep.showcase import cortex, cut, organoid, plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii

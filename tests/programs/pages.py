@@ -21,12 +21,15 @@ STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
 # pages print are those of tests/steps and contrib/upkeep/step-pages.
 COARSER = {
     "step-2": "subsection Tissue\n  set Cell spacing = 20\nend\n",
+    "step-3": "subsection Tissue\n  set Cell spacing = 20\nend\n",
     "step-4": "subsection Tissue\n  set Cell spacing = 25\nend\n"
               "subsection Time\n  set End time = 1\nend\n",
     "step-5": "subsection Tissue\n  set Cell spacing = 20\nend\n",
     "step-6": "subsection Tissue\n  set Cell spacing = 40\nend\n"
               "subsection Grid\n  set Spacing = 100\nend\n"
-              "subsection Time\n  set End time = 2.5\nend\n"}
+              "subsection Time\n  set End time = 2.5\nend\n",
+    "step-7": "subsection Tissue\n  set Cell spacing = 10\nend\n"
+              "subsection Grid\n  set Spacing = 50\nend\n"}
 COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)
 
 

@@ -79,7 +79,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python/morula
 file(RELATIVE_PATH launch
   ${CMAKE_INSTALL_FULL_BINDIR}
   ${CMAKE_INSTALL_FULL_DATADIR}/morula/python/launch)
-foreach(tool accuracy cell-shapes import migrate render report sweep)
+foreach(tool accuracy cell-shapes import render report sweep)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/tool.in
     ${PROJECT_BINARY_DIR}/tools/morula-${tool} @ONLY)
   install(PROGRAMS ${PROJECT_BINARY_DIR}/tools/morula-${tool}
@@ -87,7 +87,8 @@ foreach(tool accuracy cell-shapes import migrate render report sweep)
 endforeach()
 
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${pages_directory})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGES.md
+  DESTINATION ${pages_directory})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   FILES_MATCHING PATTERN "*.md" PATTERN "*.ipynb"
   PATTERN changes EXCLUDE

@@ -2,8 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 
 # What CPack needs to make a Debian package of all that is installed;
-# contrib/package calls it. It fits the release that it was built on: dpkg finds
-# the libraries of the program there. What the library, the example project and
+# contrib/upkeep/package calls it. It fits the release that it was built on: dpkg
+# finds the libraries of the program there. What the library, the example project and
 # the tools need besides is recommended, which apt installs unless told not to.
 
 set(CPACK_GENERATOR DEB)

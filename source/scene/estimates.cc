@@ -11,10 +11,11 @@ namespace Morula
   namespace
   {
     // What follows was fitted to runs of the first scenes of the table
-    // "estimates" of doc/performance.md; contrib/benchmark estimates measures
-    // them anew. The seconds are those of one core of the processor that the
-    // text there names, as explain.cc does: others differ by a factor of two or
-    // so. The exponents of the direct solver are those of nested dissection.
+    // "estimates" of doc/performance.md; contrib/upkeep/benchmark estimates
+    // measures them anew. The seconds are those of one core of the processor
+    // that the text there names, as explain.cc does: others differ by a factor
+    // of two or so. The exponents of the direct solver are those of nested
+    // dissection.
 
     /** Bytes of a run with @p n_cells cells and @p n equations, on one rank. */
     template <int dim>

@@ -336,8 +336,7 @@ namespace Morula
             if (path != statement.path)
               scene.renamed.push_back(statement.place + "the key '" +
                                       statement.path + "' is called '" + path +
-                                      "' today; 'contrib/migrate " + file +
-                                      "' rewrites the file");
+                                      "' today; it is read as that");
           }
       }
     for (AnyKey *key : scene.list())

@@ -5,7 +5,7 @@
 // vectorised, of each material, with the volumetric strain of each point,
 // projected and pooled, next to what the core can do: a matrix product and the
 // triad of STREAM. The environment variable MORULA_BLAS names a shared library
-// with a fast dgemm_. contrib/benchmark runs this and writes
+// with a fast dgemm_. contrib/upkeep/benchmark runs this and writes
 // doc/performance.md.
 
 #include <morula/mechanics/materials/materials.h>

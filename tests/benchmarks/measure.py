@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What contrib/benchmark measures: each function returns the rows of a table of
+"""What contrib/upkeep/benchmark measures: each function returns the rows of a table of
 doc/performance.md, with its header first. All ratios are of runs of one call,
 side by side."""
 import json

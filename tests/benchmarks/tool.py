@@ -2,9 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Measures what Morula costs, next to what the core can do.
 
-    contrib/benchmark                    everything: about 20 minutes
-    contrib/benchmark kernels phases     these tables
-    contrib/benchmark --document         writes the tables of this version,
+    contrib/upkeep/benchmark                    everything: about 20 minutes
+    contrib/upkeep/benchmark kernels phases     these tables
+    contrib/upkeep/benchmark --document         writes the tables of this version,
                                          doc/measured
 
 Nothing else should run on the machine meanwhile. The yardstick for arithmetic

@@ -14,13 +14,14 @@ from morula import execute
 from morula.__main__ import TOOLS, main
 
 CONTRIB = Path(__file__).resolve().parents[2] / "contrib"
+FOLDERS = (CONTRIB, CONTRIB / "upkeep")
 
 
 def tool_of(program):
     """The name of the tool that a path in contrib/ starts; None if it is another
     program, or a copy of one."""
     path = Path(program)
-    if path.parent != CONTRIB or path.name not in TOOLS:
+    if path.parent not in FOLDERS or path.name not in TOOLS:
         return None
     start = f'/python/launch" -P -m morula {path.name} "$@"\n'
     return path.name if path.read_text().endswith(start) else None

@@ -3,7 +3,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Draws apex, iterations and condition over the grid's offset.
 
-    contrib/hard-cases cuts --full
+    contrib/upkeep/cases hard/cuts --full
     tests/hard/draw_cuts.py output/hard/full/cuts doc/images/hard/cuts.png
 """
 import sys

@@ -7,8 +7,7 @@ import numpy
 from program import SCENES, ProgramTest, main, overrides, read_csv
 from scipy.spatial import KDTree
 
-from tests.common.results import (Results, initial_positions, positions,
-                                  stresses)
+from tests.common.results import Results, positions, stresses
 
 CYCLE = "Proliferation/Cell cycle/"
 

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""contrib/doxygen: no warning, pages whole; what is wrong makes it fail."""
+"""contrib/upkeep/doxygen: no warning, pages whole; what is wrong makes it fail."""
 import re
 import shutil
 from html import unescape
 from urllib.parse import unquote
 
 from program import TESTS, ProgramTest, main
+from upkeep.manual.search import escaped, identifier
 
 ROOT = TESTS.parent
 
@@ -18,7 +19,7 @@ class Doxygen(ProgramTest):
         self.assertTrue(shutil.which("doxygen"), "contrib/setup installs it")
 
     def make(self, root, output, code):
-        return self.run_words([root / "contrib/doxygen", "--output", output],
+        return self.run_words([root / "contrib/upkeep/doxygen", "--output", output],
                               code)
 
     def copy(self):
@@ -31,6 +32,32 @@ class Doxygen(ProgramTest):
                      "CMakeLists.txt"):
             shutil.copy(ROOT / name, root / name)
         return root
+
+    def check_order_and_search(self, output):
+        """Pages follow doc/README.md, and the search knows every key by its path
+        and by each word of its name."""
+        tree = (output / "navtreedata.js").read_text()
+        places = [tree.index(f'"{name}.html"') for name in (
+            "doc-install", "doc-steps-README", "doc-steps-step-1",
+            "doc-steps-step-7", "doc-gallery", "doc-theory", "doc-faq",
+            "CONTRIBUTING")]
+        self.assertEqual(places, sorted(places))
+        page = (output / "doc-parameters.html").read_text()
+        letters = re.search(r'0: "([^"]*)"', (output / "search/searchdata.js")
+                            .read_text())[1]
+        paths = re.findall(r"^\| `([^`]+)` \|",
+                           (ROOT / "doc/parameters.md").read_text(), re.M)
+        self.assertGreater(len(paths), 100)
+        for path in paths:
+            name = path.rpartition("/")[2]
+            for word in (path, *name.split()):
+                file = f"search/all_{letters.index(word[0].lower()):x}.js"
+                hits = [line for line in (output / file).read_text().splitlines()
+                        if line.startswith(f"  ['{identifier(word)}")
+                        and f"['{escaped(path)}'," in line]
+                self.assertTrue(hits, (path, word))
+            link = re.search(r"'\.\./doc-parameters\.html#([^']+)'", hits[0])[1]
+            self.assertIn(f'id="{link}"', page)
 
     def test_no_warning_and_whole_pages(self):
         output = self.work / "doc"
@@ -49,8 +76,11 @@ class Doxygen(ProgramTest):
         cases = (output / "doc-hard-cases.html").read_text()
         self.assertRegex(cases, r"disc, no extension\s*</td>")  # is measured
         self.assertNotIn("[Measured:", cases)
+        self.assertFalse([*output.glob("*changes*")])
         self.assertIn('href="doc-theory.html#doc-theory-equation-4-2">(4.2)<',
                       (output / "classMorula_1_1Nitsche.html").read_text())
+
+        self.check_order_and_search(output)
 
         missing, names = [], {}
         for page in sorted(output.glob("*.html")):

@@ -220,7 +220,7 @@ CHOSEN = {
 
 
 class Fuzz(ProgramTest):
-    n, seed = 40, 1
+    n, seed = 20, 1
 
     def setUp(self):
         super().setUp()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""prm/examples/growth-plate.prm, twelve days of a narrow one: how fast the plate
+"""prm/examples/growth-plate.prm, eight days of a narrow one: how fast the plate
 grows, and which part of that is hypertrophy."""
 import numpy
 
@@ -11,7 +11,7 @@ from program import TESTS, ProgramTest, main, overrides
 
 SCENE = TESTS.parent / "prm/examples/growth-plate.prm"
 NARROW = overrides({"Tissue/Size": "200, 300",
-                    "Output/Formats": "csv"})
+                    "Time/End time": "8", "Output/Formats": "csv"})
 PROLIFERATING, HYPERTROPHIC, BONE = range(3)
 HEIGHT = 300.0  # um, of the proliferating zone
 RATE = numpy.log(2) / 1.2875  # 1/day

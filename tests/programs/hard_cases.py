@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The engine of the hard cases notices what is wrong: a program of a few lines
+"""The engine of the cases notices what is wrong: a program of a few lines
 takes Morula's place and misbehaves as it is told to.
 """
 
 from program import ProgramTest, main
 
-from tests.hard.case import Finding, Trial
-from tests.hard.execution import Execution
+from tests.cases.case import Finding, Trial
+from tests.cases.execution import Execution
 
 SCENE = "cut-sphere.prm"
 FAILED = "At t = 0.5 day: did not converge.\n... --resume"
@@ -41,7 +41,7 @@ class HardCases(ProgramTest):
             program.chmod(0o755)
         execution = Execution(program, self.options.mpiexec, self.work, False)
         trial = Trial("trial", SCENE, keys={"Do": do}, **trial)
-        return "\n".join(execution.run("case", trial)[1])
+        return "\n".join(execution.run("hard/case", trial)[1])
 
     def assert_wrong(self, text, do, **trial):
         self.assertIn(text, self.wrong(do, **trial))
@@ -123,7 +123,7 @@ class HardCases(ProgramTest):
         for do, runs in ((f"{WRITE}; {count}", 1), (f"{WRITE}; {count}", 1),
                          (f"{WRITE}; {count};", 2)):
             self.assertEqual(self.wrong(do), "")
-            written = (self.work / "quick/case/trial/count").read_text()
+            written = (self.work / "quick/hard/case/trial/count").read_text()
             self.assertEqual(len(written), runs)
 
 

@@ -83,7 +83,6 @@ class Install(Installation, ProgramTest):
         before = sorted(file for file in moved.rglob("*")
                         if "__pycache__" not in file.parts)
         scene = TESTS / "programs/small-cube.prm"
-        self.call(tools / "morula-migrate", "--check", scene)
         self.call(tools / "morula-sweep", scene, "--seeds", "1-2",
                   "--vary", "Grid/Spacing=35,40", "-s", "Time/End time=0.125")
         self.assertTrue((self.work / "output/sweep/small-cube").is_dir())

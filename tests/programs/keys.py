@@ -1,48 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The keys: doc/parameters.md has them all as they are; units; former names."""
+"""The keys: doc/parameters.md has them all as they are; units."""
 import subprocess
 from pathlib import Path
 
-from morula.keys import RENAMES, keys_of
-from morula.migrate import migrate
+from morula.keys import keys_of
 from morula.prm import parse
 from program import ProgramTest, main
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# A table of renames for tests alone.
-TEST_RENAMES = {"Grid/Mesh size": "Grid/Spacing",
-                "Seed": "Random seed",
-                "Grid/Young": "Material/Young's modulus"}
-OLD = """# A comment about Mesh size
-set Seed = 4
-subsection Grid  # the grid
-  set   Mesh size = 50   # um, was Mesh size
-  set Young = 1 + \\
-    0.001*X  # kPa
-  set Offset = 1, 2, 3
-end
-set Dimension = 3"""
-NEW = """# A comment about Mesh size
-set Random seed = 4
-subsection Grid  # the grid
-  set   Spacing = 50   # um, was Mesh size
-  set Offset = 1, 2, 3
-end
-set Dimension = 3
-subsection Material
-  set Young's modulus = 1 + \\
-    0.001*X
-end
-"""
-
 
 class Keys(ProgramTest):
     def test_document_is_up_to_date(self):
         result = subprocess.run(
-            [ROOT / "contrib/parameters", "--check", "--morula",
+            [ROOT / "contrib/upkeep/parameters", "--check", "--morula",
              self.options.morula], text=True, stderr=subprocess.PIPE)
         self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -107,31 +80,6 @@ class Keys(ProgramTest):
                     if all(word.lower() in text for word in words)})
         self.assertIn("'xyzzy'", self.run_words(
             [self.options.morula, "--parameters", "xyzzy"], code=1).stderr)
-
-    def test_table_of_renames_is_the_programs(self):
-        keys = keys_of(self.options.morula)
-        paths = {key.path for key in keys}
-        known = {former: key.path for key in keys for former in key.former}
-        for former, path in RENAMES.items():
-            self.assertIn(path, paths)
-            self.assertNotIn(former, paths)
-        for former, path in known.items():
-            self.assertEqual(RENAMES.get(former), path)
-
-    def test_migration(self):
-        text, done = migrate(OLD, TEST_RENAMES)
-        self.assertEqual(text, NEW)
-        self.assertEqual(dict(done), TEST_RENAMES)
-        self.assertEqual(migrate(NEW, TEST_RENAMES), (NEW, []))
-        self.execute(self.write("new.prm", text), "--explain")
-
-    def test_migrating_the_scenes_changes_nothing(self):
-        scenes = sorted((ROOT / "prm").rglob("*.prm"))
-        before = [scene.read_bytes() for scene in scenes]
-        result = subprocess.run([ROOT / "contrib/migrate", "--check", *scenes],
-                                text=True, stdout=subprocess.PIPE)
-        self.assertEqual(result.returncode, 0, result.stdout)
-        self.assertEqual(before, [scene.read_bytes() for scene in scenes])
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from upkeep import limits
 from upkeep.version_data import (LINK, data_file, markdown, parts, read, shown,
                                  store, version)
 
-from tests.hard.case import Case, Limit
+from tests.cases.case import Case, Limit
 
 ROOT = TESTS.parent
 DATA = sorted((ROOT / "doc/measured").glob("*/*.json"))
@@ -40,7 +40,8 @@ MEASUREMENT = (
     r"\d(\.\d+)? times (as fast|faster|as long as)\b",
     r"\d\s%\s(too|faster|slower|off|low|high|less|more time)\b",
     r"\d\s(Newton|linear)\s+iterations\b",
-    r"\b\d[\d.,·]* instead of \d")
+    r"\b\d[\d.,·]* instead of \d",
+    r"\b([Aa]bout|[Ss]ome) (\d+|half an) (GB|MB|minutes|hours?)\b")
 
 
 def pages():
@@ -103,7 +104,7 @@ class Measured(ProgramTest):
                             self.assertEqual(len(row), len(part["header"]))
 
     def test_shown_by_the_command(self):
-        text = self.run_words([ROOT / "contrib/renew", "--show",
+        text = self.run_words([ROOT / "contrib/upkeep/renew", "--show",
                                "verification"]).stdout
         for name in read(data_file("verification"))["tables"]:
             self.assertIn(f"# verification: {name}\n", text)
@@ -124,9 +125,9 @@ class Prose(ProgramTest):
 
 class Limits(ProgramTest):
     def test_pages_have_the_limits_of_the_cases(self):
-        """`contrib/renew --limits` writes them."""
+        """`contrib/upkeep/renew --limits` writes them."""
         for page, text, wanted in limits.pages(ROOT):
-            self.assertEqual(text, wanted, f"{page}: contrib/renew --limits")
+            self.assertEqual(text, wanted, f"{page}: contrib/upkeep/renew --limits")
             self.assertGreater(len(limits.PLACE.findall(text)), 5)
 
     def test_sentences_name_their_limit(self):
@@ -138,7 +139,7 @@ class Limits(ProgramTest):
     def test_a_limit_that_nothing_is_found_for(self):
         limit = Limit("The condition varies by less than a factor {at_most:g}.",
                       at_most=3)
-        case = Case("a", "b", "c", [], None, (limit,))
+        case = Case("a", [], None, (limit,))
         said = "The condition varies by less than a factor 3."
         self.assertEqual(case.sentences(), [said])
         self.assertEqual(case.unfounded([]), [said])

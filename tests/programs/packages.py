@@ -29,7 +29,9 @@ class Packages(ProgramTest):
         installed = [name for name, module in TOOLS.items()
                      if module.startswith("morula.")]
         for name, module in TOOLS.items():
-            script = (ROOT / "contrib" / name).read_text()
+            folder = "contrib/upkeep" if module.startswith(
+                ("upkeep.", "tests.")) else "contrib"
+            script = (ROOT / folder / name).read_text()
             self.assertIn(f"python/launch\" -P -m morula {name} ", script)
             folder = ROOT if module.startswith("tests") else PYTHON
             self.assertTrue((folder / f"{module.replace('.', '/')}.py")

@@ -18,15 +18,18 @@ ROOT = TESTS.parent
 STEPS = sorted((ROOT / "doc/steps").glob("step-*.md"))
 # Further lines of the scenes that the pages' commands are tried with: whether they
 # can be followed does not depend on the number of cells. The figures that the
-# pages print are those of tests/steps and contrib/step-pages.
+# pages print are those of tests/steps and contrib/upkeep/step-pages.
 COARSER = {
     "step-2": "subsection Tissue\n  set Cell spacing = 20\nend\n",
+    "step-3": "subsection Tissue\n  set Cell spacing = 20\nend\n",
     "step-4": "subsection Tissue\n  set Cell spacing = 25\nend\n"
               "subsection Time\n  set End time = 1\nend\n",
     "step-5": "subsection Tissue\n  set Cell spacing = 20\nend\n",
     "step-6": "subsection Tissue\n  set Cell spacing = 40\nend\n"
               "subsection Grid\n  set Spacing = 100\nend\n"
-              "subsection Time\n  set End time = 2.5\nend\n"}
+              "subsection Time\n  set End time = 2.5\nend\n",
+    "step-7": "subsection Tissue\n  set Cell spacing = 10\nend\n"
+              "subsection Grid\n  set Spacing = 50\nend\n"}
 COMMAND = re.compile(r"^    ((?:build|contrib)/\S(?:.*\\\n)*.*)$", re.M)
 
 

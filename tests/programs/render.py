@@ -313,10 +313,12 @@ class MissingLibraries(ProgramTest):
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_others(self):
-        for tool in ("accuracy", "accuracy-ladders", "half-fixed-sphere",
-                     "render", "report", "step-pages", "sweep", "verify"):
-            self.assert_sentence(self.without("numpy", tool, "--help"), tool,
-                                 "python3-numpy")
+        for tool in ("accuracy", "render", "report", "sweep",
+                     *(f"upkeep/{name}" for name in (
+                         "accuracy-ladders", "half-fixed-sphere",
+                         "step-pages"))):
+            self.assert_sentence(self.without("numpy", tool, "--help"),
+                                 Path(tool).name, "python3-numpy")
         for tool in ("render", "report", "accuracy"):
             self.assert_sentence(
                 self.without("matplotlib", tool, "--help"), tool,

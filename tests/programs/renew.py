@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""contrib/renew: that a page that fails does not keep the others from being
+"""contrib/upkeep/renew: that a page that fails does not keep the others from being
 measured, that short runs change nothing, and with what figures are made.
 """
 from pathlib import Path
@@ -120,13 +120,13 @@ class Renew(ProgramTest):
             self.assertTrue((ROOT / "doc" / page.file).is_file(), name)
 
     def test_command_line(self):
-        tool = ROOT / "contrib/renew"
+        tool = ROOT / "contrib/upkeep/renew"
         listed = self.run_words([tool, "--list"]).stdout
         for name, page in PAGES.items():
             self.assertIn(f"doc/{page.file} ({name})", listed)
-        self.assertIn("contrib/verify --full --document", listed)
-        self.assertNotIn("contrib/verify patch", listed)
-        self.assertIn("contrib/verify patch",
+        self.assertIn("contrib/upkeep/cases verification --full --document", listed)
+        self.assertNotIn("contrib/upkeep/cases verification/patch", listed)
+        self.assertIn("contrib/upkeep/cases verification/patch",
                       self.run_words([tool, "--list", "--short"]).stdout)
         error = self.run_words([tool, "nopage"], code=2).stderr
         self.assertIn("there is no page 'nopage'; there are reproduction",
@@ -137,12 +137,12 @@ class Renew(ProgramTest):
         tree = self.work / "whole"
         copy_tree(ROOT, tree)
         (tree / "build").symlink_to(Path(self.options.morula).parent)
-        said = self.run_words([tree / "contrib/renew", "--short",
+        said = self.run_words([tree / "contrib/upkeep/renew", "--short",
                                "parameters"]).stdout
         self.assertIn("parameters: its tools work", said)
         self.assertIn("renew: 1 of 1 pages", said)
         self.assertTrue((tree / "output/renew/report.txt").is_file())
-        error = self.run_words([tree / "contrib/renew", "--short",
+        error = self.run_words([tree / "contrib/upkeep/renew", "--short",
                                 "half-fixed-sphere", "nopage"], code=2).stderr
         self.assertIn("nopage", error)
 

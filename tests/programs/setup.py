@@ -114,7 +114,7 @@ class Setup(ProgramTest):
     def test_format_without_the_formatter(self):
         """A word, and no failure of all the other checks."""
         words = ["env", "-i", f"PATH={self.bin}", self.bin / "bash",
-                 ROOT / "contrib/indent"]
+                 ROOT / "contrib/upkeep/indent"]
         for version, found in ((None, "none"), (14, "14")):
             if version:
                 self.pretend("clang-format", "#!/bin/bash\n"
@@ -163,6 +163,26 @@ class Build(ProgramTest):
         self.assertEqual(self.calls("half-fixed-sphere"), ("setup ", "ON"))
         self.write("build/CMakeCache.txt", "MORULA_TESTS:BOOL=ON\n")
         self.assertEqual(self.calls("morula"), ("setup program", "ON"))
+
+    def test_check(self):
+        """What is built and tried, quickly or all; ctest's exit code."""
+        shutil.copy(ROOT / "contrib/check", self.work / "contrib")
+        note = '#!/bin/bash\necho "${0##*/} $*" >>"$CALLS"\n'
+        self.write("contrib/build", note).chmod(0o755)
+        self.write("bin/ctest", note + "exit $FAILED\n").chmod(0o755)
+        for words, chosen, failed in (([], "", 0), (["--quick"], "-L quick", 0),
+                                      (["--quick", "-R", "grid"],
+                                       "-L quick -R grid", 8)):
+            calls = self.write("calls", "")
+            ended = call(["env", "-u", "CI", f"CALLS={calls}", f"FAILED={failed}",
+                          f"PATH={self.work / 'bin'}:{os.environ['PATH']}",
+                          self.work / "contrib/check", *words], cwd=self.work)
+            self.assertEqual(ended.code, failed, ended.text)
+            self.assertRegex(ended.text, r"check: \d+ processor seconds")
+            build, ctest = calls.read_text().splitlines()
+            self.assertEqual(build, "build all -DMORULA_TESTS=ON")
+            self.assertRegex(ctest, rf"^ctest --output-on-failure --parallel \d+ ?"
+                             rf"{chosen}$")
 
     def test_with_a_deal_ii_of_ones_own(self):
         for target in ("morula", "all"):

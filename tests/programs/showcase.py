@@ -12,7 +12,7 @@ import numpy
 import pandas
 from morula.prm import parse
 from morula.run import Run
-from program import TESTS, ProgramTest, main, overrides
+from program import ProgramTest, main, overrides
 from scipy.linalg import solve_banded
 from upkeep.showcase import cortex, cut, organoid, plate, pressure
 from upkeep.showcase.greenspan import Parameters, course, radii
@@ -196,6 +196,7 @@ class Showcase(ProgramTest):
                          (case.overrides()[0][1], case.friction, case.end))
         self.execute(cortex.SCENE, *overrides(
             {"Tissue/Radius": "60", "Time/Step": "0.025",
+             "Tissue/Cell spacing": "6", "Grid/Spacing": "12",
              "Friction/Coefficient": "1e-4", "Output/Formats": "csv"}))
         times, waves = cortex.course(Run(self.work / "output"))
         time, first = cortex.onset(times, waves)

@@ -9,6 +9,7 @@ forms and finite differences, before they judge anything.
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import SimpleNamespace
 
 import numpy
 from program import main
@@ -18,12 +19,14 @@ from tests.common.results import Results
 from tests.verification import layouts
 from tests.verification.cases import self_weight, vortex
 from tests.verification.finite_elements import Axis, Block
-from tests.verification.ladder import SCENES, Ladder, Measured, rungs
+from tests.verification.ladder import (Ladder, Measured, ladder_case,
+                                       rungs)
 from tests.verification.material import cauchy, lame
 from tests.verification.radial import GrowingBall, Layer
 from tests.verification.report import markdown
 
 VERIFICATION = Path(__file__).resolve().parents[1] / "verification"
+SCENES = VERIFICATION.parents[1] / "prm/verification"
 
 
 class Material(unittest.TestCase):
@@ -188,26 +191,49 @@ class Judgement(unittest.TestCase):
         sizes = numpy.array([4.0, 2.0, 1.0])
         good = Measured(ladder, sizes, {"e": 3 * sizes**2})
         self.assertAlmostEqual(good.order("e"), 2)
-        self.assertEqual(good.shortcomings(), [])
+        self.assertTrue(all(found.holds() for found in good.findings()))
         for errors in (sizes**1.8, 0 * sizes + 1, sizes * numpy.nan,
                        [1.0, 0.1, 0.0]):
-            self.assertEqual(
-                len(Measured(ladder, sizes, {"e": errors}).shortcomings()), 1)
+            found, = Measured(ladder, sizes, {"e": errors}).findings()
+            self.assertFalse(found.holds())
 
     def test_largest(self):
         ladder = self.ladder(most={"e": 0.5})
-        for errors, wrong in (([0.5, 0.1], 0), ([0.1, 0.6], 1),
-                              ([0.1, float("nan")], 1)):
-            found = Measured(ladder, [2, 1], {"e": errors}).shortcomings()
-            self.assertEqual(len(found), wrong)
+        for errors, holds in (([0.5, 0.1], True), ([0.1, 0.6], False),
+                              ([0.1, float("nan")], False)):
+            found, = Measured(ladder, [2, 1], {"e": errors}).findings()
+            self.assertEqual(found.holds(), holds)
 
     def test_the_page_says_what_is_not_met(self):
         ladder = self.ladder(most={"e": 0.5})
         for errors, told in (([0.5, 0.1], 0), ([0.1, 0.6], 1)):
-            page = markdown([Measured(ladder, [2, 1], {"e": errors})])
-            self.assertEqual(page.count("**Not met:** a: e is 0.6, at most "
-                                        "0.5 is allowed"), told)
+            measured = Measured(ladder, [2, 1], {"e": errors})
+            page = markdown([measured], measured.findings(), True)
+            self.assertEqual(page.count("**Not met:** a: e is 0.6, not at most "
+                                        "0.5"), told)
             self.assertEqual(page.count("Not met"), told)
+
+    def test_a_case_of_ladders(self):
+        """Its trials are the rungs, ctest's and those of the full size; errors
+        come from the runs of a rung."""
+        ladder = Ladder("a", ("b.prm", "c.prm"), "h [µm]", "one step",
+                        rungs("c", [4, 2, 1], full_only=[1],
+                              cells=lambda h: lambda: layouts.disc(50, 10)),
+                        most={"e": 0.5})
+        case = ladder_case("t", "r", [ladder], lambda b, c: {"e": b - c})
+        self.assertEqual([trial.name for trial in case.wanted(False)],
+                         ["a/4/b", "a/4/c", "a/2/b", "a/2/c"])
+        self.assertEqual(len(case.wanted(True)), 6)
+        text = case.trials[0].files["cells.csv"]()
+        self.assertTrue(text.startswith("x,y,volume\n"))
+        runs = {trial.name: SimpleNamespace(results=float(i))
+                for i, trial in enumerate(case.wanted(False))}
+        measured, = case.measure(runs)
+        self.assertEqual((measured.sizes, measured.errors),
+                         ([4, 2], {"e": [-1.0, -1.0]}))
+        found = list(case.judge([measured]))
+        self.assertEqual(case.unfounded(found), [])
+        self.assertEqual(case.unfounded([]), case.sentences())
 
     def test_a_ladder_asserts_something(self):
         with self.assertRaises(ValueError):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-# ranks: 1 2
+# ranks: 1
 """Step 2: the errors against the exact solution, and their orders."""
 from steps import StepTest, main, overrides, tables
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-# ranks: 1 2
+# ranks: 1
 """Step 5: the doubled cube, and the expected number of divisions."""
 import math
 import re

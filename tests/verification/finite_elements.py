@@ -67,7 +67,7 @@ class Block:
     force: tuple = (0.0, 0.0)
     held: dict = None
 
-    def solve(self, n_loads=4):
+    def solve(self, n_loads=2):
         """The solution at full load, reached in equal increments."""
         self.prepare()
         u = numpy.zeros(2 * self.n_nodes)
@@ -119,7 +119,8 @@ class Block:
         for _ in range(30):
             residual, K = self.assemble(u, factor)
             right = -residual[free] - (K @ step)[free]
-            step[free] = spsolve(K[free][:, free], right)
+            step[free] = spsolve(K[free][:, free], right,
+                                 permc_spec="MMD_AT_PLUS_A")
             u = u + step
             if numpy.abs(step).max() <= NEWTON_TOLERANCE:
                 return u

@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What a verification case is: ladders of runs, errors, and what they must do.
-
-A case varies one length or time in a ladder of runs, measures errors against
-an exact solution on every rung, and asserts the order at which they fall, or
-how large they may be. Its module stands in cases/ and defines a Case.
+"""Cases made of ladders: one length or time varies in a ladder of runs, errors
+against an exact solution are measured on every rung, and the order at which they
+fall, or how large they may be, is asserted.
 """
 from dataclasses import dataclass, field
-from pathlib import Path
+from functools import partial
+from io import StringIO
 
 import numpy
 
+from tests.cases.case import Case, Finding, Trial
 from tests.common.tables import with_powers
-
-ROOT = Path(__file__).resolve().parents[2]
-SCENES = ROOT / "prm/verification"
+from tests.verification import report
 
 
 @dataclass
@@ -63,30 +61,6 @@ class Ladder:
         return (f"`{self.name}`, {size} varied, {self.fixed}: the error of "
                 + ", of ".join(words) + ".")
 
-    def wanted(self, full):
-        """The rungs to run, from the coarsest to the finest."""
-        rungs = [rung for rung in self.rungs if full or not rung.full_only]
-        return sorted(rungs, key=lambda rung: -rung.size)
-
-
-@dataclass
-class Case:
-    """A verification case.
-
-    errors(results of each scene...) -> {name: error}. Relative errors have
-    plain names, others carry their unit: "outer radius [µm]".
-    """
-
-    title: str
-    reference: str
-    ladders: list
-    errors: object
-
-    def sentences(self):
-        """What the case asserts in ctest, for its page."""
-        return [ladder.sentence() for ladder in self.ladders
-                if not ladder.full_only]
-
 
 @dataclass
 class Measured:
@@ -103,20 +77,78 @@ class Measured:
             return float("nan")
         return numpy.polyfit(numpy.log(self.sizes), numpy.log(errors), 1)[0]
 
-    def shortcomings(self):
-        """What the ladder asserts and the errors do not do, as sentences."""
-        found = []
-        for name, least in self.ladder.least_orders.items():
-            if not self.order(name) >= least:
-                found.append(f"{self.ladder.name}: {name} falls with order "
-                             f"{self.order(name):.2f}, at least {least} is "
-                             "expected")
-        for name, most in self.ladder.most.items():
-            worst = max(self.errors[name], key=lambda e: (e != e, e))
-            if not worst <= most:
-                found.append(f"{self.ladder.name}: {name} is {worst:.3g}, at "
-                             f"most {most:g} is allowed")
-        return found
+    def findings(self):
+        """What the ladder asserts of the errors."""
+        of, says = self.ladder.name, self.ladder.sentence()
+        found = [Finding(f"{of}: order of {name}", self.order(name),
+                         at_least=least, says=says)
+                 for name, least in self.ladder.least_orders.items()]
+        return found + [
+            Finding(f"{of}: {name}",
+                    max(self.errors[name], key=lambda e: (e != e, e)),
+                    at_most=most, says=says)
+            for name, most in self.ladder.most.items()]
+
+
+def points_file(layout):
+    """The text of a points file of positions (n, dim) in µm and volumes in
+    µm^dim, which layout() returns."""
+    X, volumes = layout()
+    header = ",".join("xyz"[:X.shape[1]]) + ",volume"
+    text = StringIO()
+    numpy.savetxt(text, numpy.column_stack([X, volumes]), fmt="%.17g",
+                  delimiter=",", header=header, comments="")
+    return text.getvalue()
+
+
+def trials_of(ladder):
+    """(rung, its trials, one for each scene) of all rungs, coarsest first."""
+    for rung in sorted(ladder.rungs, key=lambda rung: -rung.size):
+        keys, files = dict(rung.keys), {}
+        if rung.cells:
+            keys.update({"Tissue/Shape": "points",
+                         "Tissue/Points file": "{files}/cells.csv"})
+            files["cells.csv"] = partial(points_file, rung.cells)
+        yield rung, [Trial(
+            f"{ladder.name}/{rung.size:g}/{scene.removesuffix('.prm')}", scene,
+            keys=keys, files=files, row=ladder.name,
+            full_only=ladder.full_only or rung.full_only)
+            for scene in ladder.scenes]
+
+
+def measured(ladders, errors, runs):
+    """The ladders that were run; errors of each rung."""
+    found = []
+    for ladder in ladders:
+        rows = {rung.size: errors(*(runs[trial.name].results
+                                    for trial in trials))
+                for rung, trials in trials_of(ladder)
+                if all(trial.name in runs for trial in trials)}
+        if rows:
+            first = next(iter(rows.values()))
+            found.append(Measured(ladder, list(rows), {
+                name: [float(row[name]) for row in rows.values()]
+                for name in first}))
+    return found
+
+
+def judge(ladders):
+    for ladder in ladders:
+        yield from ladder.findings()
+
+
+def ladder_case(title, reference, ladders, errors):
+    """A case of ladders.
+
+    errors(results of each scene...) -> {name: error}. Relative errors have
+    plain names, others carry their unit: "outer radius [µm]".
+    """
+    return Case(
+        title=f"{title}; reference: {reference}", judge=judge, report=report,
+        trials=[trial for ladder in ladders
+                for _, trials in trials_of(ladder) for trial in trials],
+        limits=tuple(ladder for ladder in ladders if not ladder.full_only),
+        measure=partial(measured, ladders, errors))
 
 
 def rungs(key, sizes, others=None, full_only=(), cells=None):

@@ -5,8 +5,8 @@ a picture of the vortex."""
 import matplotlib
 import numpy
 
+from tests.cases.case import Trial
 from tests.common.results import initial_positions, positions
-from tests.verification.execution import run
 
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker
@@ -98,11 +98,12 @@ PICTURE = {"Grid/Spacing": "15", "Tissue/Cell spacing": "1.875",
            "Time/Step": "0.05"}
 
 
-def draw_vortex(morula, work, file):
+def draw_vortex(execution, file):
     """Runs the vortex in ten steps and draws its cells on their grid before and
     after, in sectors that show how they move."""
-    work.mkdir(parents=True, exist_ok=True)
-    cells = run(morula, "vortex-2d.prm", PICTURE, work).last_cells()
+    run, _ = execution.run("verification/picture", Trial(
+        "vortex", "vortex-2d.prm", keys=PICTURE))
+    cells = run.results.last_cells()
     X = initial_positions(cells)
     sector = numpy.floor(6 * numpy.arctan2(X[:, 1], X[:, 0]) / numpy.pi) % 2
     inside = abs(numpy.hypot(X[:, 0], X[:, 1]) - 100) < 25

@@ -33,14 +33,14 @@ def table(measured):
     return header, rows
 
 
-def print_ladder(measured):
-    ladder = measured.ladder
-    scenes = ", ".join(ladder.scenes)
-    print(f"\n  {ladder.name}: {scenes}, {ladder.fixed}")
-    header, rows = table(measured)
-    for line in aligned(header, rows):
-        print("    " + line)
-    print(flush=True)
+def lines(ladders, findings):
+    """The tables of all ladders for the terminal."""
+    found = []
+    for measured in ladders:
+        scenes = ", ".join(measured.ladder.scenes)
+        found += ["", f"{measured.ladder.name}: {scenes}, "
+                  f"{measured.ladder.fixed}", *aligned(*table(measured))]
+    return found
 
 
 def summary(measured, name):
@@ -58,7 +58,7 @@ def summary(measured, name):
     return f"{text}, {order}"
 
 
-def markdown(ladders):
+def markdown(ladders, findings, full):
     """A table with a row for each ladder of a case, and below it what is not
     as the ladders assert."""
     others = [name for measured in ladders for name in measured.errors
@@ -75,6 +75,7 @@ def markdown(ladders):
                   for name in names]
         rows.append(cells)
     table = tables.markdown(["ladder", "varied", "fixed", *names], rows)
-    unmet = [f"- **Not met:** {text}" for measured in ladders
-             for text in measured.shortcomings()]
+    unmet = [f"- **Not met:** {finding.text} is {finding.value:.3g}, not "
+             f"{finding.limits()}" for finding in findings
+             if not finding.holds()]
     return "\n".join([table, "", *unmet] if unmet else [table])

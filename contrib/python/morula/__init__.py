@@ -16,8 +16,8 @@ executable, `scene` what a .prm file says, `ladder` which keys take which
 values, `kept_runs` runs what is not there yet, `served` does runs in forks of
 one process, and `record` keeps what a run cost; `command_line` and `style` are
 what the tools have in common. Mistakes of the user raise `refusal.Refused`. The
-tools: `report`, `render` (pictures, by `draw`), `shapes`, `images`, `sweep`,
-`accuracy` and `migrate`; `__main__` starts them.
+tools: `report`, `render` (pictures, by `draw`), `shapes`, `images`, `sweep`
+and `accuracy`; `__main__` starts them.
 """
 from .refusal import Refused
 

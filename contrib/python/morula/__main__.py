@@ -10,17 +10,17 @@ import importlib
 import sys
 from pathlib import Path
 
-TOOLS = {  # those of an installation, then those that need Morula's tree
+TOOLS = {  # those of an installation, then those that need Morula's tree, from
+    # accuracy-ladders on those of contrib/upkeep
     "accuracy": "morula.accuracy.tool", "cell-shapes": "morula.shapes.tool",
-    "import": "morula.images.tool", "migrate": "morula.migrate", "render": "morula.render.tool",
+    "import": "morula.images.tool", "render": "morula.render.tool",
     "report": "morula.report.tool", "sweep": "morula.sweep.tool",
-    "accuracy-ladders": "upkeep.accuracy", "parameters": "upkeep.parameters",
-    "half-fixed-sphere": "upkeep.half_fixed_sphere",
+    "reproduce": "reproduction.tool",
+    "accuracy-ladders": "upkeep.accuracy", "changes": "upkeep.changes",
+    "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
     "doxygen": "upkeep.manual.tool", "renew": "upkeep.renew",
-    "step-pages": "upkeep.steps", "reproduce": "reproduction.tool",
-    "showcase": "upkeep.showcase.tool",
-    "benchmark": "tests.benchmarks.tool", "verify": "tests.verification.tool",
-    "hard-cases": "tests.hard.tool"}
+    "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
+    "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "numpy": "python3-numpy", "scipy": "python3-scipy",

@@ -6,12 +6,6 @@ from dataclasses import dataclass
 
 from .execute import call
 
-# Former path of a key -> its path today, e.g. "Grid/Mesh size": "Grid/Spacing".
-# No key has been renamed yet. The program must know the former name, too, by
-# ParameterHandler::declare_alias where the key is declared (both names in one
-# subsection): the test programs/keys.py compares.
-RENAMES = {}
-
 
 @dataclass(frozen=True)
 class Key:

@@ -2,12 +2,12 @@
 # Copyright (C) 2026 by the Morula authors
 """Does the measurements of doc/accuracy-and-cost.md, with contrib/accuracy.
 
-    contrib/accuracy-ladders                    all three scenes
-    contrib/accuracy-ladders graded-sphere      this one
-    contrib/accuracy-ladders --document         and writes the tables of
+    contrib/upkeep/accuracy-ladders                    all three scenes
+    contrib/upkeep/accuracy-ladders graded-sphere      this one
+    contrib/upkeep/accuracy-ladders --document         and writes the tables of
                                                 this version and figures
-    contrib/accuracy-ladders --short            few and coarse runs, for a test
-    contrib/accuracy-ladders --list             the commands
+    contrib/upkeep/accuracy-ladders --short            few and coarse runs, for a test
+    contrib/upkeep/accuracy-ladders --list             the commands
 
 Under an hour on two cores with nothing else to do; runs that are there already
 are not repeated, and one that was stopped goes on.

@@ -3,7 +3,7 @@
 """Sentences of pages that state limits: the cases that assert them write them.
 
 In a page they stand between <!-- limits NAME --> and <!-- end -->, NAME being
-the case; `contrib/renew --limits` writes them there without running anything,
+the case; `contrib/upkeep/renew --limits` writes them there without running anything,
 and tests/programs/measured.py compares.
 """
 import importlib

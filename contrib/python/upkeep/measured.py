@@ -26,37 +26,37 @@ PAGES = {
           "fig-3a"),)),
     "showcase": Page(
         "showcase.md",
-        (("contrib/showcase", "--jobs", "2", "--document", *BUILT),),
-        (("contrib/showcase", *BUILT, "-s", "Tissue/Cell spacing=30",
+        (("contrib/upkeep/showcase", "--jobs", "2", "--document", *BUILT),),
+        (("contrib/upkeep/showcase", *BUILT, "-s", "Tissue/Cell spacing=30",
           "-s", "Grid/Spacing=80", "-s", "Time/End time=1",
           "WM983b, 2500 cells"),)),
     "verification": Page(
         "verification.md",
-        (("contrib/verify", "--full", "--document"),),
-        (("contrib/verify", "patch", "--plot"),)),
+        (("contrib/upkeep/cases", "verification", "--full", "--document"),),
+        (("contrib/upkeep/cases", "verification/patch", "--plot"),)),
     "accuracy-and-cost": Page(
         "accuracy-and-cost.md",
-        (("contrib/accuracy-ladders", "--document", "--again"),),
-        (("contrib/accuracy-ladders", "--short", "--again", "grid-offsets"),)),
+        (("contrib/upkeep/accuracy-ladders", "--document", "--again"),),
+        (("contrib/upkeep/accuracy-ladders", "--short", "--again", "grid-offsets"),)),
     "hard-cases": Page(
         "hard-cases.md",
-        (("contrib/hard-cases", "--full", "--document"),),
-        (("contrib/hard-cases", "meshes", "--document"),)),
+        (("contrib/upkeep/cases", "hard", "--full", "--document"),),
+        (("contrib/upkeep/cases", "hard/meshes", "--document"),)),
     "performance": Page(
         "performance.md",
-        (("contrib/benchmark", "--document"),),
-        (("contrib/benchmark", "--built", "--document", "--largest", "8000",
+        (("contrib/upkeep/benchmark", "--document"),),
+        (("contrib/upkeep/benchmark", "--built", "--document", "--largest", "8000",
           "sizes"),)),
     "steps": Page(
         "steps/README.md",
-        (("contrib/step-pages",),),
-        (("contrib/step-pages", "1"),)),
+        (("contrib/upkeep/step-pages",),),
+        (("contrib/upkeep/step-pages", "1"),)),
     "half-fixed-sphere": Page(
         "half-fixed-sphere.md",
-        (("contrib/half-fixed-sphere",),),
+        (("contrib/upkeep/half-fixed-sphere",),),
         ()),  # its ladders take hours; tests/programs try the program
     "parameters": Page(
         "parameters.md",
-        (("contrib/parameters",),),
-        (("contrib/parameters",),)),
+        (("contrib/upkeep/parameters",),),
+        (("contrib/upkeep/parameters",),)),
 }

@@ -2,8 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """Writes doc/parameters.md, the table of all keys, from `morula --parameters`.
 
-    contrib/parameters            writes it
-    contrib/parameters --check    exit code 1 if it is not up to date
+    contrib/upkeep/parameters            writes it
+    contrib/upkeep/parameters --check    exit code 1 if it is not up to date
 """
 import argparse
 import re
@@ -18,7 +18,7 @@ PAGE = ROOT / "doc/parameters.md"
 
 HEAD = """# Keys of a scene
 
-Every key of a `.prm` file. This page is written by `contrib/parameters` from
+Every key of a `.prm` file. This page is written by `contrib/upkeep/parameters` from
 `build/morula --parameters`, which prints the same as a scene to start from. In a
 file, each part of a path but the last is a `subsection`; on the command line it is
 `-s "Grid/Spacing=50"`. [theory.md](theory.md) says what the symbols mean,
@@ -107,7 +107,7 @@ def main():
     if options.check:
         if not PAGE.is_file() or PAGE.read_text() != text:
             sys.exit("doc/parameters.md is not up to date: call "
-                     "contrib/parameters, and commit it.")
+                     "contrib/upkeep/parameters, and commit it.")
         return
     PAGE.write_text(text)
     print("written:", PAGE.relative_to(ROOT))

@@ -7,14 +7,14 @@ keep the others from being measured, and a table with figures beyond their
 limits says so itself; output/renew/report.txt says at the end what became of
 each, output/renew/PAGE.log what its tools said.
 
-    contrib/renew                      all pages: some hours
-    contrib/renew verification steps   these
-    contrib/renew --short              a few small runs through the tools of
+    contrib/upkeep/renew                      all pages: some hours
+    contrib/upkeep/renew verification steps   these
+    contrib/upkeep/renew --short              a few small runs through the tools of
                                        each, in minutes, in a copy of the tree
                                        below output/renew: nothing changes
-    contrib/renew --list               the pages and their commands
-    contrib/renew --show hard-cases    prints the tables of this version
-    contrib/renew --limits             writes into the pages, without any run,
+    contrib/upkeep/renew --list               the pages and their commands
+    contrib/upkeep/renew --show hard-cases    prints the tables of this version
+    contrib/upkeep/renew --limits             writes into the pages, without any run,
                                        the limits that the cases assert
 """
 import argparse

@@ -3,8 +3,8 @@
 """Runs step programs as their pages say, and writes what these show: the
 tables of this version (doc/measured), pictures in doc/images/steps.
 
-    contrib/step-pages          all of them, in some four minutes of one core
-    contrib/step-pages 2 7      those of steps 2 and 7
+    contrib/upkeep/step-pages          all of them, in some four minutes of one core
+    contrib/upkeep/step-pages 2 7      those of steps 2 and 7
 
 The runs stand in output/step-N. The programs must have been built.
 """

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Measured tables are data of a version: doc/measured/VERSION/PAGE.json.
 
-One file a page, written by the tools that measure (contrib/renew calls them)
+One file a page, written by the tools that measure (contrib/upkeep/renew calls them)
 and never by hand:
 
   {"page": "doc/hard-cases.md", "version": "0.1.0",
@@ -11,7 +11,7 @@ and never by hand:
 A part of a table is {"text": lines of Markdown}, {"code": lines} or
 {"header": words, "rows": lists of words}. Pages link to a table by a line of
 its own, [Measured: cuts](measured/0.1.0/hard-cases.json), where the manual
-(contrib/doxygen) shows it.
+(contrib/upkeep/doxygen) shows it.
 """
 import json
 import re

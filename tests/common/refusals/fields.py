@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Fields with numbers, names or keys that they cannot have."""
 from tests.common.refusals.expressions import PLANE
-from tests.common.refusals.refusal import CYCLE, Refusal, wrong
+from tests.common.refusals.refusal import CYCLE, wrong
 
 OXYGEN = "Fields/oxygen/"
 FIELD = {"Fields/Names": "oxygen", OXYGEN + "Diffusion": "1e8",

@@ -3,7 +3,7 @@
 """Grid cells that change their class while tissue grows through them."""
 import numpy
 
-from tests.hard.case import Case, Limit, Trial
+from tests.cases.case import Case, Limit, Trial
 from tests.hard.slab import slab
 
 SCENE, L_P = "growing-column.prm", 4.0
@@ -73,9 +73,6 @@ def judge(runs):
 
 CASE = Case(
     title="Grid cells that change their class as tissue grows",
-    breaks="classes by counted points flicker where few cells fill a grid "
-           "cell, or aliased with the lattice",
-    cure="classes by the volume that cells occupy, relative to the neighbours",
     judge=judge, limits=(RIGHT, SMOOTH, HEIGHT),
     trials=[
         *(trial(ratio, 0.85, "fitting") for ratio in RATIOS),

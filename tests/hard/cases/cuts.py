@@ -8,7 +8,7 @@ import re
 import numpy
 
 from tests.common.results import positions
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 from tests.hard.slab import slab
 
 N = 20  # offsets
@@ -146,9 +146,6 @@ FIRST_STEP_ONLY = {"Time/Smallest step": "0.9"}
 
 CASE = Case(
     title="Grid lines that cut the tissue anyhow",
-    breaks="splines that touch the tissue only with their rim have next to no "
-           "stiffness: the matrix is singular for all that computers can tell",
-    cure="extended B-splines",
     judge=judge, limits=(APEX, CONDITION, EXACT, HEIGHT, BREAKS),
     trials=[
         *sweep("disc, paper's keys, y", DISC, 50, ALONG),

@@ -7,7 +7,7 @@ import numpy
 from scipy.spatial import cKDTree
 
 from tests.common.results import positions
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 LENGTH = 10.0  # of a founder, µm
 
@@ -158,11 +158,6 @@ FIXED = "Boundary conditions/Fixed where"
 
 CASE = Case(
     title="Division in bad places",
-    breaks="Voronoi regions at a surface have no end, those at a wall reach "
-           "through it, those of coinciding cells are empty: daughters leave "
-           "the tissue, or coincide",
-    cure="walls by distance, capped at a cell's length; Dirichlet points as "
-         "local half-spaces; a least distance",
     judge=judge, limits=(PLACES, WALL, SURFACE, NEAREST),
     trials=[
         # three rounds: 64, 128, 256, 512 cells

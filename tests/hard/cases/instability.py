@@ -5,7 +5,7 @@ import numpy
 
 from tests.common.results import read_csv
 from tests.hard import clamped_rod
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 from tests.hard.stability import Part, half_space, layers, rings
 
 ROD = 2 * numpy.pi / 400  # wave number of the modes of both rods, 1/µm
@@ -163,10 +163,6 @@ def judge(runs):
 
 CASE = Case(
     title="Growth that ends in a fold",
-    breaks="at the critical growth the tangent is singular, beyond it indefinite: "
-           "Newton's method stops, or keeps a state that no tissue would keep",
-    cure="conjugate gradients that notice negative curvature, a shift as large as "
-         "the curvature asks for, and a search on the energy",
     judge=judge, limits=(FILM, RING, BEYOND, FLAT),
     trials=[
         Trial("rod", "growing-rod.prm", quick=COARSE_ROD, timeout=300),

@@ -4,7 +4,7 @@
 generations, and steps far too long or too short."""
 import numpy
 
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 E, NU = 1.0, 0.4
 LAMBDA = E * NU / ((1 + NU) * (1 - 2 * NU))
@@ -164,11 +164,6 @@ EACH = {"Output/Interval": "1", **TRIMMED}
 
 CASE = Case(
     title="Large growth, and growth without room",
-    breaks="compressed tissue has an indefinite tangent, the tissue leaves the "
-           "grid it was given, and what a step leaves over adds up",
-    cure="a first tangent at the old growth, a line search on the energy, "
-         "shifts where the curvature is negative, a grid without a rim, held "
-         "positions instead of increments",
     judge=judge, limits=(DIVISIONS, GROWN, STEPS, CLAMP, SOFT_CLAMP),
     trials=[
         Trial("growth", "large-growth.prm", keys=EACH, quick=SMALL),

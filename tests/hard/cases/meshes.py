@@ -5,7 +5,7 @@ import struct
 
 import numpy
 
-from tests.hard.case import Case, Limit, Trial
+from tests.cases.case import Case, Limit, Trial
 
 FACES = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
          [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]
@@ -148,10 +148,6 @@ def trial(name, ending, text, message=None):
 
 CASE = Case(
     title="Surface meshes with defects",
-    breaks="a surface with a hole, a fold or a wall has no inside: cells end up "
-           "anywhere, or nowhere",
-    cure="refused before anything is computed, with the place of the defect; "
-         "orientation and doubled vertices are mended",
     judge=judge, limits=(VOLUME_INSIDE,),
     trials=[*(trial(name, *mesh) for name, mesh in BAD.items()),
             *(trial(name, *mesh) for name, mesh in GOOD.items())])

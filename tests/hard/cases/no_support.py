@@ -6,7 +6,7 @@ import math
 import numpy
 
 from tests.common.results import initial_positions, positions, read_csv
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 ANGLES = 0.5, 1.0  # of the turned layouts, radians
 SHIFT = 40.0, -60.0  # µm, whole grid cells
@@ -186,10 +186,6 @@ def judge(runs):
 
 CASE = Case(
     title="Bodies that nothing holds",
-    breaks="rigid motions have no stiffness: the matrix is singular, and where "
-           "the body goes is up to rounding",
-    cure="unsupported rigid motions of each piece are found, kept out of the "
-         "linear solver, and taken out of every step",
     judge=judge, limits=(STAYS, FRAME, GRID, FRAGMENT),
     trials=[
         Trial("body", "free-body.prm", ranks=(1, 2), agreement=1e-5),

@@ -9,7 +9,7 @@ kappa = alpha E/h, per area at the beginning of the step.
 import numpy
 from scipy.optimize import fsolve
 
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 EDGE = 120.0  # µm
 UNTIL = 2.5  # days; beyond, the lattice of cells loses its symmetry
@@ -65,10 +65,6 @@ def judge(runs):
 
 CASE = Case(
     title="An obstacle that swallows the tissue",
-    breaks="in the end there is no equilibrium, and a penalty lets the tissue "
-           "through the walls",
-    cure="a step at whose beginning the surface is deeper than a grid spacing in an "
-         "obstacle is not done",
     judge=judge, limits=(VOLUME,),
     trials=[
         Trial("swallowed", "swallowed.prm", exit=2,

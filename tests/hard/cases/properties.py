@@ -10,7 +10,7 @@ import numpy
 from scipy.spatial import cKDTree
 
 from tests.common.results import initial_positions, positions, read_csv
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 from tests.hard.random_scenes import (AlignedScene, LatticeScene, PointsScene,
                                       quarter_turns_and_mirrors, rotation)
 
@@ -210,9 +210,5 @@ def judge_points(runs):
 
 CASE = Case(
     title="Random scenes, turned, mirrored and renumbered",
-    breaks="nothing is where it is convenient for the grid",
-    cure="nothing depends on the order of cells; of equally good extension "
-         "blocks the fullest are taken, and where choices are equal in all, as "
-         "on the sides of a grid line, their mean",
     judge=judge, limits=(RENUMBERED, TURNED, FINER, CONSERVED),
     trials=[trial for family in FAMILIES for trial in family.trials()])

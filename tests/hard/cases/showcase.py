@@ -4,7 +4,7 @@
 import numpy
 
 from tests.common.results import positions, read_csv, stresses
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 RATE = 0.3748  # 1/day: the root of 2 exp(-r) / (1 + r) = 1
 
@@ -74,10 +74,6 @@ def judge(runs):
 
 CASE = Case(
     title="From 27 cells to 100,000",
-    breaks="one grid cell carries the tissue; later the surface's points are "
-           "farther apart than the grid's lines",
-    cure="one quadratic field for a small piece; the surface refined as it "
-         "stretches",
     judge=judge, limits=(VOLUME, VIRIAL, RELAXED),
     trials=[
         Trial("ball", "from-27-cells.prm",

@@ -4,7 +4,7 @@
 import numpy
 
 from tests.common.results import initial_positions, positions
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 
 SHAPES = {"1 cell": "10, 10, 10", "2 cells": "20, 10, 10",
           "8 cells": "20, 20, 20", "27 cells": "30, 30, 30",
@@ -172,11 +172,6 @@ def bodies(name, file, row="two bodies", offset="0, 0"):
 
 CASE = Case(
     title="Tissue smaller or thinner than a grid cell, and bodies close by",
-    breaks="splines hardly touch the tissue or cannot be told apart by its "
-           "cells; bodies share splines and pull each other",
-    cure="inner grid cells on one side of thin tissue, one polynomial for a "
-         "small piece, two or three points a direction in single layers, one copy of a "
-         "spline for each part",
     judge=judge, limits=(EXACT, ARC, APART, STUCK),
     trials=[Trial(f"{shape}, {place}", "small-and-thin.prm", row=shape,
                   keys={"Tissue/Size": size, "Grid/Offset": offset})

@@ -4,7 +4,7 @@
 import numpy
 from scipy.optimize import brentq
 
-from tests.hard.case import Case, Finding, Limit, Trial
+from tests.cases.case import Case, Finding, Limit, Trial
 from tests.verification import inclusion
 from tests.verification.cook import REFERENCE
 from tests.verification.material import lame
@@ -149,9 +149,6 @@ def judge(runs):
 CASE = Case(
     title="Nearly incompressible tissue, and a thousandfold stiffness next "
           "door",
-    breaks="where every cell keeps its own volume, a grid cell's splines have "
-           "more constraints than they can keep, and the tissue locks",
-    cure="one mean volume change a grid cell (`Volumetric strain = projected`)",
     judge=judge, limits=(VOLUME, CONFINED, SQUEEZED, HALVED, ITERATIONS),
     trials=[
         *[Trial(f"cook-{form}-{nu}", "cook.prm", quick=COARSE,

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from tests.verification import block
 from tests.verification.finite_elements import Axis, Block
-from tests.verification.ladder import (Case, Ladder, rungs, spacing,
+from tests.verification.ladder import (Ladder, ladder_case, rungs, spacing,
                                        spacing_and_cut)
 from tests.verification.material import lame
 
@@ -22,7 +22,7 @@ def reference():
         lame(nu=0), (0, -4e-5), {"left": lambda factor: (0, 0)}))
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Cantilever",
     reference="body-fitted finite elements",
     errors=lambda results: block.errors(results, reference()),

@@ -6,7 +6,8 @@ import numpy
 from scipy.optimize import brentq
 
 from tests.verification.errors import field_errors
-from tests.verification.ladder import Case, Ladder, cut, rungs, spacing_and_cut
+from tests.verification.ladder import (Ladder, cut, ladder_case, rungs,
+                                       spacing_and_cut)
 from tests.verification.material import cauchy, lame
 
 THETA = 1.4
@@ -39,7 +40,7 @@ def stress(X, t):
         cauchy(F[None], lame(), numpy.array([THETA]), dim), (len(X), 3, 3))
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Uniform growth between slip walls",
     reference="closed form",
     errors=lambda results: field_errors(results, motion, stress),

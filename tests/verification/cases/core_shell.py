@@ -5,7 +5,7 @@ from functools import partial
 
 from tests.verification import growing_ball, layouts
 from tests.verification.growing_ball import RADIUS
-from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.ladder import Ladder, ladder_case, rungs, spacing
 from tests.verification.radial import Layer
 
 CORE = RADIUS / 2
@@ -15,7 +15,7 @@ DISC, SPHERE = ("core-shell-disc.prm",), ("core-shell-sphere.prm",)
 # F is continuous where F_e jumps: no smooth field can be right on both sides.
 JUMP = {"displacement": 1.1, "stress": 0.4}
 
-CASE = Case(
+CASE = ladder_case(
     title="Core and shell: growth that jumps",
     reference="two ordinary differential equations",
     errors=lambda results: growing_ball.errors(results, LAYERS),

@@ -5,8 +5,8 @@ from functools import lru_cache
 
 from tests.verification import block
 from tests.verification.finite_elements import Axis, Block
-from tests.verification.ladder import (Case, Ladder, cut, rungs, spacing,
-                                       spacing_and_cut)
+from tests.verification.ladder import (Ladder, cut, ladder_case, rungs,
+                                       spacing, spacing_and_cut)
 from tests.verification.material import lame
 
 PLANE, SPACE = ("fitted-2d.prm",), ("fitted-3d.prm",)
@@ -26,7 +26,7 @@ def reference():
               "top": lambda factor: (20 * factor, -10 * factor)}))
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Nitsche's conditions against a body-fitted mesh",
     reference="body-fitted finite elements",
     errors=lambda results: block.errors(results, reference()),

@@ -5,7 +5,7 @@ from functools import partial
 
 from tests.verification import growing_ball, layouts
 from tests.verification.growing_ball import RADIUS
-from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.ladder import Ladder, ladder_case, rungs, spacing
 from tests.verification.radial import Layer
 
 LAYERS = [Layer(0, RADIUS, lambda R: 1 + 0.4 * (R / RADIUS)**2,
@@ -32,7 +32,7 @@ def sphere_at_50(convention, others):
                   label=f"graded sphere ({convention})")
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Graded growth of a free sphere and a free disc",
     reference="two ordinary differential equations",
     errors=lambda results: growing_ball.errors(results, LAYERS),

@@ -6,7 +6,7 @@ import numpy
 
 from tests.common.results import initial_positions, positions, stresses
 from tests.verification.errors import norm
-from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.ladder import Ladder, ladder_case, rungs, spacing
 from tests.verification.material import cauchy, lame
 
 PLANE, SPACE = ("patch-2d.prm",), ("patch-3d.prm",)
@@ -62,7 +62,7 @@ def errors(results):
             name: error / scale if name == "stress" else error}
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Patch tests: affine, rigid, free growth",
     reference="closed form",
     errors=errors,

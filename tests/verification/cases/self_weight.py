@@ -4,8 +4,8 @@
 import numpy
 
 from tests.verification.errors import field_errors
-from tests.verification.ladder import (Case, Ladder, cut, rungs, spacing,
-                                       spacing_and_cut)
+from tests.verification.ladder import (Ladder, cut, ladder_case, rungs,
+                                       spacing, spacing_and_cut)
 from tests.verification.material import cauchy, lame
 
 WEIGHT, LENGTH = 5e-3, 200  # kPa/µm, µm
@@ -58,7 +58,7 @@ def stress(X, t):
     return cauchy(F, lame())
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Column under its own weight",
     reference="closed form",
     errors=lambda results: field_errors(results, motion, stress),

@@ -5,7 +5,7 @@ import numpy
 
 from tests.common.results import initial_positions, positions, stresses
 from tests.verification.errors import norm
-from tests.verification.ladder import (Case, Ladder, rungs, spacing,
+from tests.verification.ladder import (Ladder, ladder_case, rungs, spacing,
                                        spacing_and_cut)
 
 PLANE = ("slip-half-2d.prm", "slip-full-2d.prm")
@@ -32,7 +32,7 @@ def errors(half, full):
             "stress": norm(stresses(cells) - sigma, V) / norm(sigma, V)}
 
 
-CASE = Case(
+CASE = ladder_case(
     title="Slip plane against symmetry",
     reference="the whole body, by the same program",
     errors=errors,

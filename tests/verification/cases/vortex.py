@@ -4,7 +4,7 @@
 import numpy
 
 from tests.verification.errors import field_errors
-from tests.verification.ladder import Case, Ladder, rungs, spacing
+from tests.verification.ladder import Ladder, ladder_case, rungs, spacing
 from tests.verification.material import cauchy, lame
 
 
@@ -52,7 +52,7 @@ def gradient(X, t):
 PLANE, SPACE = ("vortex-2d.prm",), ("vortex-3d.prm",)
 SMOOTH = {"displacement": 1.9, "stress": 0.9}
 
-CASE = Case(
+CASE = ladder_case(
     title="Generalised vortex",
     reference="the motion that its body force is made for",
     errors=lambda results: field_errors(

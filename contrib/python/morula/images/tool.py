@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/import."""
-import sys
 from pathlib import Path
 
 import numpy as np

@@ -12,6 +12,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[4]
 
+# The page of all keys: a row of its tables is a key.
+KEYS = "doc/parameters.md"
+KEY_ROW = re.compile(r"^\| `([^`]+)` ", re.M)
+
 # Where a page of Doxygen's finds the pictures of doc/images.
 PICTURES = "images"
 
@@ -32,6 +36,11 @@ def slug(heading):
 def anchor(page, name):
     """Doxygen's name of an anchor: unlike GitHub's, one for all pages."""
     return f"{page}-" + re.sub(r"[^A-Za-z0-9_-]", "_", name)
+
+
+def key(path):
+    """Doxygen's name of a key's row in doc/parameters.md."""
+    return anchor(page_name(KEYS), "key-" + slug(path.replace("/", "-")))
 
 
 def equation(page, number):
@@ -131,6 +140,9 @@ class Page:
 
     def converted(self, source):
         """The whole page."""
+        if self.path == KEYS:
+            source = KEY_ROW.sub(
+                lambda m: rf"| \anchor {key(m[1])} `{m[1]}` ", source)
         out, lines, fence = [], [], None
         for line in source.split("\n"):
             mark = re.match(r"\s*(```+)(\S*)\s*$", line)
@@ -153,8 +165,9 @@ class Page:
             "\n".join(out), flags=re.M | re.S)
 
 
-# Dated and frozen: pages link to them, but they are not checked.
-NOTES = "doc/notes/20"
+# No pages of the manual: notes are dated and frozen, and changes are for those
+# who know an older version.
+OTHERS = ("doc/notes/20", "doc/changes/")
 
 OTHER_PAGES = ("README.md", "CONTRIBUTING.md", "tests/README.md")
 
@@ -162,12 +175,22 @@ OTHER_PAGES = ("README.md", "CONTRIBUTING.md", "tests/README.md")
 def is_page(path):
     """Whether Doxygen makes a page of this file: those of doc/Doxyfile."""
     return (ROOT / path).is_file() and (
-        path.startswith("doc/") and not path.startswith(NOTES)
+        path.startswith("doc/") and not path.startswith(OTHERS)
         or path in OTHER_PAGES)
 
 
 def pages():
-    """The files of all pages."""
-    return [*(page for page in ROOT.glob("doc/**/*.md")
-              if is_page(page.relative_to(ROOT).as_posix())),
-            *(ROOT / name for name in OTHER_PAGES)]
+    """The files of all pages: in the order in which doc/README.md names them, and
+    steps in theirs; then those that it does not name."""
+    named = [ROOT / "README.md", ROOT / "doc/README.md"]
+    for line in named[1].read_text(encoding="utf-8").splitlines():
+        for link in re.findall(r"\]\(([^)#]+)", line):
+            file = Path(os.path.normpath(ROOT / "doc" / link))
+            named.append(file)
+            if file.parent.name == "steps":
+                named += sorted(file.parent.glob("*.md"))
+    every = [file for file in (*named, *sorted(ROOT.glob("doc/**/*.md")),
+                               *(ROOT / name for name in OTHER_PAGES))
+             if file.suffix == ".md"
+             and is_page(file.relative_to(ROOT).as_posix())]
+    return list(dict.fromkeys(every))

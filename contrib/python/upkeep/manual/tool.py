@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Runs Doxygen on the pages and headers; see contrib/doxygen."""
+"""Runs Doxygen on the pages and headers; see contrib/upkeep/doxygen."""
 import argparse
 import os
 import shutil
@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from upkeep.manual import python_reference
+from upkeep.manual import python_reference, search
 from upkeep.manual.coverage import undocumented
 from upkeep.manual.header import comments_linked
 from upkeep.manual.markdown import PICTURES, ROOT, Page, pages
@@ -23,7 +23,10 @@ def settings(folder):
     lines = [f'@INCLUDE = "{ROOT}/doc/Doxyfile"', f'OUTPUT_DIRECTORY = "{folder}"',
              f'WARN_LOGFILE = "{folder / "warnings.txt"}"',
              "GENERATE_XML = YES", "XML_OUTPUT = xml",
-             "XML_PROGRAMLISTING = NO"]
+             "XML_PROGRAMLISTING = NO",
+             "INPUT = " + " ".join(page.relative_to(ROOT).as_posix()
+                                   for page in pages()),
+             f"INPUT += {python_reference.PATH} include/morula"]
     if MATHJAX.is_dir():
         lines.append("MATHJAX_RELPATH = mathjax")
     return "\n".join(lines) + "\n"
@@ -66,6 +69,7 @@ def make(output):
         if not (aside / "index.html").is_file():
             return complaints + ["doxygen wrote no index.html"]
         complaints += undocumented(aside / "xml")
+        search.add_keys(aside)
         log.unlink(missing_ok=True)
         shutil.rmtree(aside / "xml")
         shutil.copytree(ROOT / "doc/images", aside / PICTURES)
@@ -82,7 +86,7 @@ def make(output):
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="contrib/doxygen",
+        prog="contrib/upkeep/doxygen",
         description="Writes all pages of the documentation, and a reference "
         "of all classes and functions, as HTML. A warning of Doxygen's, or a "
         "public class or function without a comment, gives exit code 1.")
@@ -92,13 +96,13 @@ def main():
     output = options.output.resolve()
     if output.exists() and any(output.iterdir()) and not (
             output / "doxygen.css").is_file():
-        sys.exit(f"contrib/doxygen: {output} holds something that Doxygen did "
+        sys.exit(f"contrib/upkeep/doxygen: {output} holds something that Doxygen did "
                  "not write; it is left alone. Give another --output.")
     complaints = make(output)
     for complaint in complaints:
         print(complaint, file=sys.stderr)
     if complaints:
-        sys.exit(f"contrib/doxygen: {len(complaints)} complaint(s).")
+        sys.exit(f"contrib/upkeep/doxygen: {len(complaints)} complaint(s).")
     if not MATHJAX.is_dir():
         print("Formulas are drawn by MathJax from the network, as Debian's "
               "libjs-mathjax is not here.")

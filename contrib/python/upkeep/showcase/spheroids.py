@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[4]
 DATA = ROOT / "doc/data/spheroids.csv"
 SCENE = ROOT / "prm/showcase/spheroid.prm"
 
-# Least squares of Greenspan's radii to all series of a line (contrib/showcase
+# Least squares of Greenspan's radii to all series of a line (contrib/upkeep/showcase
 # --fit): the line's parameters, and an outer radius on the first day of each.
 LINES = {"WM983b": Parameters(221.2, 187.2, 0.3684, 0.2336),
          "WM793b": Parameters(250.1, 202.3, 0.1668, 0.0481)}

@@ -2,10 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """Compares the showcase scenes with published data.
 
-    contrib/showcase                       all runs: more than an hour
-    contrib/showcase "WM983b, 2500 cells"  this one
-    contrib/showcase pressure              all that begin so
-    contrib/showcase --fit                 fits the equations to the data anew
+    contrib/upkeep/showcase                       all runs: more than an hour
+    contrib/upkeep/showcase "WM983b, 2500 cells"  this one
+    contrib/upkeep/showcase pressure              all that begin so
+    contrib/upkeep/showcase --fit                 fits the equations to the data anew
 
 Runs are kept below output/showcase and not repeated by the same build. With
 --document, the tables of this version (doc/measured) and the pictures of

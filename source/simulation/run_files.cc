@@ -65,6 +65,18 @@ namespace Morula
       return row;
     }
 
+    /** Whether conditions act on the surface. */
+    bool
+    acts_on_surface(const Scene &scene)
+    {
+      const auto &choices = scene.catalogue.boundary_conditions;
+      return std::any_of(choices.begin(),
+                         choices.end(),
+                         [](const auto &choice) {
+                           return choice.keys().is_on();
+                         });
+    }
+
     struct Table
     {
       std::string              name; // of the file, without ending
@@ -84,6 +96,8 @@ namespace Morula
         {"lineage", lineage_columns(!types.empty())}};
       if (contents.any())
         tables.push_back({"events", event_columns(contents)});
+      if (acts_on_surface(scene))
+        tables.push_back({"forces", force_columns(), true});
       if (scene.output.condition_estimate)
         tables.push_back({"condition", condition_columns(), true});
       if (scene.output.newton_trace)
@@ -135,6 +149,9 @@ namespace Morula
     , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
                                   scene.output.snapshot_interval,
                                   scene.time))
+    , next_forces(next_multiple(resumed_from ? resumed_from->time : 0.,
+                                scene.output.interval,
+                                scene.time))
     , points(comm)
   {
     lock.emplace(scene.output_directory, comm);
@@ -320,6 +337,23 @@ namespace Morula
     const double interval = scene.output.snapshot_interval;
     return last || (interval > 0. &&
                     time >= next_snapshot * interval - scene.time.slack());
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::forces_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.interval;
+    return last || (interval > 0. &&
+                    time >= next_forces * interval - scene.time.slack());
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::forces(const double time, const std::vector<ForceRow> &rows)
+  {
+    next_forces = next_multiple(time, scene.output.interval, scene.time);
+    tables.at("forces").append(force_rows(time, rows));
   }
 
   template <int dim>

@@ -9,6 +9,7 @@
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
 #include <morula/output/events.h>
+#include <morula/output/forces.h>
 #include <morula/output/lineage.h>
 #include <morula/output/matrix_condition.h>
 #include <morula/output/newton_trace.h>
@@ -69,6 +70,14 @@ namespace Morula
     /** Appends to newton.csv. Only if the scene asks for the file. */
     void
     newton(const unsigned int step, const std::vector<NewtonIteration> &trace);
+
+    /** Whether forces.csv is due at @p time (day), as cells and surface are
+     *  from the first step on. */
+    bool
+    forces_due(const double time, const bool last) const;
+    /** Appends to forces.csv. Only if conditions act on the surface. */
+    void
+    forces(const double time, const std::vector<ForceRow> &rows);
 
     /** Whether the scene asks for cells and surface in any format. */
     bool
@@ -151,6 +160,7 @@ namespace Morula
     // The next ones are due at these multiples of their intervals.
     unsigned int            next_output;
     unsigned int            next_snapshot;
+    unsigned int            next_forces;
     SectionTimes            sections_before;
     std::optional<Progress> progress;
     // The tables that the scene has, by their names without ending.

@@ -172,6 +172,7 @@ namespace Morula
     DevelopmentOfStep<dim>           growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise
+    std::vector<ForceRow>            forces; // at the end of the last step
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     std::optional<ConditionEstimate> condition; // if the scene asks for it

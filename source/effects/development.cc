@@ -247,6 +247,21 @@ namespace Morula
 
   template <int dim>
   void
+  CellDevelopment<dim>::choose_first_axis(
+    const PresentCell<dim> &founder, const CellView<dim, double> &cell) const
+  {
+    if (!effects.cycle || effects.rule(founder.type()) == nullptr)
+      return;
+    CycleState<dim> state = clock(cell);
+    if (state.phase != CyclePhase::growing)
+      return;
+    state.axis = Random::direction<dim>(random_seed, state.key);
+    choose_axis(CycleState<dim>(), founder, 0., state);
+    set_clock(cell, state);
+  }
+
+  template <int dim>
+  void
   CellDevelopment<dim>::make_good(const PresentCell<dim>      &before,
                                   const CellView<dim, double> &after) const
   {

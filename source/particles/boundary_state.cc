@@ -52,13 +52,12 @@ namespace Morula
                            "deformation gradient F since t = 0",
                            Tensor<2, dim>(unit_symmetric_tensor<dim>())});
     if (with_force)
-      force =
-        add<Tensor<1, dim>>({"force",
-                             dim == 3 ? "kPa um^2" : "kPa um",
-                             "force of the conditions on the tissue",
-                             Tensor<1, dim>(),
-                             AtDivision::copied,
-                             true});
+      force = add<Tensor<1, dim>>({"force",
+                                   dim == 3 ? "kPa um^2" : "kPa um",
+                                   "force of the conditions on the tissue",
+                                   Tensor<1, dim>(),
+                                   AtDivision::copied,
+                                   true});
     if (!with_patch)
       return;
     seed_position =

@@ -56,6 +56,19 @@ namespace Morula
           << row.further;
     }
 
+    /** What a condition does at t = 0, a line for each of its parts. */
+    std::string
+    applied_lines(const Scene                         &scene,
+                  const std::vector<AppliedCondition> &applied,
+                  const std::string                   &name)
+    {
+      std::string lines;
+      for (const AppliedCondition &one : applied)
+        if (one.name == name)
+          lines += "    " + text_of(scene, one) + '\n';
+      return lines;
+    }
+
     /** Which founders proliferate. */
     std::string
     of_founders(const types::particle_index n,
@@ -131,10 +144,11 @@ namespace Morula
     }
 
     EffectRows
-    effect_rows(const Scene                &scene,
-                const ConditionCounts      &counts,
-                const types::particle_index n_founders,
-                const types::particle_index n_proliferating)
+    effect_rows(const Scene                         &scene,
+                const ConditionCounts               &counts,
+                const std::vector<AppliedCondition> &applied,
+                const types::particle_index          n_founders,
+                const types::particle_index          n_proliferating)
     {
       const CellCycleParameters &cycle     = scene.cell_cycle;
       const Catalogue           &catalogue = scene.catalogue;
@@ -196,13 +210,15 @@ namespace Morula
                      n > 0,
                      "at " + std::to_string(n) + " boundary points" +
                        (where == nullptr ? "" : ", where " + where->text()) +
-                       choice.keys().details());
+                       choice.keys().details(),
+                     applied_lines(scene, applied, choice.name()));
         }
       for (const auto &choice : catalogue.forces)
         add_effect(out,
                    topic_of(choice),
                    choice.keys().is_on(),
                    choice.keys().details());
+      add_effect(out, "material", true, material_text(scene));
       add_effect(out,
                  "heterogeneous stiffness",
                  !scene.material.youngs_modulus.expression(scene.dimension)
@@ -353,6 +369,7 @@ namespace Morula
                                             tissue.founders.types);
       result.effects    = effect_rows(scene,
                                    tissue.counts,
+                                   tissue.applied,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
       return result;

@@ -72,7 +72,7 @@ namespace Morula
                         scene.has_proliferation());
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
-    review_bodies(scene.grid, scene.tissue, founders, comm, review);
+    review_bodies(scene.grid, scene.tissue, founders, surface, comm, review);
 
     const Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);

@@ -155,6 +155,7 @@ namespace Morula
     , points(comm)
   {
     lock.emplace(scene.output_directory, comm);
+    try_snapshot(path("snapshot.h5"), comm);
     if (resumed_from)
       {
         output_times = resumed_from->table("output_times");
@@ -335,8 +336,25 @@ namespace Morula
   RunFiles<dim>::snapshot_due(const double time, const bool last) const
   {
     const double interval = scene.output.snapshot_interval;
-    return last || (interval > 0. &&
-                    time >= next_snapshot * interval - scene.time.slack());
+    return last ||
+           (interval > 0. &&
+            time >= next_snapshot * interval - scene.time.slack()) ||
+           snapshot_due_by_clock();
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::snapshot_due_by_clock() const
+  {
+    // Of the time that the run takes, snapshots take this part at most.
+    constexpr double largest_part = 0.05;
+    const double     minutes      = scene.output.snapshot_minutes;
+    if (minutes == 0.)
+      return false;
+    const bool due =
+      clock.wall_time() - last_snapshot >=
+      std::max(60. * minutes, (1. / largest_part - 1.) * snapshot_seconds);
+    return Utilities::MPI::broadcast(comm, due, 0);
   }
 
   template <int dim>
@@ -424,6 +442,7 @@ namespace Morula
     // section is open.
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
+    const double             begin = clock.wall_time();
     next_snapshot =
       next_multiple(data.time, scene.output.snapshot_interval, scene.time);
     // What the snapshot counts must be on the disk before it.
@@ -441,6 +460,8 @@ namespace Morula
         data.numbers[calls_prefix + name]   = times.calls;
       }
     Morula::write_snapshot(path("snapshot.h5"), data, comm);
+    last_snapshot    = clock.wall_time();
+    snapshot_seconds = last_snapshot - begin;
   }
 
   template <int dim>

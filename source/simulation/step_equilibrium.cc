@@ -188,8 +188,8 @@ namespace Morula
   }
 
 
-  // The terms of conditions that load are made anew, apart from each other; that
-  // of the points that are held stands behind those of the cells.
+  // The terms of conditions that load are made anew, apart from each other;
+  // that of the points that are held stands behind those of the cells.
   template <int dim>
   SurfaceForces<dim>
   StepEquilibrium<dim>::forces(const Attempt                       &attempt,

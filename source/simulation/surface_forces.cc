@@ -39,10 +39,10 @@ namespace Morula
       std::array<Point<dim>, BSpline<dim>::n> centers;
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          centers[a]     = space.box().corner(index);
-          unsigned int k = a;
-          for (unsigned int d = 0; d < dim; ++d, k /= 3)
-            centers[a][d] += (k % 3 - 0.5) * space.box().spacing();
+          centers[a] = space.box().corner(index);
+          for (unsigned int d = 0; d < dim; ++d)
+            centers[a][d] +=
+              (BSpline<dim>::offset(a, d) + 0.5) * space.box().spacing();
         }
       return centers;
     }
@@ -263,8 +263,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                 \
-  template void set_forces(const SurfaceForces<dim> &, Tissue<dim> &);   \
+#define INSTANTIATE(dim)                                               \
+  template void set_forces(const SurfaceForces<dim> &, Tissue<dim> &); \
   template class ForceSums<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

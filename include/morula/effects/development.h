@@ -321,6 +321,14 @@ namespace Morula
                const CellView<dim, double> &after,
                std::vector<CellEvent>      &events) const;
 
+  public:
+    /** Chooses the axis of a founder in @p cell anew that is in a cycle at
+     *  t = 0, when the steady fields are known. */
+    void
+    choose_first_axis(const PresentCell<dim>      &founder,
+                      const CellView<dim, double> &cell) const;
+
+  private:
     /** If a cycle begins between these states, sets its axis by the rule. */
     void
     choose_axis(const CycleState<dim>  &before,

@@ -87,7 +87,8 @@ namespace Morula
      */
     bool
     output_due(const double time, const bool last) const;
-    /** Whether a snapshot is due; see output_due(). */
+    /** Whether a snapshot is due; see output_due(). Also by the clock of rank
+     *  0. */
     bool
     snapshot_due(const double time, const bool last) const;
 
@@ -139,6 +140,10 @@ namespace Morula
     std::string
     path(const std::string &file) const;
 
+    /** Whether the clock asks for a snapshot. Collective. */
+    bool
+    snapshot_due_by_clock() const;
+
     bool
     has_format(const std::string &format) const;
 
@@ -158,9 +163,13 @@ namespace Morula
     const Timer                 &clock;
     std::vector<double>          output_times;
     // The next ones are due at these multiples of their intervals.
-    unsigned int            next_output;
-    unsigned int            next_snapshot;
-    unsigned int            next_forces;
+    unsigned int next_output;
+    unsigned int next_snapshot;
+    unsigned int next_forces;
+    // On this program's clock, s: when the last snapshot was done, and how long
+    // it took.
+    double                  last_snapshot    = 0.;
+    double                  snapshot_seconds = 0.;
     SectionTimes            sections_before;
     std::optional<Progress> progress;
     // The tables that the scene has, by their names without ending.

@@ -44,8 +44,8 @@ namespace Morula
     /** What was found for a step. */
     struct Solution
     {
-      Equilibrium::Vector        u;     // displacement, µm
-      std::optional<LumenMemory> lumen; // after the step
+      Equilibrium::Vector        u;      // displacement, µm
+      std::optional<LumenMemory> lumen;  // after the step
       SurfaceForces<dim>         forces; // at its end
     };
 

@@ -76,11 +76,11 @@ namespace Morula
      *  @param term of all of these points */
     void
     add_row(
-      const std::string                                           &kind,
-      const std::string                                           &name,
-      const PointGroups                                           &groups,
-      const Term<dim>                                             &term,
-      const double                                                 factor,
+      const std::string                                               &kind,
+      const std::string                                               &name,
+      const PointGroups                                               &groups,
+      const Term<dim>                                                 &term,
+      const double                                                     factor,
       const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects);
 
     const Tissue<dim>           &tissue;

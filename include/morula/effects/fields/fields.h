@@ -88,6 +88,11 @@ namespace Morula
     void
     dilute(const CellView<dim, double> &cell, const double ratio) const;
 
+    /** The columns of the transient fields whose amount goes with the cells'
+     *  volume. */
+    std::vector<Column<double>>
+    carried() const;
+
     /** All 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;

@@ -404,13 +404,15 @@ namespace Morula
   void
   try_snapshot(const std::string &path, const MPI_Comm comm)
   {
-    Hdf5Writer file(temporary_path(path), comm);
+    // Another name than that of a snapshot which is being written.
+    const std::string trial = temporary_path(path + ".trial");
+    Hdf5Writer        file(trial, comm);
     file.attribute("/", format_name, snapshot_format);
     file.text("parameters", "");
     const bool        works  = file.close();
     const std::string reason = works ? "" : reason_of(file);
     on_root(comm, [&]() {
-      std::remove(temporary_path(path).c_str());
+      std::remove(trial.c_str());
       if (!works)
         throw InputError("Output directory",
                          path,

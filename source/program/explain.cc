@@ -8,8 +8,10 @@
 #include <morula/program/explain_folds.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/free_growth.h>
+#include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/near_bodies.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -346,6 +348,34 @@ namespace Morula
       EffectRows                         effects;
     };
 
+    /** How many bodies the tissue is, and which surfaces its mesh has. */
+    template <int dim>
+    void
+    add_bodies(EffectRows              &rows,
+               const Scene             &scene,
+               const SeededTissue<dim> &tissue,
+               const MPI_Comm           comm)
+    {
+      const BodyCounts counts =
+        count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
+      add_effect(rows,
+                 "bodies",
+                 true,
+                 std::to_string(counts.bodies) +
+                   (counts.bodies == 1 ? " body" : " bodies") + " in " +
+                   std::to_string(counts.pieces) +
+                   (counts.pieces == 1 ? " piece" : " pieces") +
+                   " of the grid");
+      if (scene.tissue.is_mesh())
+        add_effect(rows,
+                   "surface mesh",
+                   true,
+                   surfaces_text(volumes_of_surfaces(
+                     SurfaceMesh(scene.tissue.surface_mesh.path(),
+                                 scene.tissue.surface_mesh)
+                       .triangles())));
+    }
+
     template <int dim>
     Explanation<dim>
     explanation_of(const Scene &scene, const MPI_Comm comm)
@@ -372,6 +402,7 @@ namespace Morula
                                    tissue.applied,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
+      add_bodies(result.effects, scene, tissue, comm);
       return result;
     }
 

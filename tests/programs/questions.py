@@ -31,7 +31,7 @@ class Questions(ProgramTest):
     def test_bodies_near_each_other(self):
         """Cells of 5 um, a gap of 30 um: apart, or a word."""
         rows = [f"{x},{y},25" for y in np.arange(-22.5, 25, 5)
-                for x in (*np.arange(-97.5, -15, 5), *np.arange(17.5, 90, 5))]
+                for x in (*np.arange(-97.5, -20, 5), *np.arange(12.5, 90, 5))]
         file = self.write("bodies.csv", "\n".join(["x,y,volume", *rows]))
         keys = {"Dimension": 2, "Time/End time": 0.3, "Time/Step": 0.1,
                 "Tissue/Shape": "points", "Tissue/Points file": file,
@@ -204,7 +204,7 @@ class Questions(ProgramTest):
                 **BOX, "Tissue/Cell spacing": 5, "Grid/Spacing": 25,
                 "Time/End time": 1.5, "Time/Step": step,
                 "Proliferation/Law": "cell cycle",
-                "Proliferation/Cell cycle/Duration": 0.5,
+                "Proliferation/Cell cycle/Duration": 1,
                 "Proliferation/Cell cycle/G0 exit rate": "200*(t > 0.5)"},
                 name=f"wait-{step}")
             born = run.lineage.birth_time

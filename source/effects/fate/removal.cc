@@ -60,7 +60,7 @@ namespace Morula
             {
               const CellView<dim, double> cell = tissue.cell(p);
               cell.set(cell.columns().deformation, stretch * cell.F());
-              // doc/theory.md (6.9c)
+              // doc/theory.md (6.9d)
               for (std::size_t k = 0; k < carried.size(); ++k)
                 cell.set(carried[k],
                          (cell.get(carried[k]) + amounts[k] / to) / ratio);

@@ -122,6 +122,12 @@ namespace Morula
         names.push_back(name);
       for (const auto &[name, place] : parser.GetVar())
         names.push_back(name);
+      // Of equally similar ones the shortest: sin, not sign, for sinn.
+      std::stable_sort(names.begin(),
+                       names.end(),
+                       [](const std::string &a, const std::string &b) {
+                         return a.size() < b.size();
+                       });
       if (const std::string best = most_similar(word, names); !best.empty())
         return " Did you mean '" + best + "'?";
       return " If it is a field, Fields/Names must have it; functions are "

@@ -13,12 +13,31 @@ using namespace Morula;
 
 namespace
 {
+  /** Of n components, with the variables that these tests need. */
+  Expression
+  density_of(const std::string &text, const unsigned int n)
+  {
+    return {"Body force/Force density",
+            text,
+            n,
+            n,
+            Vocabulary{{Variable::X,
+                        Variable::Y,
+                        Variable::Z,
+                        Variable::t,
+                        Variable::x,
+                        Variable::y,
+                        Variable::z,
+                        Variable::volume}}};
+  }
+
+
   template <int dim>
   class Field
   {
   public:
     explicit Field(const std::string &text)
-      : density("Body force/Force density", text, dim)
+      : density(density_of(text, dim))
     {
       std::mt19937 generator(3);
       points = random_points_in_cell<dim>(generator, 4);
@@ -79,8 +98,6 @@ TEST(PlacedForce, IsThatOfThePlaceAtTheEnd)
 
 TEST(PlacedForce, OnlyThePresentPlaceAsksForIt)
 {
-  const std::string key = "Body force/Force density";
-  EXPECT_TRUE(PlacedForce<2>::depends_on_place(Expression(key, "x - X; 0", 2)));
-  EXPECT_FALSE(
-    PlacedForce<2>::depends_on_place(Expression(key, "X*t; volume", 2)));
+  EXPECT_TRUE(PlacedForce<2>::depends_on_place(density_of("x - X; 0", 2)));
+  EXPECT_FALSE(PlacedForce<2>::depends_on_place(density_of("X*t; volume", 2)));
 }

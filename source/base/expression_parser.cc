@@ -3,6 +3,7 @@
 
 #include <morula/base/expression_parser.h>
 #include <morula/base/expression_syntax.h>
+#include <morula/base/suggestion.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -100,6 +101,41 @@ namespace Morula
   } // namespace
 
 
+  namespace
+  {
+    /** What a word that the parser does not know may have been meant to be. */
+    std::string
+    guess(const mu::Parser &parser, const std::string &token)
+    {
+      std::string word;
+      for (const char c : token)
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+          word += c;
+        else
+          break;
+      if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0])))
+        return "";
+      std::vector<std::string> names;
+      for (const auto &[name, function] : parser.GetFunDef())
+        names.push_back(name);
+      for (const auto &[name, value] : parser.GetConst())
+        names.push_back(name);
+      for (const auto &[name, place] : parser.GetVar())
+        names.push_back(name);
+      // Of equally similar ones the shortest: sin, not sign, for sinn.
+      std::stable_sort(names.begin(),
+                       names.end(),
+                       [](const std::string &a, const std::string &b) {
+                         return a.size() < b.size();
+                       });
+      if (const std::string best = most_similar(word, names); !best.empty())
+        return " Did you mean '" + best + "'?";
+      return " If it is a field, Fields/Names must have it; functions are "
+             "those of muParser, with ramp, hill and if.";
+    }
+  } // namespace
+
+
   bool
   is_free_name(const std::string &name)
   {
@@ -156,7 +192,7 @@ namespace Morula
           std::min<std::size_t>(error.GetPos(), readable.text.size());
         throw Error{"character " +
                     std::to_string(1 + readable.positions[place]) + ": " +
-                    message + "."};
+                    message + "." + guess(parser, error.GetToken())};
       }
     std::sort(used_.begin(), used_.end());
   }
@@ -169,13 +205,26 @@ namespace Morula
   }
 
 
+  // 9 * 0.05 is a little more than 0.45, and 3 * 0.1 a little more than 0.3.
+  double
+  decimal(const double t)
+  {
+    constexpr double places = 1e10; // a power of ten that a double holds
+    // Of products and sums of a step's length, not of times in between.
+    constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
+    if (!(std::abs(t) < 1e5))
+      return t;
+    const double nearest = std::round(places * t) / places;
+    return std::abs(nearest - t) <= rounding * std::abs(t) ? nearest : t;
+  }
+
   double
   ExpressionParser::value(const VariableValues &values) const
   {
     for (const Variable variable : used_)
       {
         const auto i = static_cast<unsigned int>(variable);
-        places[i]    = values[i];
+        places[i]    = variable == Variable::t ? decimal(values[i]) : values[i];
       }
     return parser.Eval();
   }

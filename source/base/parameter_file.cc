@@ -68,6 +68,8 @@ namespace Morula
             if (line_number == 1 && part.rfind(byte_order_mark, 0) == 0)
               part.erase(0, byte_order_mark.size());
             refuse_control_characters(part);
+            if (line.empty())
+              indent = std::min(part.find_first_not_of(" \t"), part.size());
             boost::trim(part);
             const bool goes_on = !part.empty() && part.back() == '\\';
             if (goes_on)
@@ -85,6 +87,13 @@ namespace Morula
                "a file that can be read to its end",
                "Check its permissions and the disk.");
         read_line(line, n_outer);
+        if (sections.size() > n_outer && !unclosed.section.empty())
+          throw InputError(unclosed.opening + ": subsection",
+                           unclosed.section,
+                           "a subsection that is closed by 'end'",
+                           "Add the missing 'end': by the indentation it "
+                           "belongs before line " +
+                             std::to_string(unclosed.line_number) + ".");
         if (sections.size() > n_outer)
           throw InputError(
             openings[n_outer] + ": subsection",
@@ -159,6 +168,7 @@ namespace Morula
           {
             sections.push_back(rest);
             openings.push_back(place());
+            indents.push_back(indent);
             if (sections.size() > max_sections)
               fail(line,
                    "at most " + std::to_string(max_sections) +
@@ -174,6 +184,7 @@ namespace Morula
               fail(line,
                    "an 'end' for every 'subsection'",
                    "No subsection is open here: remove the 'end'.");
+            note_indentation();
             sections.pop_back();
             openings.pop_back();
           }
@@ -182,6 +193,17 @@ namespace Morula
                "'set Key = value', 'subsection Name', 'end' or 'include file'",
                guess(line, word) +
                  "Correct the line, or begin it with '#' if it is a comment.");
+      }
+
+      /** Remembers the first 'end' that stands further left than the section
+       *  that it closes: it was meant for an outer one. */
+      void
+      note_indentation()
+      {
+        const std::size_t of_section = indents.back();
+        indents.pop_back();
+        if (indent < of_section && unclosed.section.empty())
+          unclosed = {sections.back(), openings.back(), line_number};
       }
 
       /** What the user may have meant by a line that is no statement. */
@@ -263,7 +285,41 @@ namespace Morula
       std::vector<std::string> openings; // the lines where they begin
       const unsigned int       depth;
       unsigned int             line_number = 0;
+      std::size_t              indent      = 0; // of the statement, characters
+      std::vector<std::size_t> indents;         // of the file's open sections
+      struct
+      {
+        std::string  section, opening;
+        unsigned int line_number;
+      } unclosed = {};
     };
+
+    /** Why a file cannot be a scene; empty if it can. */
+    std::string
+    why_no_scene(const std::string &file)
+    {
+      std::error_code error;
+      if (std::filesystem::is_directory(file, error))
+        return "It is a directory: name the .prm file in it. ";
+      if (std::filesystem::exists(file, error))
+        {
+          std::ifstream input(file, std::ios::binary);
+          if (!input)
+            return "It exists, but must not be read: check its permissions. ";
+          // What comes through a pipe can be read once only.
+          if (!std::filesystem::is_regular_file(file, error))
+            return "";
+          const int first = input.get(), second = input.get();
+          if ((first == 0xFF && second == 0xFE) ||
+              (first == 0xFE && second == 0xFF) || (first == 0 && second > 0) ||
+              (first > 0 && second == 0))
+            return "It is text in UTF-16: save it as UTF-8. ";
+          return "";
+        }
+      if (std::filesystem::exists(file + ".prm", error))
+        return "Did you mean '" + file + ".prm'? ";
+      return "There is no such file. ";
+    }
   } // namespace
 
 
@@ -280,12 +336,14 @@ namespace Morula
   read_statements(const std::string &file)
   {
     std::ifstream input(file);
-    if (!input || std::filesystem::is_directory(file))
+    if (const std::string reason = why_no_scene(file);
+        !input || !reason.empty())
       throw InputError("The scene file",
                        file,
                        "a .prm file that can be read",
-                       "Correct its name; 'morula --parameters' prints a "
-                       "complete one to start from.");
+                       reason +
+                         "Correct its name; 'morula --parameters' prints a "
+                         "complete one to start from.");
     return read_statements(input, file);
   }
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ostream>
+#include <regex>
 
 namespace Morula
 {
@@ -57,6 +58,36 @@ namespace Morula
     {
       const std::string phrase = key.allowed();
       return phrase.empty() ? "any text" : phrase;
+    }
+    /** Which keys a section has. */
+    std::string
+    keys_of(const std::string &section, const KeyList &keys)
+    {
+      std::string names;
+      for (const AnyKey *key : keys)
+        {
+          const std::string &path  = key->path();
+          const auto         slash = path.rfind('/');
+          if (section ==
+              (slash == std::string::npos ? "" : path.substr(0, slash)))
+            names += (names.empty() ? "" : ", ") + path.substr(slash + 1);
+        }
+      return names.empty() ?
+               "" :
+             section.empty() ?
+               "The keys outside all sections are " + names + ". " :
+               "The keys of " + section + " are " + names + ". ";
+    }
+
+    /** A word on numbers with a decimal comma. */
+    std::string
+    on_comma(const std::string &value)
+    {
+      static const std::regex with_comma(
+        "[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?");
+      return std::regex_match(value, with_comma) ?
+               "Write decimals with a point. " :
+               "";
     }
   } // namespace
 
@@ -145,6 +176,8 @@ namespace Morula
       suggestion += ' ';
     if (const std::string open = missing_end(statement); !open.empty())
       suggestion = open;
+    if (suggestion.empty() && !is_section)
+      suggestion = keys_of(section == statement.path ? "" : section, keys);
     throw InputError(statement.place +
                        (is_section ? "subsection" : statement.path),
                      is_section ? statement.path : statement.value,
@@ -175,6 +208,7 @@ namespace Morula
                        statement.value,
                        allowed(*key),
                        did_you_mean(statement.value, *key) +
+                         on_comma(statement.value) +
                          "It is: " + key->documentation() +
                          " Correct the value or remove the line; the default "
                          "is '" +

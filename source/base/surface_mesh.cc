@@ -244,6 +244,17 @@ namespace Morula
              Kernel::Sphere_3(p, clearance * clearance));
   }
 
+  std::optional<bool>
+  SurfaceMesh::side_of_cube(const Point<3> &x, const double half_side) const
+  {
+    const double          s = half_side;
+    const Kernel::Point_3 p(x[0], x[1], x[2]),
+      lower(x[0] - s, x[1] - s, x[2] - s), upper(x[0] + s, x[1] + s, x[2] + s);
+    if (implementation->tree.do_intersect(Kernel::Iso_cuboid_3(lower, upper)))
+      return {};
+    return implementation->inside(p) == CGAL::ON_BOUNDED_SIDE;
+  }
+
   NearestPoint
   SurfaceMesh::nearest(const Point<3> &x) const
   {

@@ -192,6 +192,16 @@ namespace Morula
 
   template <int dim>
   void
+  CellDevelopment<dim>::choose_first_axis(
+    const PresentCell<dim> &founder, const CellView<dim, double> &cell) const
+  {
+    if (effects.proliferation)
+      effects.proliferation->choose_first_axis(founder, cell);
+  }
+
+
+  template <int dim>
+  void
   CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &after,
                                 const double                 t0,

@@ -27,6 +27,31 @@ namespace Morula
   }
 
 
+  // A rigid translation moves all splines alike, so that a point's residual,
+  // summed over them, is minus the force.
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  PointTerm<dim>::forces(const unsigned int     grid_cell,
+                         const LocalField<dim> &field) const
+  {
+    std::vector<Tensor<1, dim>> list;
+    LocalSystem<dim>            system(LocalSystem<dim>::energy_and_residual);
+    for (unsigned int p = points.offsets[grid_cell];
+         p < points.offsets[grid_cell + 1];
+         ++p)
+      {
+        system.clear();
+        add_point(p, SplineValues<dim>(points.xi[p], points.h), field, system);
+        Tensor<1, dim> force;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            force[i] -= system.residual[i * BSpline<dim>::n + a];
+        list.push_back(force);
+      }
+    return list;
+  }
+
+
   template <int dim>
   void
   add_force_at(const SplineValues<dim> &splines,

@@ -54,8 +54,8 @@ namespace Morula
     {
       static const std::regex pattern(
         "(?:parameters\\.prm|log\\.txt|(?:cells|surface)\\.pvd|"
-        "(?:condition|events|lineage|newton|statistics|timings)\\.csv|"
-        "snapshot\\.h5)(?:\\.tmp)?");
+        "(?:condition|events|forces|lineage|newton|statistics|timings)\\.csv|"
+        "snapshot\\.h5(?:\\.trial)?)(?:\\.tmp)?");
       return series_number(name) >= 0 || std::regex_match(name, pattern);
     }
 

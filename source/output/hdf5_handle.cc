@@ -8,7 +8,29 @@ namespace Morula
   Hdf5Silence::Hdf5Silence()
   {
     H5Eget_auto2(H5E_DEFAULT, &function, &data);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    H5Eset_auto2(H5E_DEFAULT, &Hdf5Silence::remember, this);
+  }
+
+  herr_t
+  Hdf5Silence::remember(const hid_t stack, void *silence)
+  {
+    std::string &reason = static_cast<Hdf5Silence *>(silence)->reason_;
+    if (!reason.empty())
+      return 0;
+    // From the call that failed inward: the last one says most.
+    const auto read =
+      [](const unsigned int, const H5E_error2_t *error, void *text) {
+        if (error->desc != nullptr)
+          *static_cast<std::string *>(text) = error->desc;
+        return herr_t(0);
+      };
+    return H5Ewalk2(stack, H5E_WALK_DOWNWARD, read, &reason);
+  }
+
+  const std::string &
+  Hdf5Silence::reason() const
+  {
+    return reason_;
   }
 
   Hdf5Silence::~Hdf5Silence()

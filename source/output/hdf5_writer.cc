@@ -202,6 +202,16 @@ namespace Morula
     return Utilities::MPI::min(good ? 1 : 0, comm) == 1;
   }
 
+  std::string
+  Hdf5Writer::reason() const
+  {
+    for (const std::string &text :
+         Utilities::MPI::all_gather(comm, silence.reason()))
+      if (!text.empty())
+        return text;
+    return "";
+  }
+
   template void
   Hdf5Writer::table(const std::string &, const std::vector<double> &);
   template void

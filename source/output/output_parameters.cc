@@ -24,9 +24,16 @@ namespace Morula
               {"vtu|csv|none"})
     , snapshot_interval("Output/Snapshot interval",
                         0.,
-                        "Time between two snapshots for --resume; 0: at the "
-                        "end only. Units: day.",
+                        "Time between two snapshots for --resume; 0: by the "
+                        "clock and at the end only. Units: day.",
                         {0.})
+    , snapshot_minutes("Output/Snapshot minutes",
+                       15.,
+                       "Time on the clock after which the next step is "
+                       "followed by a snapshot for --resume; more where "
+                       "snapshots would take more than a twentieth of the run. "
+                       "0: none by the clock. Units: min.",
+                       {0.})
     , condition_estimate(
         "Output/Condition estimate",
         false,
@@ -64,6 +71,7 @@ namespace Morula
     return {&interval,
             &formats,
             &snapshot_interval,
+            &snapshot_minutes,
             &condition_estimate,
             &newton_trace};
   }
@@ -75,7 +83,7 @@ namespace Morula
                            Review      &review) const
   {
     constexpr double hour = 3600.;
-    if (snapshot_interval == 0. && seconds > hour)
+    if (snapshot_interval == 0. && snapshot_minutes == 0. && seconds > hour)
       review.warn(snapshot_interval.path(),
                   "0 day",
                   "the run may take some " +
@@ -83,7 +91,8 @@ namespace Morula
                     " hours of one core (doc/performance.md, what --explain "
                     "expects), and without snapshots all is lost if it is "
                     "interrupted.",
-                  "Choose an interval of some steps.");
+                  "Choose an interval of some steps, or some " +
+                    snapshot_minutes.path() + ".");
     for (const Key<double> *given : {&interval, &snapshot_interval})
       if (*given > 0. && *given < (1. - 1e-9) * step)
         review.warn(given->path(),

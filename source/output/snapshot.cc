@@ -270,6 +270,13 @@ namespace Morula
                             error.what() + ")");
         }
     }
+    /** Why a file could not be written. Collective. */
+    std::string
+    reason_of(const Hdf5Writer &file)
+    {
+      const std::string text = file.reason();
+      return text.empty() ? "is the disk full?" : text;
+    }
   } // namespace
 
   void
@@ -380,14 +387,39 @@ namespace Morula
                  comm);
     write_weights(file, data.grid_weights);
     if (!file.close())
-      on_root(comm, [&]() {
-        std::remove(temporary_path(path).c_str());
-        throw std::runtime_error("cannot write the snapshot '" + path +
-                                 "': is the disk full? The last good "
-                                 "snapshot, if there is one, stays");
-      });
+      {
+        const std::string reason = reason_of(file);
+        on_root(comm, [&]() {
+          std::remove(temporary_path(path).c_str());
+          throw std::runtime_error("cannot write the snapshot '" + path +
+                                   "': " + reason +
+                                   ". The last good snapshot, if there is "
+                                   "one, stays");
+        });
+      }
     seal(temporary_path(path), comm);
     on_root(comm, [&]() { publish(path); });
+  }
+
+  void
+  try_snapshot(const std::string &path, const MPI_Comm comm)
+  {
+    // Another name than that of a snapshot which is being written.
+    const std::string trial = temporary_path(path + ".trial");
+    Hdf5Writer        file(trial, comm);
+    file.attribute("/", format_name, snapshot_format);
+    file.text("parameters", "");
+    const bool        works  = file.close();
+    const std::string reason = works ? "" : reason_of(file);
+    on_root(comm, [&]() {
+      std::remove(trial.c_str());
+      if (!works)
+        throw InputError("Output directory",
+                         path,
+                         "a directory in which snapshots can be written",
+                         "The HDF5 library says: " + reason +
+                           ". Choose another directory.");
+    });
   }
 
   template <int dim>

@@ -33,7 +33,8 @@ namespace Morula
 
   template <int dim>
   BoundaryColumns<dim>::BoundaryColumns(const bool with_patch,
-                                        const bool coarsens)
+                                        const bool coarsens,
+                                        const bool with_force)
   {
     initial_position =
       add<Point<dim>>({"initial_position", "um", "position at t = 0"});
@@ -50,6 +51,13 @@ namespace Morula
                            "",
                            "deformation gradient F since t = 0",
                            Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    if (with_force)
+      force = add<Tensor<1, dim>>({"force",
+                                   dim == 3 ? "kPa um^2" : "kPa um",
+                                   "force of the conditions on the tissue",
+                                   Tensor<1, dim>(),
+                                   AtDivision::copied,
+                                   true});
     if (!with_patch)
       return;
     seed_position =

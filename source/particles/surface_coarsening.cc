@@ -107,6 +107,9 @@ namespace Morula
         merged.set(columns.reference_area,
                    w_i * view(i).get(columns.reference_area) +
                      w_j * view(j).get(columns.reference_area));
+        if (columns.force.exists())
+          merged.set(columns.force,
+                     view(i).get(columns.force) + view(j).get(columns.force));
         columns.set_square_patch(make_array_view(row), F, area);
         list.add(points.ids[i], middle + shift, make_array_view(row));
       }

@@ -8,8 +8,10 @@
 #include <morula/program/explain_folds.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/free_growth.h>
+#include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/near_bodies.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -54,6 +56,19 @@ namespace Morula
       out << "  " << std::left << std::setw(24) << row.name
           << (row.on ? "on   " + row.description : "off") << '\n'
           << row.further;
+    }
+
+    /** What a condition does at t = 0, a line for each of its parts. */
+    std::string
+    applied_lines(const Scene                         &scene,
+                  const std::vector<AppliedCondition> &applied,
+                  const std::string                   &name)
+    {
+      std::string lines;
+      for (const AppliedCondition &one : applied)
+        if (one.name == name)
+          lines += "    " + text_of(scene, one) + '\n';
+      return lines;
     }
 
     /** Which founders proliferate. */
@@ -143,10 +158,11 @@ namespace Morula
     }
 
     EffectRows
-    effect_rows(const Scene                &scene,
-                const ConditionCounts      &counts,
-                const types::particle_index n_founders,
-                const types::particle_index n_proliferating)
+    effect_rows(const Scene                         &scene,
+                const ConditionCounts               &counts,
+                const std::vector<AppliedCondition> &applied,
+                const types::particle_index          n_founders,
+                const types::particle_index          n_proliferating)
     {
       const CellCycleParameters &cycle     = scene.cell_cycle;
       const Catalogue           &catalogue = scene.catalogue;
@@ -194,9 +210,11 @@ namespace Morula
                      n > 0,
                      "at " + std::to_string(n) + " boundary points" +
                        (where == nullptr ? "" : ", where " + where->text()) +
-                       choice.keys().details());
+                       choice.keys().details(),
+                     applied_lines(scene, applied, choice.name()));
         }
       add_effects(out, catalogue.forces);
+      add_effect(out, "material", true, material_text(scene));
       add_effect(out,
                  "heterogeneous stiffness",
                  !scene.material.youngs_modulus.expression(scene.dimension)
@@ -319,6 +337,34 @@ namespace Morula
       EffectRows                         effects;
     };
 
+    /** How many bodies the tissue is, and which surfaces its mesh has. */
+    template <int dim>
+    void
+    add_bodies(EffectRows              &rows,
+               const Scene             &scene,
+               const SeededTissue<dim> &tissue,
+               const MPI_Comm           comm)
+    {
+      const BodyCounts counts =
+        count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
+      add_effect(rows,
+                 "bodies",
+                 true,
+                 std::to_string(counts.bodies) +
+                   (counts.bodies == 1 ? " body" : " bodies") + " in " +
+                   std::to_string(counts.pieces) +
+                   (counts.pieces == 1 ? " piece" : " pieces") +
+                   " of the grid");
+      if (scene.tissue.is_mesh())
+        add_effect(rows,
+                   "surface mesh",
+                   true,
+                   surfaces_text(volumes_of_surfaces(
+                     SurfaceMesh(scene.tissue.surface_mesh.path(),
+                                 scene.tissue.surface_mesh)
+                       .triangles())));
+    }
+
     template <int dim>
     Explanation<dim>
     explanation_of(const Scene &scene, const MPI_Comm comm)
@@ -342,8 +388,10 @@ namespace Morula
                                             tissue.founders.types);
       result.effects    = effect_rows(scene,
                                    tissue.counts,
+                                   tissue.applied,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
+      add_bodies(result.effects, scene, tissue, comm);
       return result;
     }
 

@@ -54,8 +54,10 @@ namespace Morula
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);
     tissue.counts   = check_at_surface(scene, tissue.surface, comm);
+    tissue.applied  = applied_conditions(scene, tissue.surface, comm);
     tissue.warnings = scene_warnings(
       scene, tissue.founders, tissue.surface, tissue.counts, comm);
+    review_applied(scene, tissue.applied, tissue.warnings);
     return tissue;
   }
 

@@ -102,9 +102,10 @@ namespace Morula
 
   template <int dim>
   BodyCounts
-  count_bodies(const GridParameters &grid,
-               const Founders<dim>  &founders,
-               const MPI_Comm        comm)
+  count_bodies(const GridParameters      &grid,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm)
   {
     double longest = 0.;
     for (const double V : founders.volumes)
@@ -117,8 +118,12 @@ namespace Morula
       offset[d] = of_grid[d];
     const auto of_bodies =
       occupied<dim>(founders.positions, Point<dim>(), longest, comm);
-    const auto of_pieces =
-      occupied<dim>(founders.positions, offset, grid.spacing, comm);
+    // Boundary points make grid cells active, too.
+    std::vector<Point<dim>> points = founders.positions;
+    points.insert(points.end(),
+                  surface.positions.begin(),
+                  surface.positions.end());
+    const auto of_pieces = occupied<dim>(points, offset, grid.spacing, comm);
     const std::array<unsigned int, 2> counts = {
       {n_groups<dim>(of_bodies, 2), n_groups<dim>(of_pieces, 1)}};
     const auto of_root = Utilities::MPI::broadcast(comm, counts, 0);
@@ -128,15 +133,16 @@ namespace Morula
 
   template <int dim>
   void
-  review_bodies(const GridParameters   &grid,
-                const TissueParameters &tissue,
-                const Founders<dim>    &founders,
-                const MPI_Comm          comm,
-                Review                 &review)
+  review_bodies(const GridParameters      &grid,
+                const TissueParameters    &tissue,
+                const Founders<dim>       &founders,
+                const SurfacePatches<dim> &surface,
+                const MPI_Comm             comm,
+                Review                    &review)
   {
     if (!tissue.is_from_file())
       return;
-    const BodyCounts counts = count_bodies(grid, founders, comm);
+    const BodyCounts counts = count_bodies(grid, founders, surface, comm);
     if (counts.bodies > counts.pieces)
       review.warn(grid.spacing.path(),
                   as_text(grid.spacing) + " um",
@@ -152,20 +158,18 @@ namespace Morula
   }
 
 
-  template BodyCounts
-  count_bodies(const GridParameters &, const Founders<2> &, const MPI_Comm);
-  template BodyCounts
-  count_bodies(const GridParameters &, const Founders<3> &, const MPI_Comm);
-  template void
-  review_bodies(const GridParameters &,
-                const TissueParameters &,
-                const Founders<2> &,
-                const MPI_Comm,
-                Review &);
-  template void
-  review_bodies(const GridParameters &,
-                const TissueParameters &,
-                const Founders<3> &,
-                const MPI_Comm,
-                Review &);
+#define INSTANTIATE(dim)                                         \
+  template BodyCounts count_bodies(const GridParameters &,       \
+                                   const Founders<dim> &,        \
+                                   const SurfacePatches<dim> &,  \
+                                   const MPI_Comm);              \
+  template void       review_bodies(const GridParameters &,      \
+                                    const TissueParameters &,    \
+                                    const Founders<dim> &,       \
+                                    const SurfacePatches<dim> &, \
+                                    const MPI_Comm,              \
+                                    Review &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Morula

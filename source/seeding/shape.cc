@@ -16,6 +16,16 @@
 namespace Morula
 {
   template <int dim>
+  std::optional<bool>
+  Shape<dim>::side_of_cube(const Point<dim> &x, const double half_side) const
+  {
+    return this->contains(x, std::sqrt(double(dim)) * half_side) ?
+             std::optional<bool>(true) :
+             std::nullopt;
+  }
+
+
+  template <int dim>
   Point<dim>
   leading_components(const std::vector<double> &numbers)
   {
@@ -67,6 +77,8 @@ namespace Morula
                             "Choose a shape that has an inside.");
   }
 
+  template class Shape<2>;
+  template class Shape<3>;
   template Point<2>
   leading_components<2>(const std::vector<double> &);
   template Point<3>

@@ -3,8 +3,13 @@
 
 #include <morula/seeding/trimming.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace Morula
 {
@@ -30,26 +35,113 @@ namespace Morula
       }
     };
 
-    /** Calls @p visit(point) for each sample of a box that lies in the shape.
-     */
-    template <int dim, typename Visitor>
-    void
-    for_samples_inside(const Shape<dim> &shape,
-                       const Point<dim> &center,
-                       const double      side,
-                       const Visitor    &visit)
+    /** A sample of a box with n^dim of them. */
+    template <int dim>
+    Point<dim>
+    sample_of(const Point<dim>                    &center,
+              const double                         side,
+              const std::array<unsigned int, dim> &index)
     {
-      constexpr unsigned int n = n_samples<dim>;
-      for (unsigned int s = 0; s < (dim == 2 ? n * n : n * n * n); ++s)
-        {
-          Point<dim>   x    = center;
-          unsigned int rest = s;
-          for (unsigned int d = 0; d < dim; ++d, rest /= n)
-            x[d] += side * ((rest % n + 0.5) / n - 0.5);
-          if (shape.contains(x, 0.))
-            visit(x);
-        }
+      Point<dim> x = center;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] += side * ((index[d] + 0.5) / n_samples<dim> - 0.5);
+      return x;
     }
+
+    /** Which samples of a box lie in the shape. A cube of samples that the
+     *  surface is far from is judged as a whole, others by their halves: to ask
+     *  for each sample costs a mesh more than all else. */
+    template <int dim>
+    class SamplesInside
+    {
+    public:
+      SamplesInside(const Shape<dim> &shape,
+                    const Point<dim> &center,
+                    const double      side)
+        : shape(shape)
+        , center(center)
+        , side(side)
+        , inside(Utilities::pow(n_samples<dim>, dim), false)
+      {
+        judge({}, n_samples<dim>);
+      }
+
+      /** Calls @p visit(point) for each of them, in order. */
+      template <typename Visitor>
+      void
+      visit(const Visitor &visit) const
+      {
+        for (unsigned int s = 0; s < inside.size(); ++s)
+          if (inside[s])
+            visit(sample_of<dim>(center, side, index_of(s)));
+      }
+
+    private:
+      using Index = std::array<unsigned int, dim>;
+
+      static Index
+      index_of(const unsigned int s)
+      {
+        Index        index;
+        unsigned int rest = s;
+        for (unsigned int d = 0; d < dim; ++d, rest /= n_samples<dim>)
+          index[d] = rest % n_samples<dim>;
+        return index;
+      }
+
+      static unsigned int
+      number_of(const Index &index)
+      {
+        unsigned int s = 0;
+        for (unsigned int d = dim; d-- > 0;)
+          s = s * n_samples<dim> + index[d];
+        return s;
+      }
+
+      /** The cube of @p n samples along each axis from @p first on. */
+      void
+      judge(const Index &first, const unsigned int n)
+      {
+        if (n == 1)
+          {
+            inside[number_of(first)] =
+              shape.contains(sample_of<dim>(center, side, first), 0.);
+            return;
+          }
+        Index last = first;
+        for (unsigned int d = 0; d < dim; ++d)
+          last[d] += n - 1;
+        const Point<dim> begin = sample_of<dim>(center, side, first),
+                         end   = sample_of<dim>(center, side, last);
+        // A little more than the samples reach, so that rounding decides none.
+        const auto whole = n > 2 ?
+                             shape.side_of_cube(begin + 0.5 * (end - begin),
+                                                0.501 * (end[0] - begin[0])) :
+                             std::nullopt;
+        if (whole && !*whole)
+          return;
+        for (unsigned int k = 0; k < Utilities::pow(whole ? n : 2u, dim); ++k)
+          {
+            Index        index = first;
+            unsigned int rest  = k;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int parts = whole ? n : 2;
+                index[d] += (rest % parts) * (n / parts);
+                rest /= parts;
+              }
+            if (whole)
+              inside[number_of(index)] = true;
+            else
+              judge(index, n / 2);
+          }
+      }
+
+      const Shape<dim> &shape;
+      const Point<dim>  center;
+      const double      side;
+      std::vector<bool> inside;
+    };
 
     /** A site and its position: computed once, as many samples ask for it. */
     template <int dim>
@@ -110,7 +202,7 @@ namespace Morula
             parts[i].add(x, std::pow(side, dim)); // a whole box, inside
             continue;
           }
-        for_samples_inside(shape, x, side, [&](const Point<dim> &y) {
+        SamplesInside<dim>(shape, x, side).visit([&](const Point<dim> &y) {
           parts[i].add(y, sample);
         });
         for (const std::uint64_t other : lattice.neighbors(sites[i]))
@@ -123,8 +215,8 @@ namespace Morula
     for (const std::uint64_t box : empty)
       {
         const auto owners = occupied(lattice, shape, lattice.neighbors(box));
-        for_samples_inside(
-          shape, lattice.position(box), side, [&](const Point<dim> &y) {
+        SamplesInside<dim>(shape, lattice.position(box), side)
+          .visit([&](const Point<dim> &y) {
             const auto owner = nearest(owners, y);
             const auto mine =
               std::lower_bound(sites.begin(), sites.end(), owner);

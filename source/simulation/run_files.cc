@@ -53,6 +53,18 @@ namespace Morula
       return row;
     }
 
+    /** Whether conditions act on the surface. */
+    bool
+    acts_on_surface(const Scene &scene)
+    {
+      const auto &choices = scene.catalogue.boundary_conditions;
+      return std::any_of(choices.begin(),
+                         choices.end(),
+                         [](const auto &choice) {
+                           return choice.keys().is_on();
+                         });
+    }
+
     struct Table
     {
       std::string              name; // of the file, without ending
@@ -71,6 +83,8 @@ namespace Morula
       if (of_effects.records_events())
         tables.push_back(
           {"events", event_columns({{}, of_effects.has_causes()})});
+      if (acts_on_surface(scene))
+        tables.push_back({"forces", force_columns(), true});
       if (scene.output.condition_estimate)
         tables.push_back({"condition", condition_columns(), true});
       if (scene.output.newton_trace)
@@ -124,9 +138,13 @@ namespace Morula
     , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
                                   scene.output.snapshot_interval,
                                   scene.time))
+    , next_forces(next_multiple(resumed_from ? resumed_from->time : 0.,
+                                scene.output.interval,
+                                scene.time))
     , points(comm)
   {
     lock.emplace(scene.output_directory, comm);
+    try_snapshot(path("snapshot.h5"), comm);
     if (resumed_from)
       {
         output_times = resumed_from->table("output_times");
@@ -308,8 +326,42 @@ namespace Morula
   RunFiles<dim>::snapshot_due(const double time, const bool last) const
   {
     const double interval = scene.output.snapshot_interval;
+    return last ||
+           (interval > 0. &&
+            time >= next_snapshot * interval - scene.time.slack()) ||
+           snapshot_due_by_clock();
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::snapshot_due_by_clock() const
+  {
+    // Of the time that the run takes, snapshots take this part at most.
+    constexpr double largest_part = 0.05;
+    const double     minutes      = scene.output.snapshot_minutes;
+    if (minutes == 0.)
+      return false;
+    const bool due =
+      clock.wall_time() - last_snapshot >=
+      std::max(60. * minutes, (1. / largest_part - 1.) * snapshot_seconds);
+    return Utilities::MPI::broadcast(comm, due, 0);
+  }
+
+  template <int dim>
+  bool
+  RunFiles<dim>::forces_due(const double time, const bool last) const
+  {
+    const double interval = scene.output.interval;
     return last || (interval > 0. &&
-                    time >= next_snapshot * interval - scene.time.slack());
+                    time >= next_forces * interval - scene.time.slack());
+  }
+
+  template <int dim>
+  void
+  RunFiles<dim>::forces(const double time, const std::vector<ForceRow> &rows)
+  {
+    next_forces = next_multiple(time, scene.output.interval, scene.time);
+    tables.at("forces").append(force_rows(time, rows));
   }
 
   template <int dim>
@@ -380,6 +432,7 @@ namespace Morula
     // section is open.
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
+    const double             begin = clock.wall_time();
     next_snapshot =
       next_multiple(data.time, scene.output.snapshot_interval, scene.time);
     // What the snapshot counts must be on the disk before it.
@@ -397,6 +450,8 @@ namespace Morula
         data.numbers[calls_prefix + name]   = times.calls;
       }
     Morula::write_snapshot(path("snapshot.h5"), data, comm);
+    last_snapshot    = clock.wall_time();
+    snapshot_seconds = last_snapshot - begin;
   }
 
   template <int dim>

@@ -59,6 +59,7 @@ namespace Morula
 
     const SplineSpace<dim> space = splines();
     pieces.look(space, tissue.grid(), time_steps.time());
+    gaps.look(tissue, space, time_steps.time());
     // Those of t = 0 stand in the first row.
     if (run_state.n_steps > 1)
       find_fields(
@@ -276,8 +277,8 @@ namespace Morula
                                                 comm);
     };
     const std::uint64_t          n_before = n_points();
-    const std::vector<CellEvent> removals =
-      remove_dead_cells(tissue, model.development, time_steps.time());
+    const std::vector<CellEvent> removals = remove_dead_cells(
+      tissue, model.development, time_steps.time(), model.fields.carried());
     events.insert(events.end(), removals.begin(), removals.end());
     // The surface is open where it was cut, unless it is made anew.
     if (surface.is_cut(n_before, n_points()))

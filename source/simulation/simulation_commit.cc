@@ -173,6 +173,8 @@ namespace Morula
       if (surface.motions[p].f.norm() <= limit.f &&
           determinant(surface.motions[p].f) > 0.)
         tissue.boundary_point(p).deform(surface.motions[p].f);
+    set_forces(solution.forces, tissue);
+    forces = solution.forces.rows;
     if (solution.lumen)
       keep_lumen(*solution.lumen, run_state.kept);
     events         = std::move(growth_of_step.events);

@@ -149,6 +149,8 @@ namespace Morula
                             surface_table(tissue, t).fields(),
                             t);
       }
+    if (!forces.empty() && files->forces_due(t, last))
+      files->forces(t, forces);
     if (files->snapshot_due(t, last))
       files->write_snapshot(snapshot(), timer);
   }

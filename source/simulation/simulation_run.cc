@@ -31,6 +31,7 @@ namespace Morula
     , time_steps(scene.time)
     , pieces(model.development.is_mortal(),
              [this](const std::string &text) { files->message(text); })
+    , gaps([this](const std::string &text) { files->message(text); })
     , fields(model,
              timer,
              [this](const std::string &text) { files->message(text); })
@@ -66,8 +67,11 @@ namespace Morula
   {
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
-    births                     = std::move(points.births);
-    warnings                   = seeded.warnings;
+    births   = std::move(points.births);
+    warnings = applied_texts(model.scene, seeded.applied);
+    warnings.insert(warnings.end(),
+                    seeded.warnings.begin(),
+                    seeded.warnings.end());
     run_state.kept             = model.tables.kept();
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
@@ -160,8 +164,14 @@ namespace Morula
           });
           fields.forget_configuration(); // the splines will stand elsewhere
         };
-        // What is carved may depend on the fields, and they on what is left.
         find_steady();
+        // Founders that are in a cycle were given their axes without fields.
+        if (model.fields.any(FieldKind::steady))
+          for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+            model.development.choose_first_axis(
+              present_cell(tissue, p, model.development.reader(0.)),
+              tissue.cell(p));
+        // What is carved may depend on the fields, and they on what is left.
         if (carve())
           find_steady();
         begin_step_effects();

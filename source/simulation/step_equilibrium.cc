@@ -105,7 +105,9 @@ namespace Morula
     const LinearProblem linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
-    Solution solution{start(attempt).value_or(balance.rest()), attempt.lumen};
+    Solution solution{start(attempt).value_or(balance.rest()),
+                      attempt.lumen,
+                      {}};
     if (traction)
       traction->predict(solution.u);
     std::optional<LumenPressure<dim>> pressure;
@@ -143,6 +145,7 @@ namespace Morula
       }
     if (pressure)
       solution.lumen->pressure = pressure->pressure();
+    solution.forces = forces(attempt, list, lumen, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -182,6 +185,39 @@ namespace Morula
         return follow_proximal_path(
           balance, linear, scales, model.scene.solver, timer, u, report);
       }
+  }
+
+
+  // The terms of conditions that load are made anew, apart from each other;
+  // that of the points that are held stands behind those of the cells.
+  template <int dim>
+  SurfaceForces<dim>
+  StepEquilibrium<dim>::forces(const Attempt                       &attempt,
+                               const TermList                      &list,
+                               const std::optional<Enclosure<dim>> &lumen,
+                               const Solution &solution) const
+  {
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    if (conditions.list().empty())
+      return {};
+    const TimerOutput::Scope section(timer, "forces");
+    ForceSums<dim>           sums(tissue, space, solution.u, comm);
+    for (std::size_t f = 0; f < model.forces.size(); ++f)
+      sums.add_force(model.forces[f].name, *list[1 + f]);
+    if (conditions.has_dirichlet())
+      sums.add_held(conditions, *list[1 + model.forces.size()]);
+    if (conditions.has(SurfaceCondition::loaded))
+      {
+        LoadedPoints<dim> points = loaded_points(tissue, space);
+        points.time              = attempt.t;
+        points.youngs_modulus    = attempt.typical_stiffness;
+        sums.add_loads(conditions, points, attempt.t_next);
+      }
+    if (lumen)
+      sums.add_lumen(*conditions.lumen(),
+                     lumen->gain,
+                     solution.lumen->pressure);
+    return sums.result();
   }
 
 

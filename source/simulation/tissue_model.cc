@@ -40,7 +40,8 @@ namespace Morula
   TissueModel<dim>::boundary_columns() const
   {
     BoundaryColumns<dim> columns(scene.tissue.refine_surface,
-                                 scene.tissue.coarsen_surface);
+                                 scene.tissue.coarsen_surface,
+                                 !boundary_conditions.list().empty());
     // The renewed traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&
         boundary_conditions.nitsche().form() != NitscheForm::bounded)

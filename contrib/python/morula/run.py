@@ -218,6 +218,16 @@ class Run:
         stand in the lineage. Empty in a scene without types or death."""
         return read_events(self.directory / "events.csv", self.type_names)
 
+    @cached_property
+    def forces(self):
+        """forces.csv: at each output from the first step on a row for each
+        condition, obstacle, lumen and force on the cells; forces in
+        kPa um^(dim-1), moments in kPa um^dim. Empty in a scene without
+        conditions on the surface."""
+        import pandas
+        file = self.directory / "forces.csv"
+        return pandas.read_csv(file) if file.is_file() else pandas.DataFrame()
+
     def types_of(self, cell):
         """The types that a cell has had: [(since when, day; name), ...] from
         its birth on; empty in a scene without types."""

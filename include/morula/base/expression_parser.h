@@ -53,6 +53,12 @@ namespace Morula
     mu::Parser             parser;
     std::vector<Variable>  used_;
   };
+
+  /** The decimal number of ten places that @p t (day) is but for rounding, or
+   *  @p t itself: expressions see the time that users write, so that t >= 0.45
+   *  holds at the end of the ninth step of 0.05. */
+  double
+  decimal(const double t);
 } // namespace Morula
 
 #endif

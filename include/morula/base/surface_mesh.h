@@ -12,6 +12,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,11 @@ namespace Morula
      *  surface. */
     bool
     contains(const Point<3> &x, const double clearance) const;
+
+    /** Whether a cube with the center @p x and this half side (µm) is inside,
+     * or outside; nothing if the surface cuts it. */
+    std::optional<bool>
+    side_of_cube(const Point<3> &x, const double half_side) const;
 
     /** How far @p x (µm) is from the surface. */
     NearestPoint

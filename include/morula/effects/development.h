@@ -267,6 +267,12 @@ namespace Morula
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell) const;
 
+    /** Chooses the axis of a founder in @p cell anew that is in a cycle at
+     *  t = 0, when the steady fields are known. */
+    void
+    choose_first_axis(const PresentCell<dim>      &founder,
+                      const CellView<dim, double> &cell) const;
+
   private:
     /** What is known of errors when a cell develops. */
     struct Errors

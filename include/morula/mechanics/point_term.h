@@ -7,6 +7,8 @@
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 
+#include <vector>
+
 namespace Morula
 {
   /** A term that is a sum over points, which have nothing to do with each
@@ -22,6 +24,10 @@ namespace Morula
         const LocalField<dim> &field,
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
+
+    std::vector<Tensor<1, dim>>
+    forces(const unsigned int     grid_cell,
+           const LocalField<dim> &field) const override;
 
   protected:
     /**

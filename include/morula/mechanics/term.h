@@ -6,6 +6,8 @@
 
 #include <morula/mechanics/local_system.h>
 
+#include <vector>
+
 namespace Morula
 {
   /**
@@ -43,6 +45,17 @@ namespace Morula
         const LocalField<dim> &field,
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const = 0;
+
+    /**
+     * The force of each of its points on the tissue, on one active grid cell
+     * and in their order, kPa µm^(dim-1). Nothing of a term that is no sum over
+     * points of its own.
+     */
+    virtual std::vector<Tensor<1, dim>>
+    forces(const unsigned int, const LocalField<dim> &) const
+    {
+      return {};
+    }
 
     /** Whether the term has an energy, i.e., a symmetric tangent. */
     virtual bool

@@ -55,21 +55,30 @@ namespace Morula
     herr_t (*close)(hid_t);
   };
 
-  /** Keeps the HDF5 library from printing its errors while this object lives.
-   */
+  /** Keeps the HDF5 library from printing its errors while this object lives,
+   *  and remembers the first of them. */
   class Hdf5Silence
   {
   public:
     Hdf5Silence();
     ~Hdf5Silence();
 
+    /** What the library has said of its first error on this rank; empty: it had
+     *  none. */
+    const std::string &
+    reason() const;
+
     Hdf5Silence(const Hdf5Silence &) = delete;
     Hdf5Silence &
     operator=(const Hdf5Silence &) = delete;
 
   private:
+    static herr_t
+    remember(const hid_t stack, void *silence);
+
     H5E_auto2_t function;
     void       *data;
+    std::string reason_;
   };
 
   /**

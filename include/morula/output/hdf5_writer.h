@@ -63,6 +63,10 @@ namespace Morula
     bool
     close();
 
+    /** Why it has not, in the library's words; empty if it does not say. */
+    std::string
+    reason() const;
+
   private:
     void
     note(const bool success)

@@ -17,6 +17,7 @@ namespace Morula
     Key<double>                   interval; // day
     Key<std::vector<std::string>> formats;
     Key<double>                   snapshot_interval; // day
+    Key<double>                   snapshot_minutes;
     Key<bool>                     condition_estimate;
     Key<bool>                     newton_trace;
 

@@ -77,6 +77,12 @@ namespace Morula
                 const Columns           &boundary_columns,
                 const MPI_Comm           comm);
 
+  /** Writes a file beside @p path as a snapshot is written, and removes it:
+   * what can only be written at the end is tried at the start. Collective.
+   *  @throws InputError with the library's reason */
+  void
+  try_snapshot(const std::string &path, const MPI_Comm comm);
+
   /**
    * Writes snapshot.h5, all ranks together. Doubles keep their bits. The file
    * begins with a digest of its bytes, and replaces an older one when it is

@@ -31,16 +31,18 @@ namespace Morula
   /**
    * The columns of the boundary points. All scenes have the same ones, except
    * those of a point's patch, which exist only if the scene refines the
-   * surface.
+   * surface, and the force, which exists only with conditions.
    */
   template <int dim>
   class BoundaryColumns : public Columns
   {
   public:
     /** @param with_patch whether the scene refines the surface
-     *  @param coarsens whether it also merges patches that shrink */
+     *  @param coarsens whether it also merges patches that shrink
+     *  @param with_force whether conditions hold or load some points */
     explicit BoundaryColumns(const bool with_patch = false,
-                             const bool coarsens   = false);
+                             const bool coarsens   = false,
+                             const bool with_force = false);
 
     /**
      * The row of a point at t = 0: at @p X (µm), with outward unit normal
@@ -83,6 +85,9 @@ namespace Morula
     /** If the surface is coarsened: the area that a patch shall have, that of
      *  the point at t = 0, µm^(dim-1). */
     Column<double> reference_area;
+    /** With conditions: force of all of them on the tissue at the end of the
+     *  last step, kPa µm^(dim-1). */
+    Column<Tensor<1, dim>> force;
   };
 
   /**
@@ -223,6 +228,8 @@ namespace Morula
       set(columns.initial_position, initial_position() + 0.25 * sign * E);
       set(columns.edges[k], 0.5 * E);
       set(columns.initial_area, 0.5 * initial_area());
+      if (columns.force.exists())
+        set(columns.force, 0.5 * get(columns.force));
     }
 
     /**

@@ -4,6 +4,7 @@
 #ifndef morula_scene_seeded_tissue_h
 #define morula_scene_seeded_tissue_h
 
+#include <morula/scene/applied.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
@@ -25,6 +26,8 @@ namespace Morula
     /** Founders that proliferate, over all ranks. */
     types::particle_index n_proliferating = 0;
     ConditionCounts       counts;
+    /** See applied_conditions(). */
+    std::vector<AppliedCondition> applied;
     /** See scene_warnings(). */
     std::vector<std::string> warnings;
   };

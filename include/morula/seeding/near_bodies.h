@@ -18,8 +18,8 @@ namespace Morula
   {
     /** Groups of founders with a gap of two cells or more between them. */
     unsigned int bodies = 0;
-    /** Groups of touching grid cells that hold founders: those of one group
-     *  share splines. */
+    /** Groups of touching grid cells that hold founders or boundary points:
+     *  those of one group share splines. */
     unsigned int pieces = 0;
   };
 
@@ -31,9 +31,10 @@ namespace Morula
    */
   template <int dim>
   BodyCounts
-  count_bodies(const GridParameters &grid,
-               const Founders<dim>  &founders,
-               const MPI_Comm        comm);
+  count_bodies(const GridParameters      &grid,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm);
 
   /**
    * Warns of bodies that stick together from the start, because they are within
@@ -42,11 +43,12 @@ namespace Morula
    */
   template <int dim>
   void
-  review_bodies(const GridParameters   &grid,
-                const TissueParameters &tissue,
-                const Founders<dim>    &founders,
-                const MPI_Comm          comm,
-                Review                 &review);
+  review_bodies(const GridParameters      &grid,
+                const TissueParameters    &tissue,
+                const Founders<dim>       &founders,
+                const SurfacePatches<dim> &surface,
+                const MPI_Comm             comm,
+                Review                    &review);
 } // namespace Morula
 
 #endif

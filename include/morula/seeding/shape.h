@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -56,6 +57,11 @@ namespace Morula
      *  surface. */
     virtual bool
     contains(const Point<dim> &x, const double clearance) const = 0;
+
+    /** Whether a cube with the center @p x and this half side (µm) is inside,
+     * or outside; nothing if the surface may cut it. */
+    virtual std::optional<bool>
+    side_of_cube(const Point<dim> &x, const double half_side) const;
 
     /** µm^dim */
     virtual double

@@ -9,6 +9,7 @@
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
 #include <morula/output/events.h>
+#include <morula/output/forces.h>
 #include <morula/output/lineage.h>
 #include <morula/output/matrix_condition.h>
 #include <morula/output/newton_trace.h>
@@ -72,6 +73,14 @@ namespace Morula
     void
     newton(const unsigned int step, const std::vector<NewtonIteration> &trace);
 
+    /** Whether forces.csv is due at @p time (day), as cells and surface are
+     *  from the first step on. */
+    bool
+    forces_due(const double time, const bool last) const;
+    /** Appends to forces.csv. Only if conditions act on the surface. */
+    void
+    forces(const double time, const std::vector<ForceRow> &rows);
+
     /** Whether the scene asks for cells and surface in any format. */
     bool
     writes_points() const;
@@ -80,7 +89,8 @@ namespace Morula
      */
     bool
     output_due(const double time, const bool last) const;
-    /** Whether a snapshot is due; see output_due(). */
+    /** Whether a snapshot is due; see output_due(). Also by the clock of rank
+     *  0. */
     bool
     snapshot_due(const double time, const bool last) const;
 
@@ -133,6 +143,10 @@ namespace Morula
     std::string
     path(const std::string &file) const;
 
+    /** Whether the clock asks for a snapshot. Collective. */
+    bool
+    snapshot_due_by_clock() const;
+
     bool
     has_format(const std::string &format) const;
 
@@ -153,8 +167,13 @@ namespace Morula
     const Timer                 &clock;
     std::vector<double>          output_times;
     // The next ones are due at these multiples of their intervals.
-    unsigned int            next_output;
-    unsigned int            next_snapshot;
+    unsigned int next_output;
+    unsigned int next_snapshot;
+    unsigned int next_forces;
+    // On this program's clock, s: when the last snapshot was done, and how long
+    // it took.
+    double                  last_snapshot    = 0.;
+    double                  snapshot_seconds = 0.;
     SectionTimes            sections_before;
     std::optional<Progress> progress;
     // The tables that the scene has, by their names without ending.

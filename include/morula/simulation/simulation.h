@@ -7,6 +7,7 @@
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
+#include <morula/simulation/gap_watch.h>
 #include <morula/simulation/piece_warnings.h>
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/run_state.h>
@@ -184,6 +185,7 @@ namespace Morula
     DevelopmentOfStep<dim>           growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise
+    std::vector<ForceRow>            forces; // at the end of the last step
     NewtonReport                     newton_report;
     StatisticsRow                    row;
     NamedNumbers                     of_step;   // columns of the effects
@@ -196,13 +198,15 @@ namespace Morula
     } first_attempt = {0., 0.};
 
     PieceWarnings<dim>    pieces;
+    GapWatch<dim>         gaps;
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
     bool told_of_path         = false; // once a run
     bool warned_of_misfit     = false; // likewise
 
-    std::vector<std::string>         warnings;      // of a new run
+    // What acts, and warnings of a new run.
+    std::vector<std::string>         warnings;
     std::optional<SplineSpace<dim>>  first_splines; // until the first step
     std::optional<SnapshotData<dim>> resumed_from;  // until run()
     std::optional<RunFiles<dim>>     files;         // from run() on

@@ -8,6 +8,7 @@
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/simulation/held_traction.h>
 #include <morula/simulation/lumen_of_run.h>
+#include <morula/simulation/surface_forces.h>
 #include <morula/simulation/tissue_model.h>
 #include <morula/solver/condition_estimate.h>
 #include <morula/solver/newton.h>
@@ -43,8 +44,9 @@ namespace Morula
     /** What was found for a step. */
     struct Solution
     {
-      Equilibrium::Vector        u;     // displacement, µm
-      std::optional<LumenMemory> lumen; // after the step
+      Equilibrium::Vector        u;      // displacement, µm
+      std::optional<LumenMemory> lumen;  // after the step
+      SurfaceForces<dim>         forces; // at its end
     };
 
     using Supports = std::vector<typename RigidModes<dim>::Support>;
@@ -85,6 +87,12 @@ namespace Morula
          const LinearProblem  &linear,
          Equilibrium::Vector  &u,
          NewtonReport         &report) const;
+    /** The forces on the surface, if conditions act on it. Collective. */
+    SurfaceForces<dim>
+    forces(const Attempt                       &attempt,
+           const TermList                      &list,
+           const std::optional<Enclosure<dim>> &lumen,
+           const Solution                      &solution) const;
     /** The lumen at the beginning of the step, if there is one. */
     std::optional<Enclosure<dim>>
     lumen_of(const Attempt &attempt) const;

@@ -107,6 +107,20 @@ namespace Morula
 
 
   template <int dim>
+  void
+  Proliferation<dim>::choose_first_axis(const PresentCell<dim>      &founder,
+                                        const CellView<dim, double> &row) const
+  {
+    CycleState<dim> state = clock(row);
+    if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
+      return;
+    state.axis = Random::direction<dim>(random_seed, state.key);
+    choose_axis(CycleState<dim>(), founder, 0., state);
+    set_clock(row, state);
+  }
+
+
+  template <int dim>
   Tensor<2, dim>
   Proliferation<dim>::growth(const CellView<dim, const double> &cell,
                              const double                       t) const

@@ -36,23 +36,29 @@ namespace Morula
      */
     template <int dim>
     void
-    hand_on(Tissue<dim>                     &tissue,
-            const Fates<dim>                &fates,
-            const std::vector<unsigned int> &gone)
+    hand_on(Tissue<dim>                       &tissue,
+            const Fates<dim>                  &fates,
+            const std::vector<unsigned int>   &gone,
+            const std::vector<Column<double>> &carried)
     {
       const Cells<dim> &cells = tissue.cells();
       auto              next  = gone.begin();
       for (const auto &grid_cell : cells.grid_cells())
         {
-          const auto first = next;
-          double     from = 0., to = 0.; // µm^dim
+          const auto          first = next;
+          double              from = 0., to = 0.;          // µm^dim
+          std::vector<double> amounts(carried.size(), 0.); // of those that go
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             if (next != gone.end() && *next == p)
               {
                 if (any_of(fates, [&](const Fate<dim> &fate) {
                       return fate.shrinks(cells[p]);
                     }))
-                  from += cells.volume(p);
+                  {
+                    from += cells.volume(p);
+                    for (std::size_t k = 0; k < carried.size(); ++k)
+                      amounts[k] += cells.volume(p) * cells[p].get(carried[k]);
+                  }
                 ++next;
               }
             else if (first != gone.end() && *first < grid_cell.end)
@@ -60,12 +66,16 @@ namespace Morula
           if (from == 0. || to == 0.)
             continue;
           // doc/theory.md (6.9b)
-          const double stretch =
-            std::pow(1. + std::min(1., from / to), 1. / dim);
+          const double ratio   = 1. + std::min(1., from / to);
+          const double stretch = std::pow(ratio, 1. / dim);
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             {
               const CellView<dim, double> cell = tissue.cell(p);
               cell.set(cell.columns().deformation, stretch * cell.F());
+              // doc/theory.md (6.9d)
+              for (std::size_t k = 0; k < carried.size(); ++k)
+                cell.set(carried[k],
+                         (cell.get(carried[k]) + amounts[k] / to) / ratio);
             }
         }
     }
@@ -196,9 +206,10 @@ namespace Morula
 
   template <int dim>
   std::vector<CellEvent>
-  remove_dead_cells(Tissue<dim>                &tissue,
-                    const CellDevelopment<dim> &development,
-                    const double                t)
+  remove_dead_cells(Tissue<dim>                       &tissue,
+                    const CellDevelopment<dim>        &development,
+                    const double                       t,
+                    const std::vector<Column<double>> &carried)
   {
     const Cells<dim>         &cells  = tissue.cells();
     const Fates<dim>         &fates  = development.fates();
@@ -220,7 +231,7 @@ namespace Morula
                               type});
             break;
           }
-    hand_on(tissue, fates, gone);
+    hand_on(tissue, fates, gone, carried);
     if (Utilities::MPI::max(gone.size(), tissue.communicator()) > 0)
       tissue.remove({}, take_out(tissue, gone));
     return events;
@@ -253,7 +264,13 @@ namespace Morula
   template std::vector<CellEvent>
   carve(Tissue<3> &, const CellDevelopment<3> &);
   template std::vector<CellEvent>
-  remove_dead_cells(Tissue<2> &, const CellDevelopment<2> &, const double);
+  remove_dead_cells(Tissue<2> &,
+                    const CellDevelopment<2> &,
+                    const double,
+                    const std::vector<Column<double>> &);
   template std::vector<CellEvent>
-  remove_dead_cells(Tissue<3> &, const CellDevelopment<3> &, const double);
+  remove_dead_cells(Tissue<3> &,
+                    const CellDevelopment<3> &,
+                    const double,
+                    const std::vector<Column<double>> &);
 } // namespace Morula

@@ -12,6 +12,7 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -77,8 +78,26 @@ namespace Morula
   void
   Fields<dim>::begin(const CellView<dim, double> &cell) const
   {
+    const Point<dim> X = cell.founder_position();
     for (unsigned int k = 0; k < fields.size(); ++k)
-      cell.set(columns[k], fields[k].initial(cell.founder_position()));
+      {
+        cell.set(columns[k], fields[k].initial(X));
+        if (!gradients[k].exists())
+          continue;
+        // Founders that divide along a gradient ask for it before any step.
+        const double   delta = std::pow(cell.initial_volume(), 1. / dim) / 100.;
+        Tensor<1, dim> gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Point<dim> before(X), behind(X);
+            before[d] -= delta;
+            behind[d] += delta;
+            gradient[d] =
+              (fields[k].initial(behind) - fields[k].initial(before)) /
+              (2. * delta);
+          }
+        cell.set(gradients[k], gradient);
+      }
   }
 
 
@@ -232,6 +251,18 @@ namespace Morula
     for (const Field<dim> &field : fields)
       for (const std::string what : {"min", "mean", "max", "clipped"})
         tables.add_number(field.name() + "_" + what);
+  }
+
+
+  template <int dim>
+  std::vector<Column<double>>
+  Fields<dim>::carried() const
+  {
+    std::vector<Column<double>> list;
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      if (fields[k].is_diluted() && fields[k].kind() == FieldKind::transient)
+        list.push_back(columns[k]);
+    return list;
   }
 
 

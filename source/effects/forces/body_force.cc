@@ -2,8 +2,10 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/forces/body_force.h>
+#include <morula/effects/forces/placed_force.h>
 #include <morula/effects/surface/dead_load.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -55,7 +57,19 @@ namespace Morula
                        const double,
                        const double t1) const
   {
-    const Cells<dim>           &cells = tissue.cells();
+    const Cells<dim> &cells = tissue.cells();
+    if (PlacedForce<dim>::depends_on_place(density))
+      {
+        std::vector<typename PlacedForce<dim>::Particle> particles;
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          particles.push_back(
+            {cells.position(p),
+             cells.initial_volume(p),
+             present_cell(tissue, p, reader).variables(density, t1)});
+        return std::make_unique<PlacedForce<dim>>(positions,
+                                                  std::move(particles),
+                                                  density);
+      }
     std::vector<Tensor<1, dim>> forces;
     for (unsigned int p = 0; p < cells.size(); ++p)
       forces.push_back(cells.initial_volume(p) *
@@ -82,6 +96,29 @@ namespace Morula
                              const double) const
   {
     founder.vector(density, 0.);
+  }
+
+
+  template <int dim>
+  void
+  BodyForce<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    const std::vector<Variable> &used = density.used();
+    const bool lags = std::any_of(used.begin(), used.end(), [](const auto v) {
+      return is_field(v) || v == Variable::volume || v == Variable::growth ||
+             v == Variable::J_e || v == Variable::pressure ||
+             v == Variable::tension || v == Variable::shear ||
+             v == Variable::energy;
+    });
+    if (lags)
+      review.warn(density.key(),
+                  density.text(),
+                  "a force takes the state of its cell, but its place, from "
+                  "the beginning of each step: it is late by Time/Step = " +
+                    as_text(scene.step) +
+                    " day, and may swing where it changes that state much in "
+                    "a step.",
+                  "Repeat the run with half the step, and compare.");
   }
 
 

@@ -44,6 +44,16 @@ namespace Morula
         }
       return best;
     }
+    /** What contact needs of the points. */
+    template <int dim>
+    std::vector<typename Contact<dim>::BoundaryPoint>
+    boundary_points_of(const LoadedPoints<dim> &points)
+    {
+      std::vector<typename Contact<dim>::BoundaryPoint> list;
+      for (const auto &point : points.points)
+        list.push_back({point.x, point.area.norm()});
+      return list;
+    }
   } // namespace
 
 
@@ -81,6 +91,18 @@ namespace Morula
 
 
   template <int dim>
+  typename Contact<dim>::Obstacle
+  Obstacles<dim>::Obstacle::at(const double             t,
+                               const LoadedPoints<dim> &points) const
+  {
+    return {body.get(),
+            is_mould,
+            way(t),
+            stiffness * points.youngs_modulus / points.h};
+  }
+
+
+  template <int dim>
   SurfaceCondition
   Obstacles<dim>::kind() const
   {
@@ -108,17 +130,11 @@ namespace Morula
   std::unique_ptr<Term<dim>>
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {
-    const double                                      h = points.h;
-    std::vector<typename Contact<dim>::Obstacle>      obstacles;
-    std::vector<typename Contact<dim>::BoundaryPoint> boundary_points;
-    for (const auto &point : points.points)
-      boundary_points.push_back({point.x, point.area.norm()});
+    const double                                 h = points.h;
+    std::vector<typename Contact<dim>::Obstacle> obstacles;
     for (const Obstacle &obstacle : list)
       {
-        obstacles.push_back({obstacle.body.get(),
-                             obstacle.is_mould,
-                             obstacle.way(t),
-                             obstacle.stiffness * points.youngs_modulus / h});
+        obstacles.push_back(obstacle.at(t, points));
         std::ostringstream text;
         const double       step =
           (obstacles.back().way - obstacle.way(points.time)).norm();
@@ -141,8 +157,25 @@ namespace Morula
           }
       }
     return std::make_unique<Contact<dim>>(points,
-                                          std::move(boundary_points),
+                                          boundary_points_of(points),
                                           std::move(obstacles));
+  }
+
+
+  template <int dim>
+  std::vector<typename BoundaryCondition<dim>::Part>
+  Obstacles<dim>::parts(const LoadedPoints<dim> &points, const double t) const
+  {
+    using Bodies = std::vector<typename Contact<dim>::Obstacle>;
+    std::vector<typename BoundaryCondition<dim>::Part> parts;
+    for (const Obstacle &obstacle : list)
+      parts.push_back(
+        {obstacle.name,
+         std::make_unique<Contact<dim>>(points,
+                                        boundary_points_of(points),
+                                        Bodies{obstacle.at(t, points)}),
+         true});
+    return parts;
   }
 
 

@@ -192,6 +192,16 @@ namespace Morula
 
 
   template <int dim>
+  VariableValues
+  PresentCell<dim>::variables(const Expression &expression,
+                              const double      t) const
+  {
+    provide(expression.used(), t);
+    return values;
+  }
+
+
+  template <int dim>
   double
   PresentCell<dim>::value_if_grown(const Expression &expression,
                                    const double      t,

@@ -3,6 +3,8 @@
 
 #include <morula/effects/surface/boundary_condition.h>
 
+#include <utility>
+
 namespace Morula
 {
   template <int dim>
@@ -18,6 +20,18 @@ namespace Morula
   BoundaryCondition<dim>::term(const LoadedPoints<dim> &, const double) const
   {
     return nullptr;
+  }
+
+
+  template <int dim>
+  std::vector<typename BoundaryCondition<dim>::Part>
+  BoundaryCondition<dim>::parts(const LoadedPoints<dim> &points,
+                                const double             t) const
+  {
+    std::vector<Part> list;
+    if (auto whole = term(points, t))
+      list.push_back({"", std::move(whole)});
+    return list;
   }
 
 

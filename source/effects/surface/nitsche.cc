@@ -404,6 +404,42 @@ namespace Morula
   }
 
   template <int dim>
+  std::vector<Tensor<1, dim>>
+  Nitsche<dim>::forces(const unsigned int     cell,
+                       const LocalField<dim> &field) const
+  {
+    std::vector<Tensor<1, dim>> list;
+    for (unsigned int p = points.offsets[cell]; p < points.offsets[cell + 1];
+         ++p)
+      {
+        const SplineValues<dim> splines(points.xi[p], points.h);
+        const HeldPoint        &held = held_points[p];
+        const Tensor<1, dim>    gap =
+          held.gap + held.projection * field.value(splines);
+        Tensor<1, dim> traction;
+        if (held.traction_fraction > 0.)
+          {
+            const Tensor<2, dim>    f = field.step_deformation(splines);
+            const ElasticPoint<dim> state(f * current[p].A,
+                                          held.lame,
+                                          material);
+            traction =
+              NominalTraction<dim>(splines,
+                                   invert(f),
+                                   state,
+                                   part,
+                                   material.coupled(),
+                                   held.traction_fraction * current[p].W,
+                                   held)
+                .value;
+          }
+        // The variation of T sums up to nothing in a translation.
+        list.push_back(held.area * (traction - held.penalty * gap));
+      }
+    return list;
+  }
+
+  template <int dim>
   bool
   Nitsche<dim>::is_conservative() const
   {

@@ -24,6 +24,12 @@ namespace Morula
     return mesh.contains(x, clearance);
   }
 
+  std::optional<bool>
+  MeshShape::side_of_cube(const Point<3> &x, const double half_side) const
+  {
+    return mesh.side_of_cube(x, half_side);
+  }
+
   double
   MeshShape::volume() const
   {

@@ -73,6 +73,12 @@ namespace Morula
           const double                       step,
           const std::optional<unsigned int> &phase) const;
 
+    /** Chooses the axis of a founder anew that is in a cycle at t = 0, when the
+     *  steady fields are known. */
+    void
+    choose_first_axis(const PresentCell<dim>      &founder,
+                      const CellView<dim, double> &row) const;
+
     /** Takes the clock through a stretch, and through a division in it, which
      *  daughters() looks up. @return the clock at its end */
     CycleState<dim>

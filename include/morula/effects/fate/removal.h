@@ -17,13 +17,16 @@ namespace Morula
    * tissue, and the boundary points that then have no cell within reach. The
    * remaining volume of shrunken cells goes to the cells in their grid cells:
    * doc/theory.md, section 6.9. Only with death. Collective.
+   * @param carried columns of amounts per volume, which these cells take over,
+   *        too
    * @return the removals of this rank
    */
   template <int dim>
   std::vector<CellEvent>
-  remove_dead_cells(Tissue<dim>                &tissue,
-                    const CellDevelopment<dim> &development,
-                    const double                t);
+  remove_dead_cells(Tissue<dim>                       &tissue,
+                    const CellDevelopment<dim>        &development,
+                    const double                       t,
+                    const std::vector<Column<double>> &carried = {});
 
   /**
    * Carves the tissue at t = 0: takes out the cells that Death/When kills then

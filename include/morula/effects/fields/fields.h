@@ -93,6 +93,11 @@ namespace Morula
     void
     declare(Tables<dim> &tables) const;
 
+    /** The columns of the transient fields whose amount goes with the cells'
+     *  volume. */
+    std::vector<Column<double>>
+    carried() const;
+
     /** All 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;

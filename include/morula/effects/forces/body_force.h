@@ -26,7 +26,8 @@ namespace Morula
   };
 
   /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
-   *  paper. It may depend on the state of cells at the beginning of a step. */
+   *  paper. It may depend on the state of cells at the beginning of a step, and
+   * on their place at its end. */
   template <int dim>
   class BodyForce : public Force<dim>
   {
@@ -49,6 +50,9 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     const Expression density;

@@ -32,6 +32,9 @@ namespace Morula
     /** @throws StepFailed if an obstacle moves too far in the step */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
+    /** One part for each obstacle. */
+    std::vector<typename BoundaryCondition<dim>::Part>
+    parts(const LoadedPoints<dim> &points, const double t) const override;
     bool
     only_pushes() const override;
     void
@@ -53,6 +56,10 @@ namespace Morula
       /** From t = 0 to @p t, µm. */
       Tensor<1, dim>
       way(const double t) const;
+
+      /** The obstacle at @p t (day) against these points. */
+      typename Contact<dim>::Obstacle
+      at(const double t, const LoadedPoints<dim> &points) const;
     };
 
     std::vector<Obstacle> list;

@@ -129,6 +129,11 @@ namespace Morula
     Tensor<1, dim>
     vector(const Expression &expression, const double t) const;
 
+    /** The values of the variables of an expression at @p t, for code that
+     *  changes some of them and evaluates it again. */
+    VariableValues
+    variables(const Expression &expression, const double t) const;
+
     /** The value that an expression would have if the cell had grown
      *  isotropically by the factor @p ratio in volume while F stayed, as in a
      *  confined cell. @throws InputError */

@@ -10,6 +10,7 @@
 #include <morula/particles/boundary_state.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -76,6 +77,20 @@ namespace Morula
      *  @throws StepFailed if the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const;
+
+    /** A part of a condition whose force is told apart from the others'. */
+    struct Part
+    {
+      /** Empty: the condition as a whole. */
+      std::string                name;
+      std::unique_ptr<Term<dim>> term;
+      /** Whether it acts on those points alone on which it has a force. */
+      bool only_where_it_touches = false;
+    };
+
+    /** The parts of a condition that loads, with terms as term() makes them. */
+    virtual std::vector<Part>
+    parts(const LoadedPoints<dim> &points, const double t) const;
 
     /** Whether it only pushes tissue that it touches, and never holds it. */
     virtual bool

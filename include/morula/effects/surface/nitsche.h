@@ -86,6 +86,10 @@ namespace Morula
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
 
+    std::vector<Tensor<1, dim>>
+    forces(const unsigned int     cell,
+           const LocalField<dim> &field) const override;
+
     bool
     is_conservative() const override;
 

@@ -24,6 +24,8 @@ namespace Morula
 
     bool
     contains(const Point<3> &x, const double clearance) const override;
+    std::optional<bool>
+    side_of_cube(const Point<3> &x, const double half_side) const override;
 
     double
     volume() const override;

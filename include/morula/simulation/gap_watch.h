@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_gap_watch_h
+#define morula_simulation_gap_watch_h
+
+#include <morula/grid/spline_space.h>
+#include <morula/particles/tissue.h>
+#include <morula/simulation/announce.h>
+
+#include <optional>
+
+namespace Morula
+{
+  /** Where a surface faces itself. */
+  template <int dim>
+  struct Gap
+  {
+    /** µm. */
+    double width;
+    /** The middle between the two boundary points, µm. */
+    Point<dim> place;
+  };
+
+  /**
+   * The narrowest gap of the tissue across which splines reach: two boundary
+   * points look at each other through empty space, and their grid cells share
+   * unknowns. Two arms of one piece, or the rims of a hole, stick together
+   * there. Nothing where there is none. Pairs of points on two ranks count from
+   * a grid spacing on. Collective.
+   */
+  template <int dim>
+  std::optional<Gap<dim>>
+  narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
+
+  /** Tells of the first such gap, once. */
+  template <int dim>
+  class GapWatch
+  {
+  public:
+    explicit GapWatch(const Announce &announce);
+
+    /** Looks at the tissue at @p t (day) before a step. Collective. */
+    void
+    look(const Tissue<dim>      &tissue,
+         const SplineSpace<dim> &space,
+         const double            t);
+
+  private:
+    const Announce announce;
+    bool           has_told = false;
+  };
+} // namespace Morula
+
+#endif

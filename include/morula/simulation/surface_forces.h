@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_surface_forces_h
+#define morula_simulation_surface_forces_h
+
+#include <morula/effects/surface/boundary_conditions.h>
+#include <morula/mechanics/spline_field.h>
+#include <morula/mechanics/term.h>
+#include <morula/output/forces.h>
+#include <morula/particles/tissue.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** What conditions and forces do to the tissue at the end of a step. */
+  template <int dim>
+  struct SurfaceForces
+  {
+    /** The same on all ranks. */
+    std::vector<ForceRow> rows;
+    /** Of all conditions on each of this rank's boundary points, in the order
+     *  of the store, kPa µm^(dim-1). */
+    std::vector<Tensor<1, dim>> of_points;
+  };
+
+  /** Gives the boundary points their forces, if they have a column for them. */
+  template <int dim>
+  void
+  set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
+
+  /**
+   * Adds up the forces at the end of a step with this displacement: those of
+   * the terms whose residual Newton's method has made vanish, point by point.
+   * Keeps references to all that it is given.
+   */
+  template <int dim>
+  class ForceSums
+  {
+  public:
+    /** @param tissue at the beginning of the step, as @p space. Collective. */
+    ForceSums(const Tissue<dim>                   &tissue,
+              const SplineSpace<dim>              &space,
+              const TrilinosWrappers::MPI::Vector &u,
+              const MPI_Comm                       comm);
+
+    /** A force on the cells: the sum over the splines of any term. */
+    void
+    add_force(const std::string &name, const Term<dim> &term);
+
+    /** The points that conditions hold, by the condition that wins. */
+    void
+    add_held(const BoundaryConditions<dim> &conditions, const Term<dim> &term);
+
+    /** The conditions that load, at the end @p t (day) of the step. */
+    void
+    add_loads(const BoundaryConditions<dim> &conditions,
+              const LoadedPoints<dim>       &points,
+              const double                   t);
+
+    /** A lumen at this pressure (kPa). @param gain of its volume */
+    void
+    add_lumen(const Lumen<dim> &lumen,
+              const Term<dim>  &gain,
+              const double      pressure);
+
+    /** Sums over all ranks. Collective. */
+    SurfaceForces<dim>
+    result() const;
+
+  private:
+    /** A row for the points of @p groups for which selects(p, force) holds.
+     *  @param term of all of these points */
+    void
+    add_row(
+      const std::string                                               &kind,
+      const std::string                                               &name,
+      const PointGroups                                               &groups,
+      const Term<dim>                                                 &term,
+      const double                                                     factor,
+      const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects);
+
+    const Tissue<dim>           &tissue;
+    const SplineSpace<dim>      &space;
+    const DisplacementField<dim> displacement;
+    const MPI_Comm               comm;
+    SurfaceForces<dim>           mine; // of this rank
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/growth/relaxation.h>
+#include <morula/base/review.h>
+#include <morula/scene/applied.h>
+
+#include <optional>
+
+// What is unwise in what a scene applies, and numbers of another unit.
+
+namespace Morula
+{
+  namespace
+  {
+    /** Patches of which a condition's area is known to a tenth. */
+    constexpr std::uint64_t fewest_points = 10;
+
+    /** Part of the loads that must not be left over. */
+    constexpr double largest_rest = 0.01;
+
+    /** Young's moduli of soft tissue, kPa: brain has some tenths, cartilage
+     *  some hundreds. */
+    constexpr double softest = 0.005, stiffest = 500.;
+
+    /** Cell cycles are shorter, and so are relaxation times, day. */
+    constexpr double longest_cycle = 10., longest_relaxation = 2.;
+
+    /** Lengths of cells, µm. */
+    constexpr double shortest_cell = 0.5, longest_cell = 300.;
+
+    void
+    review_number(const ExpressionKey &key,
+                  const double         lower,
+                  const double         upper,
+                  const std::string   &unit,
+                  const std::string   &usual,
+                  const std::string   &question,
+                  Review              &review)
+    {
+      const std::optional<double> number = key.largest_number(3);
+      if (number && *number > 0. && (*number < lower || *number > upper))
+        review.warn(key.path(),
+                    as_text(*number) + ' ' + unit,
+                    usual + ". " + question,
+                    "If it is meant so, all is well.");
+    }
+
+    void
+    review_points(const Scene                         &scene,
+                  const std::vector<AppliedCondition> &applied,
+                  Review                              &review)
+    {
+      for (const AppliedCondition &one : applied)
+        if (one.points > 0 && one.points < fewest_points)
+          for (const auto &choice : scene.catalogue.boundary_conditions)
+            if (const AnyKey *const where = choice.keys().switch_key();
+                where != nullptr && choice.name() == one.name)
+              review.warn(where->path(),
+                          where->text(),
+                          "it acts on " + std::to_string(one.points) +
+                            " boundary points, whose area is " +
+                            as_text(one.area) +
+                            (scene.dimension == 3 ? " um^2" : " um") +
+                            ": with so few, what it covers jumps by a whole "
+                            "patch, and so does its force.",
+                          "Choose a larger place, or a smaller Tissue/Cell "
+                          "spacing.");
+    }
+
+    /** Whether something but inertia can balance loads. */
+    bool
+    is_held(const Scene &scene, const std::vector<AppliedCondition> &applied)
+    {
+      for (const AppliedCondition &one : applied)
+        if ((one.name == "fixed" || one.name == "slip") && one.points > 0)
+          return true;
+      for (const auto &choice : scene.catalogue.forces)
+        if (choice.keys().is_on())
+          return true; // friction, or a load that is not known here
+      for (const auto &choice : scene.catalogue.boundary_conditions)
+        if (choice.keys().is_on() && choice.keys().names_key() != nullptr)
+          return true; // obstacles
+      return false;
+    }
+
+    void
+    review_balance(const Scene                         &scene,
+                   const std::vector<AppliedCondition> &applied,
+                   Review                              &review)
+    {
+      if (is_held(scene, applied))
+        return;
+      Tensor<1, 3> sum;
+      double       magnitude = 0.;
+      for (const AppliedCondition &one : applied)
+        {
+          sum += one.force;
+          magnitude += one.magnitude;
+        }
+      if (!(sum.norm() > largest_rest * magnitude))
+        return;
+      std::string text;
+      for (unsigned int d = 0; d < scene.dimension; ++d)
+        text += (d == 0 ? "" : " ") + as_text(sum[d]);
+      review.warn("Boundary conditions",
+                  "nothing held",
+                  "the loads add up to a force of (" + text + ") kPa um" +
+                    (scene.dimension == 3 ? "^2" : "") +
+                    " at the end, and nothing holds the tissue: inertia "
+                    "balances them, as in free fall (doc/theory.md, section "
+                    "4.4).",
+                  "Hold a part of the surface by Fixed where or Slip where, "
+                  "or balance the loads.");
+    }
+  } // namespace
+
+
+  void
+  review_applied(const Scene                         &scene,
+                 const std::vector<AppliedCondition> &applied,
+                 std::vector<std::string>            &warnings)
+  {
+    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    review_points(scene, applied, review);
+    review_balance(scene, applied, review);
+    const std::string in_hours = "Is it in hours?";
+    review_number(scene.material.youngs_modulus,
+                  softest,
+                  stiffest,
+                  "kPa",
+                  "soft tissue has 0.1 to 100 kPa",
+                  "Is it in Pa or MPa?",
+                  review);
+    review_number(scene.keys<RelaxationParameters>().time,
+                  0.,
+                  longest_relaxation,
+                  "day",
+                  "tissue relaxes within minutes to hours",
+                  in_hours,
+                  review);
+    if (scene.has_proliferation())
+      review_number(scene.cell_cycle.duration,
+                    0.,
+                    longest_cycle,
+                    "day",
+                    "cell cycles take 0.3 to 3 days",
+                    in_hours,
+                    review);
+    const double length = scene.tissue.cell_spacing;
+    if (length < shortest_cell || length > longest_cell)
+      review.warn(scene.tissue.cell_spacing.path(),
+                  as_text(length) + " um",
+                  "cells are 5 to 50 um long. Is it in another unit than um?",
+                  "If it is meant so, all is well.");
+    warnings.insert(warnings.end(),
+                    review.warnings.begin(),
+                    review.warnings.end());
+  }
+} // namespace Morula

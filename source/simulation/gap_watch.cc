@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/nearest.h>
+#include <morula/simulation/gap_watch.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Cosine of the angle between a normal and the way to the other side, and
+     *  minus that of two normals, at least. */
+    constexpr double least_cosine = 0.8;
+
+    /** Grid spacings over which splines of one copy reach. */
+    constexpr double widest = 2.;
+
+    /** Whether two boundary points look at each other through empty space. */
+    template <int dim>
+    bool
+    face(const Point<dim>     &x,
+         const Tensor<1, dim> &n,
+         const Point<dim>     &y,
+         const Tensor<1, dim> &m)
+    {
+      const Tensor<1, dim> way    = y - x;
+      const double         length = way.norm();
+      return way * n > least_cosine * length &&
+             way * m < -least_cosine * length && n * m < -least_cosine;
+    }
+
+    /** The unknowns of this rank's grid cells, sorted, by number. */
+    template <int dim>
+    class Unknowns
+    {
+    public:
+      explicit Unknowns(const SplineSpace<dim> &space)
+      {
+        for (const auto &grid_cell : space.grid_cells())
+          {
+            auto &list = of[grid_cell.number] = grid_cell.unknowns;
+            std::sort(list.begin(), list.end());
+          }
+      }
+
+      bool
+      has(const unsigned int number) const
+      {
+        return of.count(number) > 0;
+      }
+
+      bool
+      are_shared(const unsigned int one, const unsigned int other) const
+      {
+        std::vector<unsigned int> both;
+        const auto               &a = of.at(one), &b = of.at(other);
+        std::set_intersection(
+          a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+        return !both.empty();
+      }
+
+    private:
+      std::map<unsigned int, std::vector<unsigned int>> of;
+    };
+  } // namespace
+
+
+  // Each rank looks around its own points, at those of other ranks as well; of
+  // all ranks' pairs the nearest counts. That two points are of one piece does
+  // not say that they stick together: the splines between them may be parted.
+  template <int dim>
+  std::optional<Gap<dim>>
+  narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const GridBox<dim>        &box   = space.box();
+    const double               h     = box.spacing();
+    const MPI_Comm             comm  = tissue.communicator();
+    std::vector<Point<dim>>    queries;
+    for (unsigned int p = 0; p < store.size(); ++p)
+      queries.push_back(store.position(p));
+    const auto normal = [&](const unsigned int p, std::vector<double> &list) {
+      const Tensor<1, dim> area = store.area_vector(p);
+      append_flat(list, Tensor<1, dim>(area / area.norm()));
+    };
+    const PointList<dim> near = near_points(queries,
+                                            store,
+                                            {dim, normal, Ties::lowest_id},
+                                            tissue.grid(),
+                                            static_cast<int>(widest));
+    const auto           tree = pack_rtree_of_indices(near.positions);
+    const Unknowns<dim>  unknowns(space);
+
+    std::array<double, dim + 1> best;
+    best.fill(0.);
+    best[dim] = std::numeric_limits<double>::max();
+    for (unsigned int p = 0; p < store.size(); ++p)
+      {
+        const Point<dim>    x = queries[p];
+        std::vector<double> numbers;
+        normal(p, numbers);
+        const auto n    = Flat<Tensor<1, dim>>::read(numbers.data());
+        const auto here = box.number(box.locate(x));
+        Point<dim> lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = x[d] - widest * h;
+            upper[d] = x[d] + widest * h;
+          }
+        const auto faces = [&](const auto i) {
+          const Point<dim> &y     = near.positions[i];
+          const double      width = x.distance(y);
+          if (width >= std::min(widest * h, best[dim]) || width == 0. ||
+              !face(x, n, y, near.template value<Tensor<1, dim>>(i)))
+            return false;
+          const auto there = box.number(box.locate(y));
+          return unknowns.has(here) && unknowns.has(there) ?
+                   unknowns.are_shared(here, there) :
+                   width < h;
+        };
+        namespace bgi = boost::geometry::index;
+        for (auto found =
+               tree.qbegin(bgi::intersects(BoundingBox<dim>({lower, upper})) &&
+                           bgi::satisfies(faces));
+             found != tree.qend();
+             ++found)
+          {
+            const Point<dim> &y     = near.positions[*found];
+            const double      width = x.distance(y);
+            if (width >= best[dim])
+              continue;
+            for (unsigned int d = 0; d < dim; ++d)
+              best[d] = 0.5 * (x[d] + y[d]);
+            best[dim] = width;
+          }
+      }
+    for (const auto &other : Utilities::MPI::all_gather(comm, best))
+      if (other[dim] < best[dim] || (other[dim] == best[dim] && other < best))
+        best = other;
+    if (best[dim] == std::numeric_limits<double>::max())
+      return {};
+    Gap<dim> gap;
+    gap.width = best[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      gap.place[d] = best[d];
+    return gap;
+  }
+
+
+  template <int dim>
+  GapWatch<dim>::GapWatch(const Announce &announce)
+    : announce(announce)
+  {}
+
+
+  template <int dim>
+  void
+  GapWatch<dim>::look(const Tissue<dim>      &tissue,
+                      const SplineSpace<dim> &space,
+                      const double            t)
+  {
+    if (has_told || Utilities::MPI::sum<double>(tissue.boundary_points().size(),
+                                                tissue.communicator()) == 0.)
+      return;
+    const auto gap = narrowest_gap(tissue, space);
+    if (!gap)
+      return;
+    has_told = true;
+    std::ostringstream text;
+    text << "Warning: from t = " << t
+         << " day on the surface faces itself at a distance of " << gap->width
+         << " um near (" << gap->place
+         << ") um, and the splines reach across: the grid cannot see so narrow "
+            "a hole, or a gap between two parts of the tissue. Its sides stick "
+            "together, though their cells do not touch, and it hardly closes "
+            "any further (doc/faq.md, bodies that stick). A smaller "
+            "Grid/Spacing follows it down to two spacings. Later ones are not "
+            "told of.";
+    announce(text.str());
+  }
+
+
+#define INSTANTIATE(dim)                                                    \
+  template std::optional<Gap<dim>> narrowest_gap(const Tissue<dim> &,       \
+                                                 const SplineSpace<dim> &); \
+  template class GapWatch<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/surface/carriers.h>
+#include <morula/simulation/surface_forces.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A vector in three directions. */
+    template <int dim>
+    Tensor<1, 3>
+    in_space(const Tensor<1, dim> &v)
+    {
+      Tensor<1, 3> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = v[d];
+      return result;
+    }
+
+    /** The numbers of a row that ranks add up. */
+    constexpr unsigned int n_sums = 9;
+
+    /** Coefficients of the splines of a grid cell in the field x, µm: their
+     *  centres, doc/theory.md, section 3. */
+    template <int dim>
+    std::array<Point<dim>, BSpline<dim>::n>
+    spline_centers(const SplineSpace<dim> &space, const unsigned int grid_cell)
+    {
+      const GridIndex<dim> index =
+        space.box().index(space.grid_cells()[grid_cell].number);
+      std::array<Point<dim>, BSpline<dim>::n> centers;
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        {
+          centers[a] = space.box().corner(index);
+          for (unsigned int d = 0; d < dim; ++d)
+            centers[a][d] +=
+              (BSpline<dim>::offset(a, d) + 0.5) * space.box().spacing();
+        }
+      return centers;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue)
+  {
+    const auto &column = tissue.boundary_points().columns().force;
+    if (column.exists())
+      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+        tissue.boundary_point(p).set(column, forces.of_points[p]);
+  }
+
+
+  template <int dim>
+  ForceSums<dim>::ForceSums(const Tissue<dim>                   &tissue,
+                            const SplineSpace<dim>              &space,
+                            const TrilinosWrappers::MPI::Vector &u,
+                            const MPI_Comm                       comm)
+    : tissue(tissue)
+    , space(space)
+    , displacement(space, u, comm)
+    , comm(comm)
+  {
+    mine.of_points.resize(tissue.boundary_points().size());
+  }
+
+
+  template <int dim>
+  void
+  ForceSums<dim>::add_force(const std::string &name, const Term<dim> &term)
+  {
+    constexpr unsigned int n = BSpline<dim>::n;
+    ForceRow               row;
+    row.kind   = "force";
+    row.name   = name;
+    row.points = tissue.cells().size();
+    LocalSystem<dim> system(LocalSystem<dim>::energy_and_residual);
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      {
+        const LocalField<dim> field   = displacement.on_grid_cell(c);
+        const auto            centers = spline_centers(space, c);
+        system.clear();
+        term.add(c, field, GrowthAt::current, system);
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            Tensor<1, dim> force, place(centers[a]);
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                force[i] = -system.residual[i * n + a];
+                place[i] += field.coefficient[i][a];
+              }
+            row.force += in_space(force);
+            row.moment += cross_product_3d(in_space(place), in_space(force));
+          }
+      }
+    mine.rows.push_back(row);
+  }
+
+
+  // A point acts where the step has brought it, with the area and the normal
+  // that it has there, (1.2).
+  template <int dim>
+  void
+  ForceSums<dim>::add_row(
+    const std::string                                               &kind,
+    const std::string                                               &name,
+    const PointGroups                                               &groups,
+    const Term<dim>                                                 &term,
+    const double                                                     factor,
+    const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    ForceRow                   row;
+    row.kind = kind;
+    row.name = name;
+    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+      {
+        if (groups.offsets[c] == groups.offsets[c + 1])
+          continue;
+        const LocalField<dim> field = displacement.on_grid_cell(c);
+        const GridIndex<dim>  index =
+          space.box().index(space.grid_cells()[c].number);
+        const std::vector<Tensor<1, dim>> forces = term.forces(c, field);
+        for (unsigned int k = groups.offsets[c]; k < groups.offsets[c + 1]; ++k)
+          {
+            const unsigned int   p     = groups.points[k];
+            const Tensor<1, dim> force = factor * forces[k - groups.offsets[c]];
+            if (!selects(p, force))
+              continue;
+            const SplineValues<dim> splines(
+              space.box().unit_position(store.position(p), index),
+              space.box().spacing());
+            const Tensor<2, dim> f = field.step_deformation(splines);
+            const Tensor<1, dim> area =
+              determinant(f) * (store.area_vector(p) * invert(f));
+            const Tensor<1, dim> place =
+              store.position(p) + field.value(splines);
+            ++row.points;
+            row.area += area.norm();
+            row.force += in_space(force);
+            row.moment += cross_product_3d(in_space(place), in_space(force));
+            if (area.norm() > 0.)
+              row.inward -= force * area / area.norm();
+            mine.of_points[p] += force;
+          }
+      }
+    mine.rows.push_back(row);
+  }
+
+
+  template <int dim>
+  void
+  ForceSums<dim>::add_held(const BoundaryConditions<dim> &conditions,
+                           const Term<dim>               &term)
+  {
+    const BoundaryPoints<dim> &store  = tissue.boundary_points();
+    const PointGroups          groups = held_groups(tissue, space);
+    for (unsigned int k = 0; k < conditions.list().size(); ++k)
+      if (is_held(conditions.list()[k].condition->kind()))
+        add_row("condition",
+                conditions.list()[k].name,
+                groups,
+                term,
+                1.,
+                [&](const unsigned int p, const Tensor<1, dim> &) {
+                  return conditions.winner(store[p].seed_position(),
+                                           store[p].initial_normal()) == k;
+                });
+  }
+
+
+  template <int dim>
+  void
+  ForceSums<dim>::add_loads(const BoundaryConditions<dim> &conditions,
+                            const LoadedPoints<dim>       &points,
+                            const double                   t)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const PointGroups          groups =
+      group_points(store, space, [&](const unsigned int p) {
+        return store.condition(p) == SurfaceCondition::loaded;
+      });
+    for (const auto &named : conditions.list())
+      if (named.condition->kind() == SurfaceCondition::loaded)
+        for (const auto &part : named.condition->parts(points, t))
+          add_row(part.only_where_it_touches ? "obstacle" : "condition",
+                  part.name.empty() ? named.name : part.name,
+                  groups,
+                  *part.term,
+                  1.,
+                  [&](const unsigned int p, const Tensor<1, dim> &force) {
+                    return part.only_where_it_touches ?
+                             force.norm_square() > 0. :
+                             named.condition->acts_on(
+                               store[p].seed_position(),
+                               store[p].initial_normal());
+                  });
+  }
+
+
+  template <int dim>
+  void
+  ForceSums<dim>::add_lumen(const Lumen<dim> &lumen,
+                            const Term<dim>  &gain,
+                            const double      pressure)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    // In the order of the enclosure's.
+    const PointGroups groups =
+      group_points(store, space, [&](const unsigned int p) {
+        return lumen.acts_on(store[p].seed_position(),
+                             store[p].initial_normal());
+      });
+    add_row("lumen",
+            "lumen",
+            groups,
+            gain,
+            -pressure,
+            [](const unsigned int, const Tensor<1, dim> &) { return true; });
+  }
+
+
+  template <int dim>
+  SurfaceForces<dim>
+  ForceSums<dim>::result() const
+  {
+    SurfaceForces<dim>  result = mine;
+    std::vector<double> numbers;
+    for (const ForceRow &row : mine.rows)
+      {
+        numbers.push_back(row.points);
+        numbers.push_back(row.area);
+        numbers.push_back(row.inward);
+        for (const Tensor<1, 3> &vector : {row.force, row.moment})
+          for (unsigned int d = 0; d < 3; ++d)
+            numbers.push_back(vector[d]);
+      }
+    std::vector<double> all(numbers.size());
+    Utilities::MPI::sum(numbers, comm, all);
+    for (std::size_t r = 0; r < result.rows.size(); ++r)
+      {
+        const double *const of_row = &all[n_sums * r];
+        ForceRow           &row    = result.rows[r];
+        row.points                 = std::llround(of_row[0]);
+        row.area                   = of_row[1];
+        row.inward                 = of_row[2];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            row.force[d]  = of_row[3 + d];
+            row.moment[d] = of_row[6 + d];
+          }
+      }
+    return result;
+  }
+
+
+#define INSTANTIATE(dim)                                               \
+  template void set_forces(const SurfaceForces<dim> &, Tissue<dim> &); \
+  template class ForceSums<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

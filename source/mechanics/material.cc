@@ -72,6 +72,8 @@ namespace Morula
   {
     relaxation_time.not_negative("day", "0 is elastic tissue.");
     yield_stress.not_negative("kPa", "With 0 any shear stress relaxes.");
+    // All further laws of the list, also those that a program has added, are
+    // allowed words.
     const std::vector<std::string> names = materials.names();
     for (std::size_t i = 1; i < names.size(); ++i)
       law.add_word(names[i]);
@@ -108,6 +110,7 @@ namespace Morula
   void
   MaterialParameters::review(Review &review) const
   {
+    // 1e-9 admits the number 0.49 as users write it.
     const double largest = poissons_ratio.largest_number(3).value_or(0.);
     if (volumetric_form() == VolumetricStrain::pointwise &&
         largest > 0.49 - 1e-9)
@@ -118,6 +121,7 @@ namespace Morula
         "membrane the energy is 1 % low at 0.49, 2 % at 0.499, and the run "
         "fails at 0.4999 (doc/hard-cases.md, stiffness).",
         "Set " + volumetric_strain.path() + " = projected.");
+    // More passes matter for backward Euler, that is with a yield stress, only.
     if (relaxes() && relaxation_passes > 1 &&
         yield_stress.expression(3).is_always(0.))
       review.warn(relaxation_passes.path(),
@@ -162,6 +166,8 @@ namespace Morula
   void
   require_elastic(const MaterialParameters &material, const Point<dim> &X)
   {
+    // What depends on a cell's state or on time cannot be judged from a place:
+    // those values are checked where cells are evaluated.
     const auto require = [&X](const ExpressionKey &key,
                               const double         smallest,
                               const double         largest,

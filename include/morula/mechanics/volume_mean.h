@@ -72,7 +72,7 @@ namespace Morula
         }
     }
 
-    /** For the tangent at the points. @param U at @p theta */
+    /** What the tangent at the points needs. @param U at @p theta */
     StrainOfGridCell
     at_points(const Volumetric<double> &U, const double theta) const
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// Compiled with -mavx512f and -mavx512dq.
+// This file is compiled with -mavx512f and -mavx512dq.
 #define MORULA_KERNELS avx512
 #define MORULA_LANES 8
 #include <morula/mechanics/kernels/kernels.h>

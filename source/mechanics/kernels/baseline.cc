@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// For any processor.
+// This file is compiled for any processor of the architecture.
 #define MORULA_KERNELS baseline
 #define MORULA_LANES 2
 #include <morula/mechanics/kernels/kernels.h>

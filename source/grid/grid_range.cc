@@ -18,6 +18,8 @@ namespace Morula
     void
     add(std::vector<GridRange<dim>> &apart, GridRange<dim> range, const int gap)
     {
+      // A range that is united with near ones may come near to further ones. So
+      // the search begins again until nothing is near.
       while (true)
         {
           const auto near = std::partition(apart.begin(),
@@ -26,6 +28,8 @@ namespace Morula
                                              return range.gap(other) > gap;
                                            });
           if (near == apart.end())
+            // The list is a set: the order does not matter before separated()
+            // sorts it.
             break;
           for (auto other = near; other != apart.end(); ++other)
             range.unite(*other);
@@ -89,6 +93,8 @@ namespace Morula
   int
   GridRange<dim>::gap(const GridRange &other) const
   {
+    // The largest distance of any direction: two boxes touch only if they touch
+    // in all of them.
     int largest = std::numeric_limits<int>::lowest();
     for (unsigned int d = 0; d < dim; ++d)
       largest = std::max(
@@ -101,6 +107,9 @@ namespace Morula
   std::vector<GridRange<dim>>
   separated(const std::vector<GridRange<dim>> &ranges, int gap)
   {
+    // Each range is added on its own. Whenever there are too many, the allowed
+    // gap doubles and those that are nearer share one: so no list of boxes gets
+    // long, however scattered the tissue is.
     std::vector<GridRange<dim>> apart;
     for (const GridRange<dim> &range : ranges)
       if (!range.empty())
@@ -115,6 +124,7 @@ namespace Morula
               apart = std::move(wider);
             }
         }
+    // An order that does not depend on the order of the input.
     std::sort(apart.begin(), apart.end(), [](const auto &a, const auto &b) {
       return a.first < b.first;
     });

@@ -95,8 +95,8 @@ namespace Morula
     // (3.5), both of doc/theory.md. Energies and inversions of all ranks are
     // summed before anything is done with the residuals. If a point of any rank
     // is inverted there is no residual to exchange: all ranks take the same
-    // branch, and leave R alone. Else the owners of the unknowns
-    // collect what other ranks have for them.
+    // branch, and leave R alone. Else the owners of the unknowns collect what
+    // other ranks have for them.
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted(magnitudes));
     std::vector<double>      sizes;

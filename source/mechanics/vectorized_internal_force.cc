@@ -30,11 +30,11 @@ namespace Morula
                                       const LocalField<dim> &field,
                                       const GrowthAt         growth) const
   {
+    // A uniform material has one pair of constants, which the kernels read
+    // again for each point with stride 0.
     const auto        &points = this->points;
     const unsigned int first  = points.offsets[grid_cell],
-                       // A uniform material has one pair of constants, which
-                       // the kernels read again for each point with stride 0.
-      stride = points.lame.size() == 1 ? 0 : 2;
+                       stride = points.lame.size() == 1 ? 0 : 2;
     return {points.offsets[grid_cell + 1] - first,
             &points.xi[first][0],
             &points.states(growth)[first].A[0][0],

@@ -76,8 +76,8 @@ namespace Morula
         rows.add(event_row(event, contents));
         keys.push_back({event.time, event.id, static_cast<int>(event.kind)});
       }
-    // Several changes of a cell stay in their order: each ends where the next
-    // begins.
+    // Several changes of a cell at one time stay in their order: each ends
+    // where the next one begins.
     return rows.share_in_order(global_order(keys, comm), comm);
   }
 } // namespace Morula

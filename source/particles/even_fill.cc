@@ -14,8 +14,8 @@ namespace Morula
   namespace
   {
     /** The least fill of grid cells inside the tissue. A grid cell that the
-     *  surface cuts has room that belongs to no cell. Few of these have more
-     *  than this. */
+     *  surface cuts has room that belongs to no cell: its cells must not be
+     *  taken to leave gaps. */
     constexpr double nearly_full = 0.6;
 
     /** A grid cell that is nearly full, or more. */

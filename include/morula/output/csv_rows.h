@@ -45,8 +45,9 @@ namespace Morula
     n_bytes() const;
 
     /**
-     * Of all ranks' rows, in order, those that this rank is to write: each rank
-     * has about as many as the others, rank 0 the first ones. Collective.
+     * Puts all ranks' rows in order and returns those that this rank is to
+     * write: each rank has about as many as the others, rank 0 the first ones.
+     * Collective.
      * @param order of the rows, over all ranks. Rows of equal places are of one
      *   rank, and stay in their order.
      */

@@ -62,13 +62,14 @@ namespace Morula
     double        residual       = 0.; // relative to the step's first
     double        wall_seconds   = 0.; // since the start, across resumes
     CellLengths   lengths;
-    /** By the types' names; empty without types. */
+    /** The numbers of cells, by the names of their types; empty without types.
+     *  */
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
     /** Only where cells die. */
     std::optional<DeathCounts> death = {};
     /** Only with a lumen. */
     std::optional<LumenState> lumen = {};
-    /** By the fields' numbers; empty without fields. */
+    /** The statistics of the fields, by their numbers; empty without fields. */
     std::vector<FieldStatistics> fields = {};
     /** Only with boundary points. */
     std::optional<SurfaceFit> surface = {};

@@ -40,6 +40,7 @@ namespace Morula
                        const Visitor    &visit)
     {
       constexpr unsigned int n = n_samples<dim>;
+      // The samples are the middles of equal parts of the box.
       for (unsigned int s = 0; s < (dim == 2 ? n * n : n * n * n); ++s)
         {
           Point<dim>   x    = center;
@@ -78,6 +79,7 @@ namespace Morula
     std::uint64_t
     nearest(const std::vector<Site<dim>> &sites, const Point<dim> &x)
     {
+      // Few sites are near, so a plain search will do.
       return std::min_element(sites.begin(),
                               sites.end(),
                               [&](const Site<dim> &a, const Site<dim> &b) {
@@ -95,6 +97,13 @@ namespace Morula
        const std::vector<std::uint64_t> &sites,
        Founders<dim>                    &founders)
   {
+    // Each site gets the samples of the shape that are nearest to it. First
+    // come the boxes of this rank's own sites: whole ones inside of the shape
+    // at once, others sample by sample. A sample in the box of an occupied site
+    // is nearest to that one. Samples in boxes without a cell belong to the
+    // nearest occupied site among the neighbours of the box, which may be
+    // another rank's: that rank finds them by itself, so nothing is exchanged.
+    // A site without any sample has no volume, and the scene is refused.
     const double side          = lattice.site_spacing();
     const double half_diagonal = 0.5 * side * std::sqrt(double(dim));
     const double sample        = std::pow(side / n_samples<dim>, dim);
@@ -128,7 +137,7 @@ namespace Morula
             const auto owner = nearest(owners, y);
             const auto mine =
               std::lower_bound(sites.begin(), sites.end(), owner);
-            // Else it is another rank's.
+            // Any other owner is another rank's.
             if (mine != sites.end() && *mine == owner)
               parts[mine - sites.begin()].add(y, sample);
           });

@@ -40,7 +40,7 @@ namespace Morula
   std::vector<Statement>
   read_statements(const std::string &file);
 
-  /** The same from a stream. Messages call it @p name. */
+  /** Reads statements from a stream. Messages call it @p name. */
   std::vector<Statement>
   read_statements(std::istream &input, const std::string &name);
 

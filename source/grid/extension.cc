@@ -54,7 +54,8 @@ namespace Morula
   std::array<double, 3>
   extension_weights(const int j)
   {
-    // Lagrange's polynomials (3.3) of doc/theory.md for the nodes 0, 1, 2.
+    // These are Lagrange's polynomials, doc/theory.md (3.3), for the nodes 0,
+    // 1, 2.
     return {{0.5 * (j - 1) * (j - 2), -1. * j * (j - 2), 0.5 * j * (j - 1)}};
   }
 

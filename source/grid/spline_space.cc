@@ -161,7 +161,7 @@ namespace Morula
       return found->second.expression(boxes.center(index), boxes.spacing());
     const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
     AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
-    // The mean (3.3b) of doc/theory.md over all blocks. The weights are
+    // This is the mean over all blocks, doc/theory.md (3.3b). The weights are
     // integers, so the sums are exact in any order; one division follows.
     std::map<unsigned int, double> sums;
     for (const unsigned int block : inner_grid_cells)

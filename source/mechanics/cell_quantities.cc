@@ -73,7 +73,7 @@ namespace Morula
     CellQuantities   q;
     static_cast<CellScalars &>(q) = state.scalars(cell.initial_volume());
     // σ = W τ / V with V = V⁰ det F: V⁰ cancels, so that W/V is 1/det F or det
-    // F_g/det F (section 1.5 of doc/theory.md).
+    // F_g/det F (doc/theory.md, section 1.5).
     q.stress =
       kirchhoff_stress(state.point) *
       ((per_grown_volume ? q.growth_volume_ratio : 1.) / determinant(state.F));

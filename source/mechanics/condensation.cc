@@ -54,7 +54,7 @@ namespace Morula
   Condensation<dim, n_components>::expand(
     const std::vector<double> &coefficients) const
   {
-    // u = C ũ of doc/theory.md (3.5), component by component.
+    // This is u = C ũ of doc/theory.md (3.5), component by component.
     LocalField<dim, n_components> field = {};
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
@@ -69,8 +69,8 @@ namespace Morula
   Condensation<dim, n_components>::condense(
     const std::array<double, n_dofs> &forces, const bool magnitudes) const
   {
-    // r̃ = Cᵀ r of doc/theory.md (3.5). Sums of magnitudes must not cancel, so
-    // they take |C|.
+    // This is r̃ = Cᵀ r of doc/theory.md (3.5). Sums of magnitudes must not
+    // cancel, so they take |C|.
     std::vector<double> result(n_components * m(), 0.);
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {

@@ -89,13 +89,13 @@ namespace Morula
             Fits<dim>         &fits,
             const MPI_Comm     comm)
     {
-      // One linear least squares problem for each piece, (4.14) of
-      // doc/theory.md linearised at the present motion. The first loop sums its
-      // normal matrix (lower triangle), its right-hand side and the square that
-      // is left, over this rank's held points; one reduction adds up those of
-      // all ranks. Then each rank solves all pieces' small systems, and so has
-      // the same motion. The update acts from the left, as a Cayley transform,
-      // so that Q stays a rotation.
+      // One linear least squares problem for each piece: doc/theory.md (4.14),
+      // linearised at the present motion. The first loop sums its normal matrix
+      // (lower triangle), its right-hand side and the square that is left, over
+      // this rank's held points; one reduction adds up those of all ranks. Then
+      // each rank solves all pieces' small systems, and so has the same motion.
+      // The update acts from the left, as a Cayley transform, so that Q stays a
+      // rotation.
       using Modes           = RigidModes<dim>;
       constexpr int       n = Modes::n_modes, width = n * n + n + 1;
       std::vector<double> sums(fits.size() * width, 0.);
@@ -166,7 +166,7 @@ namespace Morula
   {
     // Nothing is done, and u starts at 0 to the bit, unless a held point of any
     // rank moves in this step. Each held point is assigned to the piece of its
-    // grid cell. The fit (4.14) of doc/theory.md improves the motions of all
+    // grid cell. The fit of doc/theory.md (4.14) improves the motions of all
     // pieces together, since each correction is collective. Then the pieces
     // that go along get the coefficients of their affine displacement; splines
     // reproduce it exactly. The pieces' unknowns are disjoint, so their vectors

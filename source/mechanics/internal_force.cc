@@ -40,9 +40,9 @@ namespace Morula
                 const double                 W,
                 VolumeMean<dim>             &mean)
     {
-      // Projected, the mean (2.6) weighs ln J_e by W k; pooled, (2.8) compares
-      // sums of present and of grown volumes, W J_e and W. Both of
-      // doc/theory.md.
+      // Projected, the mean weighs ln J_e by W k, doc/theory.md (2.6); pooled,
+      // sums of present and of grown volumes are compared, W J_e and W,
+      // doc/theory.md (2.8).
       const double modulus = W * state.response().volumetric.modulus;
       const bool   pooled  = mean.form == VolumetricStrain::pooled;
       const double weight  = pooled ? W * state.strain().J : modulus;
@@ -61,7 +61,7 @@ namespace Morula
                const SymmetricTensor<2, dim> &tau,
                LocalSystem<dim>              &system)
     {
-      // The force (2.4) of doc/theory.md on each spline.
+      // This is the force on each spline, doc/theory.md (2.4).
       constexpr unsigned int n = BSpline<dim>::n;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
@@ -91,12 +91,12 @@ namespace Morula
       if (strain == nullptr)
         return {r.total_A(), r.total_gamma()};
       // Projected: the volumetric part of A is the product of the means, which
-      // VolumeMean adds. Its share of γ stays at the point: (2.7) of
-      // doc/theory.md.
+      // VolumeMean adds. Its share of γ stays at the point: doc/theory.md
+      // (2.7).
       if (strain->form != VolumetricStrain::pooled)
         return {r.A, r.total_gamma()};
-      // Pooled: (2.9) of doc/theory.md has one pressure for the grid cell in
-      // both places, times the point's volume J_e.
+      // Pooled: doc/theory.md (2.9) has one pressure for the grid cell in both
+      // places, times the point's volume J_e.
       const double pull = strain->mean_stress * state.strain().J;
       return {r.A + pull, r.gamma + pull};
     }
@@ -119,10 +119,10 @@ namespace Morula
                const bool                     coupled,
                double                        *matrix)
     {
-      // With b_e g_a in a table of its own, the block (i, j) of (2.5) is an
-      // outer product of rows by a and by c. The loop runs over rows a,
-      // components i and j ≥ i, and innermost over all columns c. The terms
-      // with C, and the rest of B, exist for coupled laws only.
+      // With b_e g_a in a table of its own, the block (i, j) of doc/theory.md
+      // (2.5) is an outer product of rows by a and by c. The loop runs over
+      // rows a, components i and j ≥ i, and innermost over all columns c. The
+      // terms with C, and the rest of B, exist for coupled laws only.
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const auto            &g      = gradients.g;
@@ -320,8 +320,8 @@ namespace Morula
   {
     // The mean over the grid cell comes first, since the tangent at the points
     // needs it. ϑ is what the last tangent foresaw, if there was one; see the
-    // class. After the points' part the product of the means completes (2.7) or
-    // (2.9) of doc/theory.md.
+    // class. After the points' part the product of the means completes
+    // doc/theory.md (2.7), (2.9).
     const VolumeMean<dim> mean = this->mean(grid_cell, field, growth);
     const double          theta =
       system.last != nullptr ? system.last->at(field) : mean.theta();

@@ -90,13 +90,13 @@ namespace Morula
                                Vector       &R,
                                Vector       *magnitudes) const
   {
-    // The terms of all active grid cells of this rank add up here: (2.1) and
-    // its derivative, the residual, which is condensed to the unknown splines
-    // (3.5), both of doc/theory.md. Energies and inversions of all ranks are
-    // summed before anything is done with the residuals. If a point of any rank
-    // is inverted there is no residual to exchange: all ranks take the same
-    // branch, and leave R alone. Else the owners of the unknowns collect what
-    // other ranks have for them.
+    // The terms of all active grid cells of this rank add up here: the energy,
+    // doc/theory.md (2.1), and its derivative, the residual, which is condensed
+    // to the unknown splines, doc/theory.md (3.5). Energies and inversions of
+    // all ranks are summed before anything is done with the residuals. If a
+    // point of any rank is inverted there is no residual to exchange: all ranks
+    // take the same branch, and leave R alone. Else the owners of the unknowns
+    // collect what other ranks have for them.
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted(magnitudes));
     std::vector<double>      sizes;
@@ -461,8 +461,8 @@ namespace Morula
       });
     result.null_space   = std::move(null_space);
     result.n_components = dim;
-    // E h^(dim-2) is the size of an entry of the tangent (2.5): W/h² times E,
-    // with W = h^dim.
+    // E h^(dim-2) is the size of an entry of the tangent, doc/theory.md (2.5):
+    // W/h² times E, with W = h^dim.
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
     // A sum of doubles does not overflow where cells are many.

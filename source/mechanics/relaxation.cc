@@ -138,9 +138,9 @@ namespace Morula
       if (flow.yield_stress <= 0.)
         return what_stays_of_exact_flow<dim>(c, dt / tau);
       const double v = tau / (tau + dt);
-      // Below the yield stress nothing flows. Above it the root of (8.5) lies
-      // between v = tau / (tau + dt), the root without a yield stress, and 1,
-      // no flow.
+      // Below the yield stress nothing flows. Above it the root of
+      // doc/theory.md (8.5) lies between v = tau / (tau + dt), the root without
+      // a yield stress, and 1, no flow.
       if (stress(c) <= flow.yield_stress)
         return 1.;
       const auto residual = [&](const double v) {

@@ -249,8 +249,8 @@ namespace Morula
   double
   value_at(const LocalField<dim, 1> &field, const Point<dim> &xi)
   {
-    // The splines (2.3) of doc/theory.md in each direction. Summing direction
-    // by direction needs half the products of a sum over all splines.
+    // These are the splines in each direction, doc/theory.md (2.3). Summing
+    // direction by direction needs half the products of a sum over all splines.
     double N[dim][3];
     for (unsigned int d = 0; d < dim; ++d)
       {

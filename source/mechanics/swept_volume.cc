@@ -142,8 +142,8 @@ namespace Morula
                               const LocalField<dim>   &field,
                               LocalSystem<dim>        &system) const
   {
-    // Gradients here are those of the configuration at t, as (4.8h) of
-    // doc/theory.md integrates from there to u, unlike those of other terms.
+    // Gradients here are those of the configuration at t, as doc/theory.md
+    // (4.8h) integrates from there to u, unlike those of other terms.
     constexpr unsigned int        n = BSpline<dim>::n;
     std::array<Tensor<1, dim>, n> g;
     for (unsigned int a = 0; a < n; ++a)

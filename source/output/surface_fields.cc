@@ -41,7 +41,7 @@ namespace Morula
                           const BoundaryView<dim>    &point,
                           const Point<dim>           &position)
   {
-    // a n of doc/theory.md (1.2), at present.
+    // This is a n of doc/theory.md (1.2), at present.
     const Tensor<1, dim> area_vector = point.area_vector();
     const double         area        = area_vector.norm();
     const Tensor<1, dim> normal      = area_vector / area;

@@ -102,8 +102,8 @@ namespace Morula
                                          const Tensor<2, dim>    &F,
                                          const Tensor<1, dim>    &area) const
   {
-    // The present area vector and F determine the initial ones by (1.2) of
-    // doc/theory.md, solved for a⁰ N. The edges are square in the present
+    // The present area vector and F determine the initial ones by doc/theory.md
+    // (1.2), solved for a⁰ N. The edges are square in the present
     // configuration; F⁻¹ takes them back to the initial one.
     const BoundaryView<dim, double> point(row, *this);
     const Tensor<2, dim>            back    = invert(F);

@@ -97,7 +97,7 @@ namespace Morula
         const Tensor<1, dim> area   = areas[i] + areas[j];
         const Tensor<1, dim> apart  = points.positions[j] - points.positions[i];
         const Point<dim>     middle = points.positions[i] + w_j * apart;
-        // The shift of doc/theory.md (4.12d), along the normal.
+        // This is the shift of doc/theory.md (4.12d), along the normal.
         const Tensor<1, dim> shift =
           (w_i * (areas[j] * apart) - w_j * (areas[i] * apart)) /
           area.norm_square() * area;

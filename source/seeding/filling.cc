@@ -37,8 +37,8 @@ namespace Morula
   std::pair<double, Tensor<1, dim>>
   Filling<dim>::value_and_gradient(const Point<dim> &x) const
   {
-    // This is (1.9) of doc/theory.md. Beyond four widths a cell adds less than
-    // a thousandth of what it adds at its place.
+    // This is doc/theory.md (1.9). Beyond four widths a cell adds less than a
+    // thousandth of what it adds at its place.
     const double                      reach = 4. * sigma;
     std::pair<Point<dim>, Point<dim>> corners(x, x);
     for (unsigned int d = 0; d < dim; ++d)

@@ -50,10 +50,10 @@ namespace Morula
     {
       const Filling<dim> filling(cells);
       const double       half = 0.5 * filling.inside();
-      // Newton's method along the gradient of (1.9) of doc/theory.md: each step
-      // goes to where the linearised filling is half, at most a quarter of a
-      // cell. A vertex that has gone 3/4 of a cell is cut off there, so that no
-      // vertex leaves the neighbourhood of its cells.
+      // Newton's method along the gradient of the filling, doc/theory.md (1.9):
+      // each step goes to where the linearised filling is half, at most a
+      // quarter of a cell. A vertex that has gone 3/4 of a cell is cut off
+      // there, so that no vertex leaves the neighbourhood of its cells.
       for (Point<dim> &x : surface.vertices)
         {
           const Point<dim> start = x;

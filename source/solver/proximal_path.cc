@@ -60,7 +60,7 @@ namespace Morula
     moved -= centre;
     force = moved;
     force.scale(diagonal);
-    // Force c D (u - u_k) and its energy, doc/theory.md (5.7).
+    // These are the force c D (u - u_k) and its energy, doc/theory.md (5.7).
     force *= proximity;
     const double energy = 0.5 * (moved * force);
     evaluation.energy += energy;

@@ -73,7 +73,8 @@ namespace Morula
 
     /** Places of the cells and boundary points in their grid cells. */
     GroupedPoints<dim> cell_places, surface_places;
-    /** In the order of the places. */
+    /** The coefficients at cells and at boundary points, in the order of the
+     *  places. */
     std::vector<FieldAtCell>         cells;
     std::vector<FieldAtSurface<dim>> surface;
     /** By grid cell: 1/sqrt(D/k), the inverse of the length over which a fixed

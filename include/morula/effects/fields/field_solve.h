@@ -204,13 +204,14 @@ namespace Morula
     const MakeLinearSolver  make_solver;
     Assembly<dim, 1>        assembly;
     FieldEquation<dim>      equation;
-    /** Of one field's matrices: the preconditioner of one serves the next ones
-     *  while they are much like it. */
+    /** What is known of one field's matrices: the preconditioner of one serves
+     *  the next ones while they are much like it. */
     LinearProblem problem;
     SolveLinear   linear; // empty: none yet
-    /** By cell, in the field's unit per day. */
+    /** Production by cell, in the field's unit per day. */
     std::vector<double> productions;
-    /** By field and cell: those of now; empty: as the cells have them. */
+    /** Values by field and cell as they are now; empty: as the cells have them.
+     *  */
     std::vector<std::vector<double>> values;
   };
 } // namespace Morula

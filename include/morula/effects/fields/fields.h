@@ -88,7 +88,7 @@ namespace Morula
     void
     dilute(const CellView<dim, double> &cell, const double ratio) const;
 
-    /** All 0 where there are no cells. Collective. */
+    /** The totals of all fields, all 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;
 

@@ -55,6 +55,10 @@ namespace Morula
                        const double,
                        const double t1) const
   {
+    // The force on cell p is V⁰ b, doc/theory.md (4.7). The state of the cell
+    // is that of the beginning of the step, but the time is that of its end, as
+    // the equilibrium is sought there. The load is dead: it does not change
+    // with u.
     const Cells<dim>           &cells = tissue.cells();
     std::vector<Tensor<1, dim>> forces;
     for (unsigned int p = 0; p < cells.size(); ++p)
@@ -68,9 +72,13 @@ namespace Morula
   void
   BodyForce<dim>::check(const Preview<dim> &scene) const
   {
+    // An expression of the cells' state has no value before there are cells;
+    // check_cell() evaluates it for each founder.
     if (density.depends_on_state())
       return;
     for (const Point<dim> &X : scene.founders)
+      // An expression of place and time has a value at both ends of the run, or
+      // throws here.
       for (const double t : {0., scene.end_time})
         density.vector(X, t);
   }

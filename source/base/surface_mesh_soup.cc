@@ -155,6 +155,9 @@ namespace Morula::MeshFile
     void
     check_complete(const std::string &text, const NamedFile &file)
     {
+      // A text has no null byte, whereas the coordinates and counts of a binary
+      // file always have some. Both kinds are told apart by that, as also
+      // binary files may begin with the word 'solid'.
       if (text.find('\0') == std::string::npos)
         {
           if (text.find("facet") == std::string::npos)

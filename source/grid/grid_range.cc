@@ -10,6 +10,9 @@ namespace Morula
 {
   namespace
   {
+    /** Whoever looks for a grid cell looks into each range. Where there would
+     *  be more, wider gaps are closed, which covers more grid cells but never
+     *  misses one. */
     constexpr std::size_t most_ranges = 32;
 
     /** Adds a range to others that are more than @p gap apart, and unites what
@@ -124,7 +127,7 @@ namespace Morula
               apart = std::move(wider);
             }
         }
-    // An order that does not depend on the order of the input.
+    // The order must not depend on that of the input.
     std::sort(apart.begin(), apart.end(), [](const auto &a, const auto &b) {
       return a.first < b.first;
     });

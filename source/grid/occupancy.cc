@@ -12,7 +12,9 @@ namespace Morula
 {
   namespace
   {
-    /** Tissue thinner than so many cells counts as one or two cells thick. */
+    /** Tissue thinner than so many cells counts as one or two cells thick.
+     *  Cells on a lattice have a whole number of layers, so half a cell is the
+     *  widest margin on both sides. */
     constexpr double one_layer = 1.5, two_layers = 2.5;
   } // namespace
 

@@ -151,6 +151,9 @@ namespace Morula
   typename SplineSpace<dim>::Terms
   SplineSpace<dim>::expression(const unsigned int c) const
   {
+    // A copy that is an unknown stands for itself. A copy of a piece too small
+    // to have inner grid cells follows the piece's own few unknowns. Any other
+    // one is outer, and continued from inner grid cells.
     if (numbers.has(c))
       return {{numbers[c], 1.}};
 

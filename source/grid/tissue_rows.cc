@@ -10,14 +10,19 @@ namespace Morula
 {
   namespace
   {
-    /** A row of so many grid cells is as thick as the grid along itself. */
+    /** A row of so many grid cells is as thick as the grid along itself. Then
+     *  no rank needs to know a row that runs through the parts of many:
+     *  doc/theory.md, section 3.2. */
     constexpr std::size_t long_row = 8;
 
-    /** A row of tissue shorter than so many grid spacings is thin. */
+    /** A row of tissue shorter than so many grid spacings is thin. It may lie
+     *  on both sides of one grid plane, and inner grid cells on both sides
+     *  would have splines that hardly touch it. */
     constexpr double thin_row = 1.5;
 
     /** A grid cell with at least this part of the fullest one's volume counts
-     *  as equally full. */
+     *  as equally full, so that noise does not change the side from row to row.
+     */
     constexpr double about_equal = 0.8;
 
     /** Calls visit(row) for the connected rows of grid cells with tissue along

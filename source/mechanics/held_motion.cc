@@ -17,7 +17,8 @@ namespace Morula
   namespace
   {
     /** A motion is mostly rigid if no more than this part of the squares of the
-     *  held points' displacements is left without it. */
+     *  held points' displacements is left without it. Where clamps deform a
+     *  piece rather than carry it, a rigid start is no better than none. */
     constexpr double largest_rest = 0.1;
 
     /** Rotations that hardly move the held points, relative to translations,

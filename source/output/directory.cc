@@ -24,7 +24,8 @@ namespace Morula
   {
     const char *const key = "Output directory";
 
-    /** The next run does not replace one that took longer, seconds. */
+    /** The next run does not replace one that took longer, seconds. An hour of
+     *  work is not lost because somebody starts the scene again by mistake. */
     constexpr double longest_replaceable = 3600.;
 
     /** Throws an InputError about a path, with the system's reason. */

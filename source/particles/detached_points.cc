@@ -17,7 +17,8 @@ namespace Morula
     /** How many reaches a boundary point may be away from its nearest cell. */
     constexpr double most_reaches = 4. / 3.;
 
-    /** No reach is shorter than this, in units of h. */
+    /** No reach is shorter than this, in units of h: splines do not resolve how
+     *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
     /** Whether a cell of this rank, in the grid cell of @p x or a neighbouring

@@ -20,11 +20,13 @@ namespace Morula
     namespace bgi = boost::geometry::index;
 
     /** Areas in units of the reference area: patches below the first merge, and
-     *  give none above the second. */
+     *  give none above the second. The second is below two, at which refinement
+     *  would split the result again. */
     constexpr double too_small = 0.5, largest_merged = 1.6;
 
-    /** Cosine of the largest angle between the normals of patches that merge:
-     *  not across an edge of the body. */
+    /** Cosine of the largest angle between the normals of patches that merge.
+     *  Sides of a box differ by a right angle, so no patch reaches across an
+     *  edge of the body. */
     constexpr double least_cosine = 0.5;
 
     /** Patches that may merge, of all ranks, by id. */

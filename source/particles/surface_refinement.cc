@@ -43,7 +43,9 @@ namespace Morula
                 2. * point.wanted_area(longest_edge));
     }
 
-    /** Longest edge that is split, in units of what an edge may have. */
+    /** Longest edge that is split, in units of what an edge may have. It would
+     *  take six halvings in one step: no growth does that, so the points have
+     *  left the tissue. */
     constexpr double longest_split = 64.;
 
     /** Throws on all ranks if any has a patch that is too long to be split. */

@@ -14,7 +14,9 @@ namespace Morula
 {
   namespace
   {
-    /** Load of the fullest rank over the mean that is put up with. */
+    /** Load of the fullest rank over the mean that is put up with. All ranks
+     *  wait for the fullest, so this is the time that is lost; a new partition
+     *  moves cells and makes the next step dearer. */
     constexpr double worst_imbalance = 1.15;
 
     /** The corners of the smallest box around the domains of cells, which are

@@ -149,6 +149,8 @@ namespace Morula
     std::size_t
     best_neighbor(std::vector<Piece> &pieces, const std::size_t number)
     {
+      // Triangles that meet at more than 30 degrees are sides of an edge of the
+      // body: a patch across it would have a normal that neither has.
       constexpr double cosine_of_sharp_edge = 0.86602540378443865; // 30 degrees
 
       std::vector<std::size_t> &neighbors = pieces[number].neighbors;

@@ -136,10 +136,10 @@ namespace Morula
       bool       found    = false;
       for (std::string text; std::getline(stream, text, line_end);)
         {
-          // Spreadsheets write a byte order mark in front of UTF-8.
           if (header.line == 0 && text.rfind("\xEF\xBB\xBF", 0) == 0)
             {
-              text.erase(0, 3); // the byte order mark that spreadsheets write
+              // Spreadsheets write a byte order mark before UTF-8.
+              text.erase(0, 3);
               header.data_begin += 3;
             }
           const bool skipped =

@@ -439,8 +439,7 @@ namespace Morula
         "Project the cells into the plane, or set Dimension = 3."};
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)
-      // -0 would print as such.
-      x[d] = values[d] + 0.; // -0 becomes 0
+      x[d] = values[d] + 0.; // -0, which would print as such, becomes 0.
     rows.positions.push_back(x);
     rows.volumes.push_back(values[volume]);
     const auto keep = [&](const unsigned int meaning, auto &list) {

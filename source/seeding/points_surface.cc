@@ -56,6 +56,9 @@ namespace Morula
       // there, so that no vertex leaves the neighbourhood of its cells.
       for (Point<dim> &x : surface.vertices)
         {
+          // Newton's method needs a few steps; twenty end it where the filling
+          // is too flat to say a place. A slope of 1e-6 a cell's length means
+          // that no cell is near.
           const Point<dim> start = x;
           for (unsigned int i = 0; i < 20; ++i)
             {

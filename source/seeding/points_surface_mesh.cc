@@ -213,6 +213,8 @@ namespace Morula
     // collected with the inside on their left, put into an order that is always
     // the same, and numbered.
     restart_shuffling();
+    // A polygon of eight points is at most 8 % of the radius inside of its
+    // circle.
     constexpr unsigned int       n_around = 8;
     std::vector<Kernel::Point_2> around;
     for (const Point<2> &x : points)

@@ -28,6 +28,9 @@ namespace Morula
     Body
     read_polygons(const Key<std::string> &file)
     {
+      // The text is brought into the form that Boost reads, read as one polygon
+      // or as many, and then put right or refused. One polygon becomes a list
+      // of one, so that the rest knows a single kind.
       std::ifstream stream(file.value());
       std::string   text{std::istreambuf_iterator<char>(stream), {}};
       // Boost takes blanks for the ends of words, and no other white space.

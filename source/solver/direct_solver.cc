@@ -55,7 +55,10 @@ namespace Morula
   void
   DirectSolver::factorize(const Matrix &K)
   {
-    // MUMPS works on all ranks; KLU gathers the matrix on one of them.
+    // One factor serves all solves until the next tangent. A shift goes into a
+    // copy, since residuals need K itself. The old factor is freed before the
+    // new one is made, as both together would take twice the memory. MUMPS
+    // works on all ranks; KLU gathers the matrix on one of them.
     const std::string method =
       Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
     if (shift > 0.)

@@ -63,7 +63,10 @@ namespace Morula
         parameters->sublist("Direction").sublist("Newton");
       parameters->sublist("Direction").set("Method", "Newton");
       // Type 2 is Eisenstat and Walker's second choice: doc/theory.md, section
-      // 5.4.
+      // 5.4. Early solves need few digits, as the next tangent differs anyway;
+      // the first tolerance is 1e-2, and none is looser than 1e-1. Later ones
+      // follow the fall of the residual down to 1e-6. Without the last set()
+      // NOX would not tell the linear solver.
       newton.set("Forcing Term Method",
                  linear_tolerance > 0. ? "Constant" : "Type 2");
       newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);

@@ -92,8 +92,10 @@ namespace Morula
     const double norm      = group.getNormF();
     const double energy    = group.evaluation().energy;
     const int    iteration = solver.getNumIterations();
-    // The lowest residual stays until it is beaten by a hundredth, so that many
-    // small falls add up to progress.
+    // Here is noted what the test above asks of this iteration, whether it was
+    // progress, and what the report tells of it. The lowest residual stays
+    // until it is beaten by a hundredth, so that many small falls add up to
+    // progress.
     const bool falls = norm < (1. - least_fall) * lowest_norm;
     if (falls || (has_energy && energy < lowest_energy))
       progress_at = iteration;

@@ -8,7 +8,8 @@ namespace Morula
   namespace
   {
     /** A tangent is kept as long as each iteration reduces the residual to this
-     *  part or less. */
+     *  part or less. In 3-D a tangent costs as much as many residuals, so a few
+     *  iterations more pay: doc/theory.md, section 5.1. */
     constexpr double sufficient_reduction = 0.2;
     /** A solve that takes more iterations than these is in trouble, and gets a
      *  tangent in each. */

@@ -29,7 +29,7 @@ namespace Morula
     constexpr unsigned int most_iterations = 25;
 
     /** Slopes and the matrix are kept while each change is so much smaller than
-     *  the one before. */
+     *  the one before: an iteration more is cheaper than a matrix. */
     constexpr double fast = 0.2;
 
     /** After a change of the field that is so large the next matrix gets a

@@ -11,7 +11,8 @@ namespace Morula
   namespace
   {
     /** The gap at which the penalty has doubled, g₀ in (4.6a), in grid
-     *  spacings. */
+     *  spacings. A penalty that rises with the gap does not let squeezed tissue
+     *  slip through a clamp that is soft at its edge. */
     constexpr double stiffening_gap = 0.2;
   } // namespace
 

@@ -156,7 +156,7 @@ namespace Morula
       return {p.x(), p.y(), p.z()};
     }
 
-    /** From vertex i to the next one. */
+    /** The edge from vertex i to the next one. */
     Tensor<1, 3>
     edge(const SurfaceTriangle &triangle, const unsigned int i)
     {

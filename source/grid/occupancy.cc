@@ -63,7 +63,7 @@ namespace Morula
   {
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return sum();
-    // As above, after the sums over ranks.
+    // The same follows as on one rank, but from the sums over ranks.
     contents.sum(grid);
     find_crowded();
     rows = TissueRows<dim>(contents);

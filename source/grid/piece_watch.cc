@@ -25,7 +25,7 @@ namespace Morula
       unsigned int   piece, former;
     };
 
-    /** For each piece whether it holds grid cells of two former pieces.
+    /** Tells for each piece whether it holds grid cells of two former pieces.
      *  Collective. */
     template <int dim>
     std::vector<bool>

@@ -17,8 +17,8 @@ namespace Morula
     template <int dim>
     struct Extents
     {
-      /** Of the tissue, µm: for each piece the upper corner, and the lower one
-       *  with a minus. */
+      /** The extent of the tissue, µm: for each piece the upper corner, and the
+       *  lower one with a minus, so that one maximum over ranks finds both. */
       std::vector<double> corners;
       /** For each piece the numbers of inner grid cells, of particles, of grid
        *  cells, and the sum of the coordinates of these: integers, so that the

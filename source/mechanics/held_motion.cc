@@ -40,7 +40,7 @@ namespace Morula
       double         square = 0.;        // Σ a |M (y - to)|²
       double         square_before = 0.; // at rest
 
-      /** From the center. */
+      /** The place relative to the center. */
       Tensor<1, dim>
       moved(const Point<dim> &x) const
       {
@@ -51,7 +51,7 @@ namespace Morula
     template <int dim>
     using Fits = std::vector<RigidFit<dim>>;
 
-    /** With the piece that each point belongs to. */
+    /** Held points, each with the number of its piece. */
     template <int dim>
     using Points = std::vector<std::pair<unsigned int, HeldPoint<dim>>>;
 

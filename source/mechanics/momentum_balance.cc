@@ -416,8 +416,8 @@ namespace Morula
           for (std::size_t k = 0; k < local.matrix.size(); ++k)
             local.matrix[k] -= pressure * of_gain.matrix[k];
         }
-      // Only terms with a mean volumetric strain leave one; else no memory is
-      // taken.
+      // Only terms with a mean volumetric strain leave one; others take no
+      // memory for it.
       if (local.linearisation)
         {
           linearisations.resize(space.grid_cells().size());

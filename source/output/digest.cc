@@ -16,7 +16,7 @@ namespace Morula
 
     constexpr std::uint64_t one = std::uint64_t(1) << 63; // x^0
 
-    /** a b modulo the generator. */
+    /** The product of a and b modulo the generator. */
     std::uint64_t
     product(const std::uint64_t a, std::uint64_t b)
     {

@@ -162,7 +162,7 @@ namespace Morula
     if (descriptor < 0)
       return;
     const bool held =
-      // Only looking: a shared lock disturbs nobody for longer than this call.
+      // A shared lock only looks: it disturbs nobody for longer than this call.
       ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(descriptor);
     if (held)

@@ -10,7 +10,7 @@ namespace Morula
 {
   namespace
   {
-    /** By these the rows are ordered. */
+    /** The rows are ordered by time, then by id, then by kind. */
     struct EventKey
     {
       double                time;

@@ -36,7 +36,7 @@ namespace Morula
   bool
   is_open_at(const int descriptor, const std::string &path)
   {
-    // The same device and the same number: then it is the same file, whatever
+    // A file with the same device and the same number is the same one, whatever
     // its name.
     struct stat opened{}, there{};
     return ::fstat(descriptor, &opened) == 0 &&
@@ -93,7 +93,8 @@ namespace Morula
   void
   PosixFile::reserve(const std::size_t size)
   {
-    // Not all file systems can reserve. Then a full disk shows later.
+    // Not all file systems can reserve room. On those a full disk shows only
+    // later.
     errno = ::posix_fallocate(descriptor, 0, size);
     if (errno != 0 && errno != EOPNOTSUPP && errno != EINVAL)
       fail("write");

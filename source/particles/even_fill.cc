@@ -58,8 +58,8 @@ namespace Morula
       return fills;
     }
 
-    /** Those of them whose neighbours are nearly full, too: the neighbours of
-     *  GridBox are with the grid cell itself. */
+    /** The nearly full grid cells whose neighbours are nearly full, too.
+     *  GridBox counts a grid cell among its own neighbours. */
     template <int dim>
     std::unordered_map<unsigned int, double>
     inside(const std::unordered_map<unsigned int, double> &fills,

@@ -54,8 +54,8 @@ namespace Morula
           }
       }
 
-      /** Those that are too small, each with the one that it merges with;
-       *  none is in two pairs. */
+      /** The patches that are too small, each with the one that it merges with.
+       *  No patch is in two pairs. */
       std::vector<std::pair<std::size_t, std::size_t>>
       pairs() const
       {

@@ -404,7 +404,7 @@ namespace Morula
         text << warning << '\n';
     }
 
-    /** The same as JSON: an object a line. */
+    /** Prints what print_text() does as JSON, an object a line. */
     template <int dim>
     void
     print_json(std::ostream           &out,

@@ -32,7 +32,8 @@ namespace Morula
       double                area = 0.;
       Tensor<1, 3>          moment; // area times centroid
       Tensor<1, 3>          vector; // sum of the area vectors
-      // the pieces next to this one; see current() for merged ones
+      // The pieces next to this one. They may have been merged since: see
+      // current().
       std::vector<std::size_t> neighbors;
       std::size_t              merged_into;
 

@@ -60,7 +60,7 @@ namespace Morula
       Point<dim>    x;
     };
 
-    /** Those of @p sites that are occupied, ascending. */
+    /** The occupied ones of @p sites, ascending. */
     template <int dim>
     std::vector<Site<dim>>
     occupied(const Lattice<dim>               &lattice,

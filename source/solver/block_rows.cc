@@ -88,7 +88,7 @@ namespace Morula
       const int        n_rows; // of blocks
       std::vector<int> order;
 
-      // By row of blocks:
+      // These two go by row of blocks.
       std::vector<std::size_t> begins;
       std::vector<std::size_t> ends_of_own; // columns
 

@@ -25,7 +25,7 @@ namespace Morula
       Utilities::pow(n_powers, dim - 1);
     static constexpr unsigned int n = n_powers * n_of_first;
 
-    /** By weight. */
+    /** The sums of all powers, by weight. */
     std::array<std::array<double, n>, n_weights> sums{};
 
     /** Adds a point at @p xi. */

@@ -20,7 +20,7 @@ namespace Morula
   {
     static constexpr unsigned int n = BSpline<dim>::n;
 
-    /** Not pointwise. */
+    /** The form, which is any but pointwise: that needs no mean. */
     const VolumetricStrain form = VolumetricStrain::projected;
 
     /** Λ = Σ W k. */

@@ -26,7 +26,7 @@ namespace Morula
    *  doc/theory.md (2.7), (2.9). */
   struct StrainOfGridCell
   {
-    /** Not pointwise. */
+    /** The form, which is any but pointwise: that needs no mean. */
     VolumetricStrain form;
     /** ϑ. */
     double theta;

@@ -59,7 +59,7 @@ namespace Morula
     row(const std::size_t i) const;
 
     std::string text;
-    /** For each row the position in the text behind its newline. */
+    /** The position in the text behind its newline, for each row. */
     std::vector<std::size_t> ends;
   };
 } // namespace Morula

@@ -65,13 +65,13 @@ namespace Morula
     /** The numbers of cells, by the names of their types; empty without types.
      *  */
     std::vector<std::pair<std::string, std::uint64_t>> cells_of_types = {};
-    /** Only where cells die. */
+    /** The deaths; empty where no cells can die. */
     std::optional<DeathCounts> death = {};
-    /** Only with a lumen. */
+    /** The state of the lumen; empty without one. */
     std::optional<LumenState> lumen = {};
     /** The statistics of the fields, by their numbers; empty without fields. */
     std::vector<FieldStatistics> fields = {};
-    /** Only with boundary points. */
+    /** How the surface fits the cells; empty without boundary points. */
     std::optional<SurfaceFit> surface = {};
     /** What the step before missed of growth and flow, relative to the volume;
      *  only where they follow the state. */

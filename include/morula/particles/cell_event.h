@@ -22,7 +22,8 @@ namespace Morula
    *  events.csv. */
   struct CellEvent
   {
-    /** In the order in which they can happen to a cell at the same time. */
+    /** The kinds stand in the order in which they can happen to a cell at the
+     *  same time. */
     enum class Kind
     {
       transition, // to another type

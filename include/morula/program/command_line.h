@@ -23,7 +23,8 @@ namespace Morula
     bool                     replace    = false;
     bool                     explain    = false;
     bool                     parameters = false;
-    /** Only keys that have all of these words, for @ref parameters. */
+    /** For @ref parameters: only keys that have all of these words are printed.
+     */
     std::vector<std::string> words;
     /** Whether @ref explain or @ref parameters print JSON. */
     bool json    = false;

@@ -15,9 +15,9 @@ namespace Morula
     /** What the cells of one grid cell have: weights times values. */
     struct Content
     {
-      /** Of its positive values. */
+      /** The content of its positive values. */
       double positive = 0.;
-      /** Of its negative ones that others must give. */
+      /** What its negative values lack and others must give. */
       double missing = 0.;
 
       /** Takes as much of the positive ones as there is. */
@@ -29,7 +29,8 @@ namespace Morula
       }
     };
 
-    /** By grid cell, after each has made up for its own negative values. */
+    /** The contents by grid cell, after each has made up for its own negative
+     *  values. */
     template <int dim>
     std::vector<Content>
     contents(const std::vector<double> &values,

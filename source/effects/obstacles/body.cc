@@ -238,8 +238,8 @@ namespace Morula
     if (dim == 2)
       keys.shape.refuse("plane, sphere or box in 2-D",
                         "There a sphere is a disc.");
-    // A cylinder is a sphere for which the way along the axis does not count: I
-    // - a⊗a projects onto the rest.
+    // A cylinder is a sphere for which the way along the axis does not count.
+    // The tensor I - a⊗a projects onto the rest.
     const Tensor<1, dim> axis = direction<dim>(keys.axis, shape);
     return std::make_unique<Round<dim>>(center,
                                         positive_radius(keys),

@@ -109,7 +109,7 @@ namespace Morula
 
       /** W / V_t. */
       const double weight;
-      /** Those of τ. */
+      /** The coefficients of τ. */
       const Coefficients of;
       const bool         coupled;
     };

@@ -41,7 +41,8 @@ namespace Morula
   {
     unsigned int        number; // of the field
     std::vector<double> values;
-    /** Per µm; empty where cells have no column for it. */
+    /** The gradients at the cells, per µm; empty where cells have no column for
+     *  it. */
     std::vector<Tensor<1, dim>> gradients;
     /** Cells, on all ranks, whose value came out negative and was set to 0. */
     std::uint64_t clipped = 0;

@@ -47,6 +47,8 @@ namespace Morula
   Materials::add(const std::string                     &name,
                  const std::shared_ptr<const Material> &material)
   {
+    // Scenes choose a law by its name, so two of one name would hide each
+    // other.
     if (find(name) != nullptr)
       throw std::invalid_argument("There is a material '" + name +
                                   "' already.");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// without this, json_parser.hpp of Boost 1.74 prints a note about placeholders
+// Without this, json_parser.hpp of Boost 1.74 prints a note about placeholders.
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/base/suggestion.h>

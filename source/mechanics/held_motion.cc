@@ -208,7 +208,8 @@ namespace Morula
         if (fit.square_before == 0. || modes.has_free_motion(p) ||
             fit.square > largest_rest * fit.square_before)
           continue;
-        // y = Q (x - center) + center + shift as a + A x, less x.
+        // The motion y = Q (x - center) + center + shift is written as a + A x,
+        // and less x it is the displacement.
         const Tensor<1, dim> center = fit.center - Point<dim>();
         const auto           part =
           affine_displacement(space,

@@ -20,7 +20,7 @@ namespace Morula
     namespace geometry = boost::geometry;
 
     using Place = geometry::model::d2::point_xy<double>;
-    // counter-clockwise; the last point is the first one again
+    // Rings go counter-clockwise, and their last point is the first one again.
     using Polygon = geometry::model::polygon<Place, false>;
     using Body    = geometry::model::multi_polygon<Polygon>;
 

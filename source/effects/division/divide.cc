@@ -56,7 +56,7 @@ namespace Morula
           const double       longest,
           const bool         whole_surface)
     {
-      // present normal and spacing
+      // A patch is its present normal and its spacing.
       using Patch = std::tuple<Tensor<1, dim>, double>;
       // This rank's walls come first, then the halo with those of other ranks.
       // A wall counts where the ray hits it within its own spacing, so the

@@ -43,7 +43,8 @@ namespace Morula
     MORULA_INLINE typename Register<Real>::Type
     all(const Real x)
     {
-      // unlike x + 0, exactly x: no addition
+      // x - 0 is exactly x, also for x = -0, so the compiler leaves it out; x +
+      // 0 would stay.
       return x - typename Register<Real>::Type{};
     }
 

@@ -29,6 +29,12 @@ namespace Morula
   void
   everywhere(const MPI_Comm comm, const std::function<void()> &action)
   {
+    // Each rank runs the action and keeps what it throws. One reduction tells
+    // all of them whether any has failed, so that all go on or all throw;
+    // without it the others would wait for ever in their next collective call.
+    // The error of the lowest rank counts, and travels as kind and text. Kinds
+    // that callers tell apart are thrown as such, all others as a
+    // runtime_error.
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
 
@@ -55,6 +61,7 @@ namespace Morula
       }
 
     const unsigned int first =
+      // n_ranks stands for no rank at all.
       Utilities::MPI::min(thrown == Thrown::nothing ? n_ranks : rank, comm);
     if (first == n_ranks)
       return;
@@ -71,6 +78,7 @@ namespace Morula
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action)
   {
+    // The other ranks have nothing to do, but learn whether rank 0 has failed.
     everywhere(comm, [&]() {
       if (Utilities::MPI::this_mpi_process(comm) == 0)
         action();

@@ -28,6 +28,8 @@ namespace Morula
     {
       std::ifstream in(file);
       std::string   word;
+      // Words and numbers are read one by one, as these files are lists of
+      // names with their numbers.
       while (in >> word)
         if (std::uint64_t number; word == key && in >> number)
           return number;
@@ -53,6 +55,8 @@ namespace Morula
       std::string unused_files; // of memory.stat
     };
 
+    // The first version has a line for each kind of resource, the second one
+    // line for all of them.
     const std::array<ControlGroups, 2> versions = {{{":memory:/",
                                                      "sys/fs/cgroup/memory",
                                                      "memory.limit_in_bytes",
@@ -70,8 +74,9 @@ namespace Morula
     left_by(const fs::path &group, const ControlGroups &names)
     {
       constexpr std::uint64_t unlimited = ~std::uint64_t(0);
-      const std::uint64_t     limit = number_in(group / names.limit, unlimited);
-      const std::uint64_t     files =
+      // A file that is missing means no limit: most groups have none.
+      const std::uint64_t limit = number_in(group / names.limit, unlimited);
+      const std::uint64_t files =
         number_behind(group / "memory.stat", names.unused_files, 0);
       const std::uint64_t used = number_in(group / names.used, 0);
       return limit == unlimited ?
@@ -93,6 +98,7 @@ namespace Morula
     unsigned int
     n_ranks_here(const MPI_Comm comm)
     {
+      // Memory is shared by the ranks of one machine only.
       MPI_Comm machine;
       MPI_Comm_split_type(
         comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
@@ -105,6 +111,11 @@ namespace Morula
   std::uint64_t
   available_memory(const std::string &root)
   {
+    // What the machine has is less for a process in a control group, as in a
+    // container or a batch job. Each line of the file names a group of this
+    // process; that group and all above it may limit its memory, and the
+    // smallest of all counts. Without these files nothing is known, and the
+    // answer is 0.
     constexpr std::uint64_t kB = 1024;
     std::uint64_t           available =
       kB * number_behind(fs::path(root) / "proc/meminfo", "MemAvailable:", 0);
@@ -131,6 +142,8 @@ namespace Morula
   {
     Utilities::System::MemoryStats taken; // kB
     Utilities::System::get_memory_stats(taken);
+    // The most that this rank has taken so far stands for each rank of the
+    // machine.
     const double all        = 1024. * taken.VmHWM * n_ranks_here(comm);
     const bool   short_here = available_memory() < all;
     return Utilities::MPI::max(short_here ? 1 : 0, comm) == 1;

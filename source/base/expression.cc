@@ -22,6 +22,7 @@ namespace Morula
     std::string
     advice(const Vocabulary &vocabulary)
     {
+      // Most keys have a place and the time alone, for which units can be said.
       const bool only_place =
         vocabulary.variables == place_and_time().variables &&
         vocabulary.constants.empty() && vocabulary.fields.empty();
@@ -35,6 +36,9 @@ namespace Morula
     remedy(const std::string &component, const Vocabulary &vocabulary)
     {
       std::string names;
+      // A variable that exists, but not for this key, is the likely mistake.
+      // Present coordinates are special: the initial ones do most of what users
+      // want.
       for (unsigned int i = 0; i < n_variables; ++i)
         {
           const auto        variable = static_cast<Variable>(i);
@@ -121,6 +125,8 @@ namespace Morula
                      const unsigned int              n_min,
                      const std::string              &advice)
     {
+      // The number of components is what the message says first, whatever the
+      // fault.
       const std::string number =
         (n_min == n_max ?
            std::to_string(n_max) :
@@ -137,6 +143,8 @@ namespace Morula
                          number,
                          "There are " + std::to_string(components.size()) +
                            "." + advice);
+      // muParser would read some texts otherwise than they look; these are
+      // refused with what to write instead.
       for (unsigned int c = 0; c < components.size(); ++c)
         {
           const std::string problem =
@@ -163,6 +171,11 @@ namespace Morula
     , key_(key)
     , text_(text)
   {
+    // The text is taken apart at its semicolons first. Plain numbers need no
+    // parser, which is most of all keys: a run has some hundred of them. Other
+    // components are parsed once, here, where a fault can be told with its
+    // place; and an expression that uses no variables is evaluated once and for
+    // all.
     const std::vector<std::string> components =
       ExpressionSyntax::components(text);
     check_components(key,
@@ -206,7 +219,7 @@ namespace Morula
     std::vector<double> numbers;
     for (const auto &parser : parsers)
       numbers.push_back(parser->value(VariableValues()));
-    // What is not finite is refused where it is asked for.
+    // A value that is not finite is refused where it is asked for.
     if (std::all_of(numbers.begin(), numbers.end(), [](const double c) {
           return std::isfinite(c);
         }))
@@ -222,6 +235,8 @@ namespace Morula
     if (of_types.empty())
       return result;
     result.of_types = of_types;
+    // The variables of all types count: who asks whether the expression depends
+    // on something means any cell.
     for (const auto &[type, expression] : of_types)
       result.used_.insert(result.used_.end(),
                           expression.used_.begin(),
@@ -238,6 +253,7 @@ namespace Morula
                     const double       t,
                     const unsigned int component) const
   {
+    // Constants are looked up, without a parser.
     if (is_constant())
       return constants[component];
     check_dimension(dim);
@@ -262,6 +278,7 @@ namespace Morula
   Expression::value(const VariableValues &values,
                     const unsigned int    component) const
   {
+    // A type with an expression of its own has its own rule as well.
     if (!of_types.empty())
       {
         const auto own = of_types.find(static_cast<unsigned int>(
@@ -270,6 +287,8 @@ namespace Morula
           return own->second.value(values, component);
       }
     const double value = evaluate(values, component);
+    // The message has all variables that the expression uses, as users cannot
+    // know where it was evaluated.
     if (rule && !rule->holds(value))
       throw InputError(key_,
                        text_,
@@ -287,6 +306,8 @@ namespace Morula
   {
     if (!constants.empty())
       return constants[component];
+    // muParser returns infinities and NaN without a word. They would spread
+    // through the tissue, so they end the run here.
     const double value = parsers[component]->value(values);
     if (!std::isfinite(value))
       throw InputError(key_,
@@ -334,6 +355,8 @@ namespace Morula
   bool
   Expression::follows_state() const
   {
+    // These change by themselves, or never, or at events only. Everything else
+    // follows from the state of the cell.
     return std::any_of(used_.begin(), used_.end(), [](const Variable variable) {
       switch (variable)
         {
@@ -358,6 +381,7 @@ namespace Morula
   bool
   Expression::depends_on_state() const
   {
+    // used_ is sorted, and the state's variables follow X, Y, Z and t.
     return !used_.empty() && used_.back() > Variable::t;
   }
 
@@ -373,6 +397,7 @@ namespace Morula
   Expression::is_always(const double       number,
                         const unsigned int n_components) const
   {
+    // All types must have the number, too.
     if (constants.size() < n_components ||
         std::any_of(constants.begin(),
                     constants.begin() + n_components,

@@ -20,6 +20,8 @@ namespace Morula
     std::string
     with_semicolons(const std::string &text)
     {
+      // A list of plain numbers separated by commas is what this key had before
+      // it could be an expression.
       std::vector<std::string> words;
       boost::split(words, text, boost::is_any_of(","));
       for (std::string &word : words)
@@ -37,6 +39,8 @@ namespace Morula
   const std::vector<Variable> &
   variables_of(const Evaluated evaluated)
   {
+    // The lists are made once. `property` leaves out what depends on the
+    // stress: a property on which the stress depends could not follow from it.
     using V = Variable;
     static const std::vector<Variable> founder{V::X, V::Y, V::Z};
     static const std::vector<Variable> property{V::X,
@@ -104,6 +108,7 @@ namespace Morula
                          const std::string                       &remedy)
   {
     rule = {holds, allowed, remedy};
+    // What was parsed belongs to the old rule.
     parsed.reset();
     return *this;
   }
@@ -209,6 +214,7 @@ namespace Morula
   void
   ExpressionKey::set_fields(const std::vector<std::string> &names)
   {
+    // Fields exist only where cells are asked, at events and in steps.
     if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
       fields = names;
     parsed.reset();
@@ -255,9 +261,14 @@ namespace Morula
   const Expression &
   ExpressionKey::expression(const unsigned int dim) const
   {
+    // An expression is parsed when it is first asked for, and kept until
+    // something changes. A vector depends on the dimension, a number does not.
+    // The types' own texts are parsed in the same way, with their own paths for
+    // messages, and belong to the expression of all.
     if (!parsed || (n_components > 1 && parsed_for != dim))
       {
-        // Founders have no t: check() has better words for it.
+        // Founders have no t, but are parsed with it, since check() has better
+        // words for it.
         const Vocabulary vocabulary =
           evaluated_ == Evaluated::founder ?
             place_and_time() :
@@ -324,6 +335,7 @@ namespace Morula
   void
   ExpressionKey::check(const unsigned int dim) const
   {
+    // An empty key that may be empty has no expression.
     if (empty() && default_text().empty())
       return;
     check_expression(expression(dim), dim);
@@ -334,6 +346,7 @@ namespace Morula
   ExpressionKey::check_expression(const Expression  &value,
                                   const unsigned int dim) const
   {
+    // Each type's expression is checked with its own path.
     for (const auto &[type, own] : value.types())
       check_expression(own, dim);
     value.check_dimension(dim);
@@ -342,6 +355,8 @@ namespace Morula
                        value.text(),
                        "an expression of X, Y, Z",
                        "It is evaluated once, at t = 0: remove t.");
+    // A constant can be judged now. Other values are judged wherever they are
+    // evaluated.
     const std::optional<double> number = value.number();
     if (rule && number && !rule->holds(*number))
       throw InputError(value.key(), value.text(), rule->allowed, rule->remedy);

@@ -33,6 +33,8 @@ namespace Morula
 
     /** s^n / (half^n + s^n), 0 for s <= 0. */
     double
+    // Written so, a large n makes no overflow of s^n, and s <= 0 is no special
+    // case of pow().
     hill(const double s, const double half, const double n)
     {
       return s > 0. ? 1. / (1. + std::pow(half / s, n)) : 0.;
@@ -50,7 +52,8 @@ namespace Morula
     double
     normal(const double noise, const double mean, const double deviation)
     {
-      // What is no number is refused where expressions are evaluated.
+      // What is no number is refused where expressions are evaluated, so Boost
+      // need not throw.
       using namespace boost::math::policies;
       using Silent =
         policy<domain_error<ignore_error>, overflow_error<ignore_error>>;
@@ -62,6 +65,8 @@ namespace Morula
     void
     add_functions(mu::Parser &parser)
     {
+      // Scenes were written for deal.II's FunctionParser at first, so its names
+      // must go on to work, with its meanings.
       parser.DefineConst("pi", dealii::numbers::PI);
       parser.DefineConst("Pi", dealii::numbers::PI);
       parser.DefineConst("true", 1.);
@@ -79,7 +84,9 @@ namespace Morula
         },
         2);
       parser.DefineFun(
-        "if", +[](const double a, const double b, const double c) {
+        // muParser's own "if" is the operator "? :".
+        "if",
+        +[](const double a, const double b, const double c) {
           return is_true(a) ? b : c;
         });
       const auto define = [&parser](const char *name, double (*f)(double)) {
@@ -139,6 +146,8 @@ namespace Morula
   bool
   is_free_name(const std::string &name)
   {
+    // A name is free if it is no variable of any key, no function and no
+    // constant: else an expression could not tell them apart.
     for (unsigned int i = 0; i < n_variables; ++i)
       if (name == name_of(static_cast<Variable>(i)))
         return false;
@@ -152,10 +161,16 @@ namespace Morula
   ExpressionParser::ExpressionParser(const std::string &text,
                                      const Vocabulary  &vocabulary)
   {
+    // Variables are places in an array that this object owns; value() fills in
+    // those that the text uses. The text is made readable for muParser first,
+    // and evaluated once, since that is what finds unknown names and wrong
+    // numbers of arguments. A fault is reported by its place in the text as the
+    // user wrote it.
     add_functions(parser);
     const std::vector<Variable> variables = vocabulary.all_variables();
     for (const Variable variable : variables)
       {
+        // muParser reads the value from here.
         double *const place = &places[static_cast<unsigned int>(variable)];
         parser.DefineVar(vocabulary.name_of(variable), place);
         // normal(mean, deviation) takes the cell's own number.
@@ -184,6 +199,8 @@ namespace Morula
       }
     catch (const mu::Parser::exception_type &error)
       {
+        // muParser's message names a place in its own text, which is replaced
+        // by that in the user's.
         std::string message = error.GetMsg();
         message             = message.substr(0, message.find(" at position"));
         if (boost::ends_with(message, " found"))
@@ -221,6 +238,7 @@ namespace Morula
   double
   ExpressionParser::value(const VariableValues &values) const
   {
+    // Only what the text uses is copied, as this is called for every cell.
     for (const Variable variable : used_)
       {
         const auto i = static_cast<unsigned int>(variable);

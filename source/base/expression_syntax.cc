@@ -65,6 +65,9 @@ namespace Morula::ExpressionSyntax
     std::size_t
     find_chain(const std::string &s)
     {
+      // In a chain muParser would compare the truth of the first comparison
+      // with the next number. A comparison is allowed once in each pair of
+      // parentheses and between logical operators.
       std::vector<bool> compared(1, false); // one for each open parenthesis
       for (std::size_t i = 0; i < s.size(); ++i)
         if (const unsigned int length = comparison_length(s, i))
@@ -137,6 +140,7 @@ namespace Morula::ExpressionSyntax
     std::size_t
     find_outer_comma(const std::string &s)
     {
+      // A decimal comma looks like this, too.
       int depth = 0;
       for (std::size_t i = 0; i < s.size(); ++i)
         if (s[i] == '(')
@@ -151,6 +155,7 @@ namespace Morula::ExpressionSyntax
     std::size_t
     find_assignment(const std::string &s)
     {
+      // A single '=' that is part of none of <=, >=, == and !=.
       static const std::regex assignment("(^|[^<>!=])=($|[^=])");
       std::smatch             match;
       return std::regex_search(s, match, assignment) ?
@@ -174,8 +179,8 @@ namespace Morula::ExpressionSyntax
   bool
   uses(const std::string &text, const std::string &name)
   {
-    // No regular expression: to make one costs more than the search, and a run
-    // asks some hundred times before its first step.
+    // A regular expression would be longer in the making than the search takes,
+    // and a run asks some hundred times before its first step.
     for (auto i = text.find(name); i != std::string::npos;
          i      = text.find(name, i + 1))
       {
@@ -191,6 +196,11 @@ namespace Morula::ExpressionSyntax
   Readable
   readable(const std::string &component)
   {
+    // muParser wants no blank between a function's name and its parenthesis,
+    // and reads the || of X<1||Y<1 as | and |Y, so it gets a blank behind.
+    // normal() gets the cell's own number as its first argument. What is
+    // changed is noted by position, so that messages can name the character in
+    // the user's text.
     static const std::regex normal("normal *\\(");
     Readable                result;
     const auto append = [&](const std::string &text, const std::size_t i) {
@@ -200,6 +210,8 @@ namespace Morula::ExpressionSyntax
     for (std::size_t i = 0; i < component.size(); ++i)
       {
         const bool begins_name =
+          // A call is looked for only where a name begins, so that
+          // abnormal(...) is none.
           is_of_name(component[i]) && (i == 0 || !is_of_name(component[i - 1]));
         std::smatch call;
         if (begins_name &&
@@ -227,6 +239,8 @@ namespace Morula::ExpressionSyntax
   std::string
   misreading(const std::string &component)
   {
+    // Each is a text that muParser accepts with another meaning, or refuses
+    // with words that do not help.
     if (const std::string text = foreign_character(component); !text.empty())
       return text;
     for (const auto &[word, meant] :

@@ -21,6 +21,8 @@ namespace Morula
   void
   Halo::fetch(const double *own, double *others) const
   {
+    // deal.II sends the own entries that others need and receives the ghost
+    // entries, without a barrier.
     const ArrayView<double>  ghosts(others, partitioner.n_ghost_indices());
     std::vector<MPI_Request> requests;
     partitioner.export_to_ghosted_array_start(
@@ -51,6 +53,8 @@ namespace Morula
   Halo::needed_elsewhere() const
   {
     std::vector<std::pair<unsigned int, std::vector<unsigned int>>> result;
+    // The partitioner has the entries that others need as ranges, one rank
+    // after the other.
     auto range = partitioner.import_indices().begin();
     for (const auto &[rank, n] : partitioner.import_targets())
       {

@@ -25,6 +25,8 @@ namespace Morula
   printable(const std::string &text)
   {
     std::size_t end = std::min(text.size(), longest);
+    // UTF-8 characters are not cut: bytes that continue one begin with the bits
+    // 10.
     while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80)
       --end;
 

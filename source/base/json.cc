@@ -15,6 +15,7 @@ namespace Morula
   Json::text(const std::string &value)
   {
     std::string quoted = "\"";
+    // JSON wants quotes, backslashes and control characters in other words.
     for (const char c : value)
       if (c == '"' || c == '\\')
         quoted += std::string("\\") + c;
@@ -36,6 +37,8 @@ namespace Morula
     if (!std::isfinite(value))
       return "null";
     char digits[32];
+    // 15 digits suffice for most numbers, 17 for all. The first that reads back
+    // as the same number is the shortest.
     for (const int n : {15, 16, 17})
       {
         std::snprintf(digits, sizeof(digits), "%.*g", n, value);

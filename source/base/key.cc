@@ -60,6 +60,7 @@ namespace Morula
   std::string
   AnyKey::unit() const
   {
+    // The unit is the last sentence of the documentation.
     const std::string word  = "Units: ";
     const auto        begin = documentation_.rfind(word);
     return begin == std::string::npos ?
@@ -132,7 +133,8 @@ namespace Morula
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       prm.enter_subsection(names[i]);
     prm.declare_entry(names.back(), default_text_, *pattern(), documentation_);
-    // deal.II calls an action at once, with the default.
+    // deal.II calls an action at once, with the default value; that one must
+    // not count as set.
     const auto is_declared = std::make_shared<bool>(false);
     prm.add_action(names.back(), [this, is_declared](const std::string &value) {
       if (*is_declared)
@@ -339,6 +341,8 @@ namespace Morula
   std::string
   Key<T>::text() const
   {
+    // The text stays as the user wrote it, unless a program has set another
+    // value since.
     return value_ == assigned ? text_ : to_text(value_);
   }
 
@@ -347,6 +351,8 @@ namespace Morula
   void
   Key<T>::assign(const std::string &text)
   {
+    // deal.II's pattern converts the text; assigned tells later changes by a
+    // program from this one.
     value_   = Patterns::Tools::Convert<T>::to_value(text, *pattern());
     assigned = value_;
     text_    = text;
@@ -421,6 +427,7 @@ namespace Morula
   std::vector<const AnyKey *>
   Keys::list() const
   {
+    // list() has no const form, since keys are also listed to be set.
     const KeyList keys = const_cast<Keys *>(this)->list();
     return {keys.begin(), keys.end()};
   }
@@ -445,6 +452,8 @@ namespace Morula
   bool
   same_value(const std::string &a, const std::string &b)
   {
+    // "1.0" and "1" are the same value, and so are "2*3" and "6". Texts that
+    // are no constants are compared without blanks.
     const auto constant_components = [](const std::string &text) {
       std::vector<double> values;
       try

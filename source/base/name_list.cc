@@ -17,6 +17,7 @@ namespace Morula
   split_names(const std::string &text)
   {
     std::vector<std::string> names;
+    // An empty text has no names, rather than one that is empty.
     if (boost::trim_copy(text).empty())
       return names;
     boost::split(names, text, boost::is_any_of(","));
@@ -56,6 +57,7 @@ namespace Morula
     const std::string                                     &text,
     const std::function<std::string(const std::string &)> &reason_against)
   {
+    // A name is refused for a reason of its own, or because it is there twice.
     const std::vector<std::string> list = split_names(text);
     std::set<std::string>          seen;
     for (const std::string &name : list)

@@ -43,7 +43,9 @@ namespace Morula
     class Reader
     {
     public:
-      Reader(std::istream            &input,
+      Reader(std::istream &input,
+             // An included file has a reader of its own, which begins in the
+             // sections that are open where it is included.
              const std::string       &name,
              std::vector<Statement>  &statements,
              std::vector<std::string> sections = {},
@@ -60,11 +62,16 @@ namespace Morula
       void
       read()
       {
+        // Lines are put together while they end with a backslash, then read as
+        // one statement. The length is limited, as the file may be anything.
+        // Sections that were open before belong to the file that includes this
+        // one, so the file must not close them, and must close all of its own.
         const std::size_t n_outer = sections.size();
         std::string       line, part;
         while (get_line(part))
           {
             ++line_number;
+            // Some editors write a byte order mark.
             if (line_number == 1 && part.rfind(byte_order_mark, 0) == 0)
               part.erase(0, byte_order_mark.size());
             refuse_control_characters(part);
@@ -75,6 +82,7 @@ namespace Morula
             if (goes_on)
               part.pop_back();
             line += part;
+            // A comment may be as long as it likes.
             if (std::min(line.find('#'), line.size()) > max_line)
               refuse_long_line(line);
             if (goes_on)
@@ -86,6 +94,7 @@ namespace Morula
           fail(name,
                "a file that can be read to its end",
                "Check its permissions and the disk.");
+        // The last line may have no end.
         read_line(line, n_outer);
         if (sections.size() > n_outer && !unclosed.section.empty())
           throw InputError(unclosed.opening + ": subsection",
@@ -114,7 +123,9 @@ namespace Morula
       {
         line.clear();
         bool comment = false;
-        int  c;
+        // Character by character, so that a file without line ends does not
+        // fill the memory.
+        int c;
         while ((c = input.get()) != std::char_traits<char>::eof() && c != '\n')
           {
             comment = comment || c == '#';
@@ -122,6 +133,8 @@ namespace Morula
               line += static_cast<char>(c);
             else if (!comment)
               {
+                // The longest line is exceeded: the file most likely is no
+                // scene.
                 ++line_number;
                 refuse_control_characters(line);
                 refuse_long_line(line);
@@ -150,6 +163,9 @@ namespace Morula
       void
       read_line(std::string line, const std::size_t n_outer)
       {
+        // A comment goes first, then the first word tells the kind of the
+        // statement. Both spellings are those of deal.II. What is none of them
+        // is refused with a guess at what was meant.
         line = line.substr(0, line.find('#'));
         boost::replace_all(line, "\t", " ");
         boost::trim(line);
@@ -244,6 +260,8 @@ namespace Morula
                "files that do not include themselves",
                "Break the circle.");
         const auto sibling = std::filesystem::path(name).parent_path() / file;
+        // A file is looked for from the working directory and then from beside
+        // this file. Names may be too long for a file system.
         std::error_code error; // the name may be too long for a file
         const bool      here  = std::filesystem::exists(file, error);
         const auto      found = here ? file : sibling.string();
@@ -335,6 +353,7 @@ namespace Morula
   std::vector<Statement>
   read_statements(const std::string &file)
   {
+    // A directory opens as a stream, so it is asked for by itself.
     std::ifstream input(file);
     if (const std::string reason = why_no_scene(file);
         !input || !reason.empty())
@@ -359,6 +378,7 @@ namespace Morula
                        std::string(text.begin(), control),
                        "text",
                        "The next character cannot be printed: remove it.");
+    // An override is a whole path with its value. It has no sections around it.
     const auto equals = text.find('=');
     if (equals == std::string::npos)
       throw InputError("-s",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// without this, json_parser.hpp of Boost 1.74 prints a note about placeholders
+// Without this, json_parser.hpp of Boost 1.74 prints a note about placeholders.
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/base/suggestion.h>
@@ -22,6 +22,7 @@ namespace Morula
   {
     /** deal.II's patterns of numbers match "inf" and "nan" as well. */
     bool
+    // deal.II's patterns of numbers take these for numbers.
     all_finite(const std::string &numbers)
     {
       const auto list = Utilities::split_string_list(numbers);
@@ -95,6 +96,8 @@ namespace Morula
   ParameterKeys::ParameterKeys(const KeyList &keys)
     : keys(keys)
   {
+    // Every beginning of a path that ends at a slash is a section; each is
+    // listed once, in the order of the keys.
     for (const AnyKey *key : keys)
       for (auto slash = key->path().find('/'); slash != std::string::npos;
            slash      = key->path().find('/', slash + 1))
@@ -109,6 +112,7 @@ namespace Morula
   AnyKey *
   ParameterKeys::find(const std::string &path) const
   {
+    // Former names of a key go on to work.
     for (AnyKey *key : keys)
       {
         const auto &former = key->former_paths();
@@ -138,8 +142,12 @@ namespace Morula
   std::string
   ParameterKeys::missing_end(const Statement &statement) const
   {
+    // A key that would exist if some section around it were closed tells of a
+    // missing 'end', the most common mistake in long scenes. The innermost
+    // sections are tried first.
     const std::vector<std::string> names = split_path(statement.path);
-    // Names may have a slash in them, by mistake; and -s has no subsections.
+    // Names may have a slash in them by mistake, and -s has no subsections.
+    // Then nothing can be said.
     if (names.size() !=
         statement.around.size() + (statement.kind == Statement::set ? 1 : 0))
       return "";
@@ -162,6 +170,9 @@ namespace Morula
   void
   ParameterKeys::refuse_unknown(const Statement &statement) const
   {
+    // Similar names are the best help, unless an 'end' is missing. What is
+    // unknown may be a section, a key in one, or a key in a section that does
+    // not exist either: the message says which.
     const std::string section =
       statement.path.substr(0, statement.path.rfind('/'));
     const bool               is_section = statement.kind == Statement::section;
@@ -192,12 +203,17 @@ namespace Morula
   void
   ParameterKeys::apply(const Statement &statement) const
   {
+    // A section is only checked for being known; its keys come as statements of
+    // their own. A value must match the pattern of its key, and numbers must be
+    // finite. What converting it still throws is refused with the same words:
+    // what the key means, what it allows, its default and unit.
     if (statement.kind == Statement::section)
       {
         if (!has_section(statement.path))
           refuse_unknown(statement);
         return;
       }
+    // It may be a former name.
     AnyKey *const key = find(statement.path);
     if (key == nullptr)
       refuse_unknown(statement);
@@ -232,6 +248,11 @@ namespace Morula
   void
   ParameterKeys::print(std::ostream &out) const
   {
+    // The keys come section by section. Between two keys the sections that end
+    // are closed and those that begin are opened. A key has its documentation
+    // as a comment, with all that is not in the text of its value: limits,
+    // former names, values that a Method sets. What is printed is a scene with
+    // all defaults.
     std::vector<std::string> open;
     const auto indent = [&open] { return std::string(2 * open.size(), ' '); };
     const auto leave  = [&] {
@@ -257,6 +278,7 @@ namespace Morula
           phrase.empty() ? key->documentation() :
                            key->documentation() + " Allowed: " + phrase + ".";
         for (const std::string &line :
+             // Lines end at the same column, whatever the depth.
              Utilities::break_text_into_lines(text, 76 - 2 * open.size()))
           out << indent() << "# " << line << '\n';
         for (const std::string &former : key->former_paths())

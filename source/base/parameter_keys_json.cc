@@ -22,6 +22,7 @@ namespace Morula
 
     /** What kind of value a key has. */
     std::string
+    // The types are those that programs which write scenes need to tell apart.
     type_of(const AnyKey &key)
     {
       if (dynamic_cast<const ExpressionKey *>(&key) != nullptr)
@@ -54,6 +55,7 @@ namespace Morula
     std::string
     as_json(const AnyKey &key)
     {
+      // Members that do not apply to a key are left out.
       std::vector<std::pair<std::string, std::string>> members = {
         {"path", Json::text(key.path())},
         {"type", Json::text(type_of(key))},

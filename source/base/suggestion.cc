@@ -38,8 +38,8 @@ namespace Morula
   unsigned int
   edit_distance(const std::string &a, const std::string &b)
   {
-    // rows i - 1, i and i + 1 of the table of distances between the beginnings
-    // of both texts
+    // Three rows of the table of distances between the beginnings of both texts
+    // are enough: rows i - 1, i and i + 1.
     std::vector<unsigned int> before(b.size() + 1), row(b.size() + 1),
       next(b.size() + 1);
     std::iota(row.begin(), row.end(), 0u);
@@ -50,6 +50,7 @@ namespace Morula
           {
             next[j + 1] = std::min(
               {row[j + 1] + 1, next[j] + 1, row[j] + (a[i] == b[j] ? 0u : 1u)});
+            // Two letters that were swapped count once.
             if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
               next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
           }
@@ -67,7 +68,7 @@ namespace Morula
     std::string best;
     if (word.size() > longest_word)
       return best;
-    // at most a third of the letters may differ, at least one, but never all
+    // At most a third of the letters may differ, at least one, but never all.
     unsigned int limit = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string &candidate : candidates)
       {
@@ -88,6 +89,9 @@ namespace Morula
   suggest_path(const std::string              &wanted,
                const std::vector<std::string> &candidates)
   {
+    // First comes a path that is spelt nearly so and ends with the same name.
+    // Then the same name in any other section, of which there may be several.
+    // Then a path that is spelt nearly so at all, and at last a name that is.
     if (const std::string best = most_similar(wanted, candidates);
         !best.empty() && boost::iequals(last_name(best), last_name(wanted)))
       return "Did you mean '" + best + "'?";

@@ -36,6 +36,8 @@ namespace Morula
     void
     check_edges(const Soup &soup, const NamedFile &file)
     {
+      // All edges are looked at, so that the message can tell how many are
+      // wrong; the first of each kind says where.
       std::size_t n_many = 0, n_open = 0;
       std::string first_many, first_open;
       for (const auto &[edge, n_polygons] : edges_of(soup))
@@ -77,6 +79,7 @@ namespace Morula
     void
     check_areas(const Mesh &mesh, const NamedFile &file)
     {
+      // Below this, rounding of the corners decides about the normal.
       constexpr double smallest = 1e-14; // of the longest edge's square
       for (const Mesh::Face_index face : mesh.faces())
         {
@@ -104,6 +107,8 @@ namespace Morula
       Processing::self_intersections(mesh, std::back_inserter(pairs));
       if (pairs.empty())
         return;
+      // The smallest pair is the same in each run, whatever order CGAL finds
+      // them in.
       const auto [one, other] = *std::min_element(pairs.begin(), pairs.end());
       refuse(file,
              "The surface intersects or touches itself: " +
@@ -116,6 +121,11 @@ namespace Morula
     Mesh
     read_mesh(const NamedFile &file)
     {
+      // From what a file holds to a surface that bounds a volume. Each step is
+      // possible only after the one before: edges are counted in the soup, so
+      // that faults can be named; polygons are turned alike and become a mesh;
+      // a closed mesh of triangles is tested for flat and crossing ones; at
+      // last the normals are turned outward, also those of cavities.
       Soup soup = read_soup(file);
       check_edges(soup, file);
       Processing::orient_polygon_soup(soup.points, soup.polygons);
@@ -135,6 +145,7 @@ namespace Morula
       check_areas(mesh, file);
       check_intersections(mesh, file);
       Processing::orient_to_bound_a_volume(mesh);
+      // Numbers of faces have to be without gaps, as they are used as indices.
       mesh.collect_garbage();
       return mesh;
     }
@@ -145,7 +156,7 @@ namespace Morula
       return {p.x(), p.y(), p.z()};
     }
 
-    /** From vertex i to the next one. */
+    /** The edge from vertex i to the next one. */
     Tensor<1, 3>
     edge(const SurfaceTriangle &triangle, const unsigned int i)
     {
@@ -169,6 +180,8 @@ namespace Morula
       const Tensor<2, 3> identity(unit_symmetric_tensor<3>());
       unsigned int       nearest = 0;
       double             least   = std::numeric_limits<double>::infinity();
+      // The place is on the boundary of the triangle: a vertex if it is near
+      // one, else on the edge that it is nearest to.
       for (unsigned int i = 0; i < 3; ++i)
         {
           const Tensor<1, 3> along = edge(triangle, i);
@@ -188,6 +201,9 @@ namespace Morula
     }
   } // namespace
 
+  // CGAL is kept out of the header, since it takes long to compile. The order
+  // of members counts: the tree refers to the mesh, and the test for inside to
+  // the tree.
   struct SurfaceMesh::Implementation
   {
     explicit Implementation(const NamedFile &file)
@@ -239,6 +255,8 @@ namespace Morula
   SurfaceMesh::contains(const Point<3> &x, const double clearance) const
   {
     const Kernel::Point_3 p(x[0], x[1], x[2]);
+    // A place is inside if it is so and no triangle is nearer than the
+    // clearance.
     return implementation->inside(p) == CGAL::ON_BOUNDED_SIDE &&
            !implementation->tree.do_intersect(
              Kernel::Sphere_3(p, clearance * clearance));
@@ -265,11 +283,14 @@ namespace Morula
     const Tensor<1, 3>     way      = x - point(closest);
     const Tensor<1, 3>     n        = normal(triangle);
     const double           length   = way.norm();
-    // Straight above or below a triangle, or so near to the surface that
-    // rounding decides where.
+    // The place is straight above or below a triangle, or so near to the
+    // surface that rounding decides where. There the distance is linear, and
+    // its direction is the normal.
     if (length < 1e-7 * edge(triangle, 0).norm() + 1e-9 * x.norm() ||
         cross_product_3d(way, n).norm() < 1e-6 * length)
       return {way * n, n, Tensor<2, 3>()};
+    // Beside an edge or a vertex the distance curves: its second derivative is
+    // (P - n n)/distance, with the projection P onto the directions across.
     const bool   is_inside = implementation->inside(p) == CGAL::ON_BOUNDED_SIDE;
     const double distance  = is_inside ? -length : length;
     const Tensor<1, 3> direction = way / distance;
@@ -282,6 +303,8 @@ namespace Morula
   void
   review_mesh(const std::string &key, const std::string &name, Review &review)
   {
+    // The file is read once more for this, as the mesh does not keep the
+    // number.
     const std::size_t n_merged = read_soup({key, name}).n_merged;
     if (n_merged > 0)
       review.warn(key,

@@ -80,6 +80,8 @@ namespace Morula::MeshFile
     std::string
     plain_text(std::string text, const std::string &ending)
     {
+      // The order matters: line ends become newlines before lines are joined or
+      // cut.
       if (boost::algorithm::starts_with(text, "\xEF\xBB\xBF"))
         text.erase(0, 3);
       std::replace(text.begin(), text.end(), '\t', ' ');
@@ -113,10 +115,12 @@ namespace Morula::MeshFile
     readable(const std::string &content, const std::string &ending)
     {
       const std::string last = "end_header";
+      // A text has no byte 0, a binary file of any size has.
       if (content.find('\0') == std::string::npos)
         return plain_text(content, ending);
       const auto begin = content.find(last);
       if (ending != ".ply" || begin == std::string::npos)
+        // A binary STL file has no header that could be improved.
         return content;
       const std::string header = content.substr(0, begin);
       const std::size_t line_end =
@@ -133,6 +137,8 @@ namespace Morula::MeshFile
       const auto begins = [&](const std::string &bytes) {
         return boost::algorithm::starts_with(content, bytes);
       };
+      // These files are common, and CGAL would only say that it cannot read
+      // them.
       if (content.find_first_not_of(" \t\r\n") == std::string::npos)
         refuse(file, "The file is empty: copy or export it again.");
       if (begins("\xFF\xFE") || begins("\xFE\xFF"))
@@ -149,6 +155,9 @@ namespace Morula::MeshFile
     void
     check_complete(const std::string &text, const NamedFile &file)
     {
+      // A text has no null byte, whereas the coordinates and counts of a binary
+      // file always have some. Both kinds are told apart by that, as also
+      // binary files may begin with the word 'solid'.
       if (text.find('\0') == std::string::npos)
         {
           if (text.find("facet") == std::string::npos)
@@ -164,7 +173,8 @@ namespace Morula::MeshFile
                    "it again.");
           return;
         }
-      // 80 bytes of header, the number of triangles, 50 bytes each
+      // A binary STL file has 80 bytes of header, the number of triangles, and
+      // 50 bytes for each.
       std::uint32_t n = 0;
       if (text.size() >= 84)
         std::memcpy(&n, text.data() + 80, sizeof(n));
@@ -186,6 +196,7 @@ namespace Morula::MeshFile
                   const std::string &ending,
                   Soup              &soup)
     {
+      // These formats may be binary; the readers then find out by themselves.
       std::istringstream stream(text, std::ios::in | std::ios::binary);
       if (ending == ".stl" || ending == ".ply")
         CGAL::IO::set_mode(stream, CGAL::IO::BINARY);
@@ -236,6 +247,8 @@ namespace Morula::MeshFile
           for (unsigned int d = 0; d < 3; ++d)
             largest = std::max(largest, std::abs(points.back()[d]));
         }
+      // Four steps of single precision, relative to the largest coordinate, as
+      // that is what rounding is relative to.
       const double near = 4. * std::numeric_limits<float>::epsilon() * largest;
 
       const auto               tree = pack_rtree_of_indices(points);
@@ -249,6 +262,7 @@ namespace Morula::MeshFile
           for (const auto k :
                tree | boost::geometry::index::adaptors::queried(
                         boost::geometry::index::intersects(around)))
+            // Only a vertex that stays itself can be gone to.
             if (k < first[i] && first[k] == k)
               first[i] = k;
           n_merged += first[i] != i;
@@ -283,6 +297,12 @@ namespace Morula::MeshFile
   Soup
   read_soup(const NamedFile &file)
   {
+    // A file is examined before CGAL sees it, since its readers say little
+    // about what is wrong. Then come the polygons, with all that would make the
+    // next step undefined: numbers of vertices that do not exist, coordinates
+    // that are no numbers. Repairing the soup removes duplicates and what is
+    // unused. Only a surface with open edges has its vertices merged: one that
+    // is closed stays as it is.
     const std::string ending = ending_of(file), content = content_of(file);
     if (std::ifstream(file.name))
       check_kind(content, file);
@@ -299,9 +319,10 @@ namespace Morula::MeshFile
           }
         catch (const std::exception &)
           {
-            // a file that it could not parse is reported below
+            // A file that could not be parsed is reported below.
           }
       }
+    // Some programs write the decimal comma of their country.
     static const std::regex decimal_comma("[0-9],[0-9]");
     if (!good && content.find('\0') == std::string::npos &&
         std::regex_search(content, decimal_comma))

@@ -64,9 +64,11 @@ namespace Morula
   void
   TimeParameters::check() const
   {
+    // The keys are checked by themselves first; then against each other.
     end_time.check(0);
     step.check(0);
     tolerance.check(0);
+    // Numbers of steps are integers, also in snapshots.
     if (!(end_time <= max_steps * step))
       step.refuse("at least " + end_time.path() + " = " + as_text(end_time) +
                     " day / " + as_text(max_steps),

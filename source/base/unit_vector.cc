@@ -17,6 +17,8 @@ namespace Morula
   unit_vector(const std::string &key, const std::string &text)
   {
     std::vector<std::string> words;
+    // Both separators are accepted, as lists of numbers have the one and
+    // expressions the other.
     boost::split(words, text, boost::is_any_of(",;"));
     bool           valid = words.size() >= dim && words.size() <= 3;
     Tensor<1, dim> direction;
@@ -26,6 +28,7 @@ namespace Morula
         double component;
         valid = boost::conversion::try_lexical_convert(words[d], component) &&
                 std::isfinite(component);
+        // In 2-D a third component may be there, and does not count.
         if (valid && d < dim)
           direction[d] = component;
       }

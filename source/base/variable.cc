@@ -8,6 +8,7 @@ namespace Morula
   const char *
   name_of(const Variable variable)
   {
+    // The order is that of the enumeration.
     constexpr std::array<const char *, n_variables> names = {
       {"X",      "Y",          "Z",    "t",        "x",           "y",
        "z",      "generation", "age",  "type_age", "cycle_phase", "type",
@@ -28,6 +29,7 @@ namespace Morula
   std::vector<Variable>
   Vocabulary::all_variables() const
   {
+    // Fields are variables with numbers behind all others.
     std::vector<Variable> all = variables;
     for (unsigned int k = 0; k < fields.size(); ++k)
       all.push_back(field_variable(k));

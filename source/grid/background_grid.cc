@@ -36,13 +36,16 @@ namespace Morula
         , first(box.first())
       {
         const GridIndex<dim> &n = box.n();
-        // The first direction at least 2/3 as long as the longest. Bodies are
-        // mostly held and loaded along their last direction; a cut across an
-        // earlier one gives each half a part of what is held and loaded.
+        // Both stand along the first direction that is at least 2/3 as long as
+        // the longest. Bodies are mostly held and loaded along their last
+        // direction; a cut across an earlier one gives each half a part of what
+        // is held and loaded.
         const int longest = *std::max_element(n.begin(), n.end());
         while (3 * n[split] < 2 * longest)
           ++split;
         repetitions[split] = 2;
+        // Enough levels that the longer of the halves, and each other
+        // direction, fits into a coarse cell.
         for (unsigned int d = 0; d < dim; ++d)
           n_refinements =
             std::max(n_refinements,
@@ -51,7 +54,8 @@ namespace Morula
         for (unsigned int d = 0; d < dim; ++d)
           {
             // A short direction lies in the middle of the smallest descendant
-            // that holds it. So it is cut after the long directions.
+            // that holds it, so that the tree is cut across it only after the
+            // long directions.
             const int middle =
               d == split ? 1 << n_refinements : (1 << n_halvings(n[d])) / 2;
             first[d] += n[d] / 2 - middle;
@@ -72,6 +76,9 @@ namespace Morula
     overlaps(const typename Triangulation<dim>::cell_iterator &grid_cell,
              const GridBox<dim>                               &box)
     {
+      // The middles of the first and the last grid cell of this cell: vertices
+      // lie on grid lines, where rounding would decide on which side they are
+      // located.
       Tensor<1, dim> half;
       for (unsigned int d = 0; d < dim; ++d)
         half[d] = box.spacing() / 2;
@@ -103,6 +110,8 @@ namespace Morula
                               const GridIndex<dim> &last) const
   {
     for (unsigned int d = 0; d < dim; ++d)
+      // The neighbours of tissue must be in the box, too: splines stand on
+      // them.
       if (first[d] - 1 < box_.first()[d] ||
           last[d] + 1 >= box_.first()[d] + box_.n()[d])
         return false;
@@ -117,6 +126,9 @@ namespace Morula
     GridIndex<dim> lower, n;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // The padding lets the tissue grow for some steps before the
+        // triangulation has to be made anew: two grid cells, and an eighth of
+        // its extent on each side.
         const int padding = 2 + (last[d] - first[d] + 1) / 8;
         lower[d]          = first[d] - padding;
         n[d]              = last[d] + padding + 1 - lower[d];
@@ -129,6 +141,10 @@ namespace Morula
   BackgroundGrid<dim>::make(const GridIndex<dim> &first,
                             const GridIndex<dim> &n)
   {
+    // The octree starts from two coarse cells and is refined level by level,
+    // but only where grid cells of the box lie. What lies outside of the box
+    // stays coarse, and costs next to nothing. The weights of a former
+    // partition do not belong to the new box.
     box_ = GridBox<dim>(first, n, h, offset);
     const CoarseCells<dim> coarse(box_);
     owned.clear(); // its iterators refer to the triangulation
@@ -137,6 +153,7 @@ namespace Morula
                                               coarse.repetitions,
                                               box_.corner(coarse.first),
                                               box_.corner(coarse.end));
+    // Each pass refines once, and p4est shares the new leaves among the ranks.
     for (int i = 0; i < coarse.n_refinements; ++i)
       {
         for (const auto &grid_cell : tria.active_cell_iterators())
@@ -153,6 +170,8 @@ namespace Morula
   void
   BackgroundGrid<dim>::partition(const GridCellCounts &weights)
   {
+    // Any rank may have counted the points of a grid cell, but p4est asks the
+    // owner of a leaf for its weight. So the counts go to the owners first.
     weights_      = sum_at_owners(weights);
     total_weight_ = 0.;
     for (const GridCellCount &weight : weights_)
@@ -160,6 +179,8 @@ namespace Morula
     total_weight_ = Utilities::MPI::sum(total_weight_, comm);
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return;
+    // deal.II asks for a weight on each leaf. Every leaf weighs 1 besides its
+    // points.
     const auto connection = tria.signals.weight.connect(
       [&](const typename Triangulation<dim>::cell_iterator &grid_cell,
           const typename Triangulation<dim>::CellStatus) -> unsigned int {
@@ -190,6 +211,8 @@ namespace Morula
   void
   BackgroundGrid<dim>::find_owners()
   {
+    // GridOwners gathers the first leaves of all ranks; then this rank lists
+    // its own grid cells by number, the order in which all passes visit them.
     const CoarseCells<dim> coarse(box_);
     owners =
       GridOwners<dim>(tria,

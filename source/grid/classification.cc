@@ -15,6 +15,13 @@ namespace Morula
              const unsigned int    number,
              const double          occupation_parameter)
     {
+      // Thin tissue goes first, as there only one grid cell of each thin row
+      // may be inner. Then doc/theory.md (3.2): the threshold is measured by
+      // the fullest neighbour that could be inner itself, so that sheets and
+      // small clusters, which fill no grid cell, have inner ones. Last, there
+      // must be enough quadrature points that the splines can be told apart.
+      // All numbers are those of the window, which has seen the sums over all
+      // ranks.
       const GridBoxes<dim> &boxes = occupancy.boxes();
       const bool            thin  = occupancy.is_thin(number);
       if (thin && !occupancy.is_inner_candidate(number))
@@ -29,6 +36,8 @@ namespace Morula
                                 std::max(largest, occupancy.fill(neighbor));
                             n_points += occupancy.n_quadrature_points(neighbor);
                           });
+      // 1e-9 absorbs the rounding of the product, as fills are exact multiples
+      // of 2⁻⁴⁰.
       const double threshold = occupation_parameter * std::min(1., largest);
       return occupancy.fill(number) >= threshold - 1e-9 &&
              (thin || occupancy.n_quadrature_points(number) >= (1u << dim)) &&
@@ -40,6 +49,8 @@ namespace Morula
   std::vector<GridCellClass>
   classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
   {
+    // Only grid cells far enough inside of the window get a class: the others'
+    // neighbours are not known here. For them other ranks find it.
     std::vector<GridCellClass> classes(occupancy.boxes().size(),
                                        GridCellClass::empty);
     const auto set_class = [&](const unsigned int number, const auto &) {

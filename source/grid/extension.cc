@@ -26,6 +26,7 @@ namespace Morula
       GridIndex<dim> distance;
       for (unsigned int d = 0; d < dim; ++d)
         {
+          // The block's splines are at -1, 0 and 1 from its middle.
           const int j = spline[d] - block[d];
           distance[d] = std::abs(j) <= 1 ? 0 : j;
         }
@@ -39,6 +40,8 @@ namespace Morula
       double product = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         {
+          // Σ|e| of a tensor product is the product of the sums by direction.
+          // All e are integers, so equal sums are equal to the last bit.
           double sum = 0.;
           for (const double e : extension_weights(spline[d] - (block[d] - 1)))
             sum += std::abs(e);
@@ -51,6 +54,8 @@ namespace Morula
   std::array<double, 3>
   extension_weights(const int j)
   {
+    // These are Lagrange's polynomials, doc/theory.md (3.3), for the nodes 0,
+    // 1, 2.
     return {{0.5 * (j - 1) * (j - 2), -1. * j * (j - 2), 0.5 * j * (j - 1)}};
   }
 
@@ -86,6 +91,10 @@ namespace Morula
   std::vector<unsigned int>
   ExtensionSearch<dim>::connected(const SplineCopy &copy, const int radius)
   {
+    // A breadth-first search over grid cells with tissue, which starts from the
+    // copy's own support and does not leave the given radius. So it does not
+    // reach bodies on the other side of a gap. `reached` serves all searches:
+    // only the entries that were set are cleared.
     const GridIndex<dim>      center = boxes_.index(copy.spline);
     std::vector<unsigned int> list;
     const auto reach = [&](const unsigned int number, const auto &index) {
@@ -106,6 +115,7 @@ namespace Morula
             grid_cell[d] += BSpline<dim>::offset(a, d);
           reach(boxes_.number(grid_cell), grid_cell);
         }
+    // The list grows while it is read.
     for (std::size_t i = 0; i < list.size(); ++i)
       boxes_.for_neighbors(boxes_.index(list[i]), 1, reach);
     for (const unsigned int number : list)
@@ -119,6 +129,10 @@ namespace Morula
   ExtensionSearch<dim>::fullest(const GridIndex<dim>            &spline,
                                 const std::vector<unsigned int> &blocks) const
   {
+    // Groups are blocks that extrapolate alike; see extrapolation(). Their
+    // fills are sums of multiples of 2⁻⁴⁰, so the order of summation does not
+    // matter. Of all groups with the most tissue all blocks are chosen: the
+    // choice turns and mirrors with the tissue.
     struct Group
     {
       std::vector<unsigned int> blocks;
@@ -149,9 +163,16 @@ namespace Morula
     std::vector<unsigned int> best;
     double                    best_sum = std::numeric_limits<double>::max();
     std::size_t               n_before = 0;
+    // The search looks at ever larger windows around the spline, doc/theory.md,
+    // section 3.4. Each time it collects the connected inner grid cells with
+    // the smallest Σ|e|. It ends once no block outside of the window can have a
+    // smaller sum, or the larger window has brought nothing new. Where this
+    // rank's own window of tables ends before that, the search ends without a
+    // result, and the caller asks for a wider window.
     for (int radius = 2;; ++radius)
       {
-        // The blocks' splines have copies, too.
+        // The blocks' splines have copies, too, and these have to be known
+        // here.
         if (!occupancy.window().holds(center,
                                       radius + 1 + SplineCopies<dim>::reach()))
           {

@@ -40,6 +40,11 @@ namespace Morula
     boxes().for_range(
       {boxes().locate(lower), boxes().locate(upper)},
       [&](const unsigned int number, const GridIndex<dim> &index) {
+        // The volume is spread over the axis-parallel cube of the particle,
+        // doc/theory.md (3.1). The overlap with each grid cell is rounded to an
+        // integer, so that sums do not depend on the order of the particles.
+        // The reaches say how far the tissue comes from either side: their
+        // maxima give the extents of pieces and rows.
         const Point<dim> corner  = boxes().corner(index);
         double           overlap = 1.;
         for (unsigned int d = 0; d < dim; ++d)
@@ -64,6 +69,8 @@ namespace Morula
     ++counts[boxes().number(boxes().locate(x))][boundary];
   }
 
+  // A point on a grid line counts on both sides, so the point is taken for a
+  // box of the width of rounding.
   template <int dim>
   void
   GridCellContents<dim>::add_quadrature_point(const Point<dim> &x)
@@ -84,6 +91,8 @@ namespace Morula
   void
   GridCellContents<dim>::sum(const BackgroundGrid<dim> &grid)
   {
+    // Owners add up what all ranks have counted, then tell all ranks in whose
+    // windows their grid cells lie.
     spread(window_.to_owners(records(), grid));
   }
 
@@ -91,6 +100,9 @@ namespace Morula
   void
   GridCellContents<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
   {
+    // As for the other sums, in two passes: counts go to the owners, who add
+    // them up, and from there to all windows. Only the quadrature points travel
+    // here: the rest has been summed before, and stays.
     struct Count
     {
       unsigned int number, n;
@@ -107,10 +119,12 @@ namespace Morula
                    [quadrature];
     };
     const auto summed = window_.to_owners(list_of_counts(), grid);
+    // This rank's own counts have been sent; what comes back includes them.
     for (Counts &n : counts)
       n[quadrature] = 0;
     for (const Count &count : summed)
       n_at(count) += count.n;
+    // Sums of other ranks' grid cells are taken as they are, not added.
     for (const Count &count : window_.to_windows(list_of_counts()))
       n_at(count) = count.n;
   }
@@ -121,6 +135,8 @@ namespace Morula
   {
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
+    // Each owner keeps the sums of its own grid cells. The tables are made anew
+    // for the wider window, and filled by another round of messages.
     std::vector<Record> own;
     for (const Record &record : records())
       if (grid.owner(record.number) == rank)
@@ -133,6 +149,8 @@ namespace Morula
   void
   GridCellContents<dim>::spread(const std::vector<Record> &list)
   {
+    // Own grid cells come first, since find_own() takes all that is in the
+    // tables by then for this rank's. Only after that come those of others.
     clear();
     for (const Record &record : list)
       add(record);
@@ -141,7 +159,8 @@ namespace Morula
       add(record);
   }
 
-  /** Takes all that is there for this rank's. */
+  /** Takes all that is in the tables for grid cells of this rank: those of
+   *  other ranks are added afterwards. */
   template <int dim>
   void
   GridCellContents<dim>::find_own()
@@ -187,6 +206,8 @@ namespace Morula
   void
   GridCellContents<dim>::add(const Record &record)
   {
+    // Records carry the number in the grid's box, tables are by number in the
+    // window.
     const unsigned int number =
       boxes().number(window_.whole().index(record.number));
     volumes[number] += record.volume;

@@ -17,6 +17,8 @@ namespace Morula
     GridCellCounts
     merged(GridCellCounts counts)
     {
+      // Counts of a grid cell may come from several ranks and several times
+      // from one. Sorted, they are neighbours.
       std::sort(counts.begin(),
                 counts.end(),
                 [](const GridCellCount &a, const GridCellCount &b) {
@@ -39,6 +41,8 @@ namespace Morula
                 const GridOwners<dim> &owners,
                 const MPI_Comm         comm)
   {
+    // On one rank there is nobody to ask. Else each count goes to the owner of
+    // its grid cell, as two numbers.
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return merged(counts);
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);

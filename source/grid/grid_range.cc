@@ -10,6 +10,9 @@ namespace Morula
 {
   namespace
   {
+    /** Whoever looks for a grid cell looks into each range. Where there would
+     *  be more, wider gaps are closed, which covers more grid cells but never
+     *  misses one. */
     constexpr std::size_t most_ranges = 32;
 
     /** Adds a range to others that are more than @p gap apart, and unites what
@@ -18,6 +21,8 @@ namespace Morula
     void
     add(std::vector<GridRange<dim>> &apart, GridRange<dim> range, const int gap)
     {
+      // A range that is united with near ones may come near to further ones. So
+      // the search begins again until nothing is near.
       while (true)
         {
           const auto near = std::partition(apart.begin(),
@@ -26,6 +31,8 @@ namespace Morula
                                              return range.gap(other) > gap;
                                            });
           if (near == apart.end())
+            // The list is a set: the order does not matter before separated()
+            // sorts it.
             break;
           for (auto other = near; other != apart.end(); ++other)
             range.unite(*other);
@@ -89,6 +96,8 @@ namespace Morula
   int
   GridRange<dim>::gap(const GridRange &other) const
   {
+    // The largest distance of any direction: two boxes touch only if they touch
+    // in all of them.
     int largest = std::numeric_limits<int>::lowest();
     for (unsigned int d = 0; d < dim; ++d)
       largest = std::max(
@@ -101,6 +110,9 @@ namespace Morula
   std::vector<GridRange<dim>>
   separated(const std::vector<GridRange<dim>> &ranges, int gap)
   {
+    // Each range is added on its own. Whenever there are too many, the allowed
+    // gap doubles and those that are nearer share one: so no list of boxes gets
+    // long, however scattered the tissue is.
     std::vector<GridRange<dim>> apart;
     for (const GridRange<dim> &range : ranges)
       if (!range.empty())
@@ -115,6 +127,7 @@ namespace Morula
               apart = std::move(wider);
             }
         }
+    // The order must not depend on that of the input.
     std::sort(apart.begin(), apart.end(), [](const auto &a, const auto &b) {
       return a.first < b.first;
     });

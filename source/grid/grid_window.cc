@@ -11,8 +11,9 @@ namespace Morula
 {
   namespace
   {
-    /** Around the core at first: for rows of tissue (Occupancy) and for inner
-     *  grid cells as far away as outer splines mostly look for them. */
+    /** The rings around the core at first: enough for rows of tissue
+     *  (Occupancy), and for inner grid cells as far away as outer splines
+     *  mostly look for them. */
     constexpr int first_rings = 12;
 
     /** Splines reach so far beyond the grid cells of points, whose quadrature
@@ -25,6 +26,8 @@ namespace Morula
     GridRange<dim>
     shrunk(const GridBox<dim> &box, const int rings, const GridBox<dim> &whole)
     {
+      // At the edge of the grid's box there is nothing beyond, so nothing is
+      // cut off there.
       GridRange<dim> range;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -54,6 +57,10 @@ namespace Morula
     , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
     , comm(grid.communicator())
   {
+    // The core is what this rank's points reach, and the grid cells on which
+    // their splines may stand. On several ranks it also includes the grid cells
+    // that this rank owns in the cores of others, since it sums what they hold:
+    // the others tell of them.
     for (const GridRange<dim> &range : reached)
       cores.push_back(range.grown(reach_of_splines, whole_));
     cores = separated(cores, 0);
@@ -69,7 +76,8 @@ namespace Morula
   }
 
 
-  /** Their owners must know of them. */
+  /** Other ranks own some of the grid cells that this rank's points and splines
+   *  reach. They must know of them, as they add up their contents. */
   template <int dim>
   std::map<unsigned int, std::vector<GridIndex<dim>>>
   GridWindow<dim>::of_others(const Ranges              &reached,
@@ -78,6 +86,8 @@ namespace Morula
     const GridBoxes<dim> core(cores, whole_);
     std::vector<char>    near(core.size(), 0);
     for (const GridRange<dim> &range : reached)
+      // The cores' boxes hold more than what is near: where several ranges were
+      // united only the grid cells of the ranges count.
       core.for_range(range.grown(reach_of_splines, whole_),
                      [&](const unsigned int number, const auto &) {
                        near[number] = 1;
@@ -100,6 +110,8 @@ namespace Morula
   {
     if (alone)
       return; // knows all
+    // Only ranks that asked get wider windows, but all make theirs anew, since
+    // their neighbours' windows have changed.
     if (here)
       rings += rings / 2;
     make();
@@ -110,6 +122,7 @@ namespace Morula
   void
   GridWindow<dim>::make()
   {
+    // Cores nearer than two rings share a box: no two boxes may touch.
     cores = separated(cores, 2 * rings);
     Ranges window;
     for (const GridRange<dim> &core : cores)
@@ -118,6 +131,8 @@ namespace Morula
     if (alone)
       return;
     neighbors.clear();
+    // Every rank learns all ranks' windows, some boxes each. It keeps those in
+    // which some of its own core lies: these ranks want to be told of it.
     const auto windows = gather_everywhere(window, comm);
     for (unsigned int other = 0; other < windows.size(); ++other)
       for (const GridRange<dim> &range : windows[other])
@@ -161,6 +176,7 @@ namespace Morula
   bool
   GridWindow<dim>::holds(const GridIndex<dim> &center, const int radius) const
   {
+    // On one rank all tissue is in the window; what is outside is empty.
     if (alone)
       return true;
     for (const GridBox<dim> &box : boxes_.boxes())

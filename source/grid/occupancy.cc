@@ -12,7 +12,9 @@ namespace Morula
 {
   namespace
   {
-    /** Tissue thinner than so many cells counts as one or two cells thick. */
+    /** Tissue thinner than so many cells counts as one or two cells thick.
+     *  Cells on a lattice have a whole number of layers, so half a cell is the
+     *  widest margin on both sides. */
     constexpr double one_layer = 1.5, two_layers = 2.5;
   } // namespace
 
@@ -48,6 +50,8 @@ namespace Morula
   void
   Occupancy<dim>::sum()
   {
+    // The sums of one rank are complete. Rows follow from volumes and reaches;
+    // the quadrature points of the second round depend on them.
     contents.find_own();
     find_crowded();
     rows = TissueRows<dim>(contents);
@@ -59,6 +63,7 @@ namespace Morula
   {
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return sum();
+    // The same follows as on one rank, but from the sums over ranks.
     contents.sum(grid);
     find_crowded();
     rows = TissueRows<dim>(contents);
@@ -68,6 +73,7 @@ namespace Morula
   void
   Occupancy<dim>::add_quadrature_points(const ParticleDomain<dim> &domain)
   {
+    // A point on a grid line may be shared: each share is a point of its own.
     unsigned int n_points = 0;
     domain.for_quadrature_points(
       n_points_per_edge(domain), [&](const Point<dim> &point) {
@@ -98,6 +104,7 @@ namespace Morula
   void
   Occupancy<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
   {
+    // The contents travel to the wider window; rows are found anew from these.
     contents.widen(grid, here);
     rows = TissueRows<dim>(contents);
   }
@@ -106,6 +113,9 @@ namespace Morula
   void
   Occupancy<dim>::find_crowded()
   {
+    // Owners look at their sums, and all ranks get the list: a boundary point
+    // may be in a grid cell of any rank when its patch is to be split. It is
+    // short, as only crumpled surfaces have such grid cells.
     std::vector<unsigned int> found;
     for (const unsigned int number : own())
       if (contents.n_boundary_points(number) > Utilities::pow(4, dim))
@@ -120,6 +130,9 @@ namespace Morula
   typename ParticleDomain<dim>::Numbers
   Occupancy<dim>::n_points_per_edge(const ParticleDomain<dim> &domain) const
   {
+    // Thin tissue needs more points than its volume asks for, doc/theory.md,
+    // section 3.2: two across a sheet, three across a rod, two where a rod is
+    // two cells thick.
     const unsigned int number =
       boxes().number(boxes().locate(domain.position()));
     const double h = boxes().spacing(), side = domain.side();
@@ -169,6 +182,8 @@ namespace Morula
   std::pair<Point<dim>, Point<dim>>
   Occupancy<dim>::bounds(const unsigned int number) const
   {
+    // The reaches are units of h from the lower and the upper end of the grid
+    // cell.
     Point<dim> lower = boxes().corner(boxes().index(number)), upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -25,7 +25,7 @@ namespace Morula
       unsigned int   piece, former;
     };
 
-    /** For each piece whether it holds grid cells of two former pieces.
+    /** Tells for each piece whether it holds grid cells of two former pieces.
      *  Collective. */
     template <int dim>
     std::vector<bool>
@@ -33,6 +33,9 @@ namespace Morula
                        const unsigned int            n_pieces,
                        const MPI_Comm                comm)
     {
+      // A piece has joined if the lowest and the highest number of its former
+      // pieces differ: two reductions find that, however many ranks a piece
+      // has.
       std::vector<unsigned int> lowest(n_pieces, no_former),
         highest(n_pieces, 0);
       for (const Kept<dim> &grid_cell : kept)
@@ -57,6 +60,9 @@ namespace Morula
     Point<dim>
     middle(const std::vector<Kept<dim>> &kept, const GridBox<dim> &lines)
     {
+      // Kept grid cells are put into a table over the box around them, so that
+      // each looks at its neighbours by radius: pieces that join are near each
+      // other, so the first radii find the pair.
       GridIndex<dim> first = kept[0].grid_cell, last = first, n;
       for (const Kept<dim> &one : kept)
         for (unsigned int d = 0; d < dim; ++d)
@@ -115,6 +121,8 @@ namespace Morula
   std::vector<typename PieceWatch<dim>::Former>
   PieceWatch<dim>::former_pieces(const BackgroundGrid<dim> &grid) const
   {
+    // Grid cells may have changed their owners since the last call. What this
+    // rank remembers is told to the owners of now.
     std::map<unsigned int, std::vector<Former>> by_owner;
     for (const Former &one : remembered)
       if (grid.box().contains(one.grid_cell))
@@ -131,6 +139,12 @@ namespace Morula
   PieceWatch<dim>::joined(const SplineSpace<dim>    &space,
                           const BackgroundGrid<dim> &grid)
   {
+    // First, the grid cells that are active now and were before get their
+    // present and their former piece. A piece with two former ones has just
+    // been joined. Only then, which is rare, the grid cells of such pieces are
+    // gathered on all ranks, and each finds the place by itself. In the end the
+    // pieces of now are remembered for the next call; the calls are collective,
+    // so no rank may leave early.
     const MPI_Comm            comm = grid.communicator();
     const GridBox<dim>       &box  = space.box();
     std::optional<Point<dim>> place;
@@ -155,7 +169,8 @@ namespace Morula
                                         return !joined[one.piece];
                                       }),
                        kept.end());
-            // Rare: all ranks look at the grid cells of the joined pieces.
+            // This is rare, so all ranks may look at all grid cells of the
+            // joined pieces.
             std::vector<Kept<dim>> all;
             for (const auto &list : gather_everywhere(kept, comm))
               all.insert(all.end(), list.begin(), list.end());

@@ -17,8 +17,8 @@ namespace Morula
     template <int dim>
     struct Extents
     {
-      /** Of the tissue, µm: for each piece the upper corner, and the lower one
-       *  with a minus. */
+      /** The extent of the tissue, µm: for each piece the upper corner, and the
+       *  lower one with a minus, so that one maximum over ranks finds both. */
       std::vector<double> corners;
       /** For each piece the numbers of inner grid cells, of particles, of grid
        *  cells, and the sum of the coordinates of these: integers, so that the
@@ -35,6 +35,9 @@ namespace Morula
             const SplineCopies<dim>          &copies,
             const MPI_Comm                    comm)
     {
+      // Each rank looks at its own grid cells. A maximum and a sum over all
+      // ranks give all pieces at once; the lower corners carry a minus, so that
+      // one maximum serves both.
       const GridBoxes<dim> &boxes = occupancy.boxes();
       Extents<dim>          all;
       all.corners.assign(copies.n_pieces() * 2 * dim,
@@ -76,8 +79,10 @@ namespace Morula
   PiecePolynomial<dim>::expression(const Point<dim> &x, const double h) const
   {
     std::vector<std::pair<unsigned int, double>> terms;
-    const Tensor<1, dim>                         xi      = (x - center) / h;
-    unsigned int                                 unknown = first_unknown;
+    // The terms of doc/theory.md (3.4) in the order of the unknowns: the
+    // constant, the linear ones, and products of two coordinates.
+    const Tensor<1, dim> xi      = (x - center) / h;
+    unsigned int         unknown = first_unknown;
     terms.emplace_back(unknown++, 1.);
     for (unsigned int d = 0; d < dim; ++d)
       terms.emplace_back(unknown++, xi[d]);
@@ -96,6 +101,10 @@ namespace Morula
                     const SplineCopies<dim>          &copies,
                     const MPI_Comm                    comm)
   {
+    // A piece is judged by its extent and by what it holds, doc/theory.md,
+    // section 3.5. All ranks have all pieces' sums, so they find the same small
+    // pieces and the same polynomials, also of pieces of which they hold
+    // nothing.
     const double     h         = occupancy.boxes().spacing();
     const Point<dim> grid_line = occupancy.boxes().corner(GridIndex<dim>{});
     const auto       all       = extents(occupancy, classes, copies, comm);
@@ -113,6 +122,7 @@ namespace Morula
           {
             PiecePolynomial<dim> &polynomial = result[piece];
             for (unsigned int d = 0; d < dim; ++d)
+              // The mean of the grid cells' centres, from sums of integers.
               polynomial.center[d] =
                 grid_line[d] + (1. * counts[3 + d] / counts[2] + 0.5) * h;
             polynomial.quadratic = !few && largest < h;

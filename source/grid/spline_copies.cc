@@ -45,7 +45,10 @@ namespace Morula
     first_part(const std::uint32_t grid_cells)
     {
       static const auto touching = make_touching<dim>();
-      std::uint32_t     part = grid_cells & ~(grid_cells - 1), before = 0;
+      // The lowest bit is the lowest grid cell; parts grow by the grid cells
+      // that touch them until nothing changes. At most 27 bits are to be looked
+      // at.
+      std::uint32_t part = grid_cells & ~(grid_cells - 1), before = 0;
       while (part != before)
         {
           before = part;
@@ -102,6 +105,11 @@ namespace Morula
     , first(boxes.size() + 1, 0)
     , pieces(boxes.size(), no_piece)
   {
+    // Copies follow from the classes around a spline, so they are made for
+    // splines that are far enough inside of the window, and near active grid
+    // cells. Parts are grid cells joined by copies on this rank; all ranks'
+    // parts are joined to pieces then. Last, the copies that this rank uses
+    // learn their piece, from any grid cell of their support.
     const std::vector<char> near = near_active(classes, boxes);
     find_own(classes, near, grid);
     std::vector<char> known(boxes.size(), 0);
@@ -111,6 +119,7 @@ namespace Morula
       });
     for (unsigned int spline = 0; spline < boxes.size(); ++spline)
       {
+        // first[] has an entry for each spline, also for those without copies.
         if (known[spline])
           add_copies(spline, classes);
         first[spline + 1] = copies.size();
@@ -136,6 +145,7 @@ namespace Morula
     const MPI_Comm     comm  = grid.communicator();
     const unsigned int rank  = Utilities::MPI::this_mpi_process(comm);
     const bool         alone = Utilities::MPI::n_mpi_processes(comm) == 1;
+    // A rank owns the splines that stand on its grid cells, active or not.
     own.assign(boxes.size(), 0);
     for (unsigned int number = 0; number < boxes.size(); ++number)
       if (near[number] && (alone || grid.owner(boxes.index(number)) == rank))
@@ -144,6 +154,8 @@ namespace Morula
           if (is_active(classes[number]))
             own_active.push_back(number);
         }
+    // With several boxes the window's order is not that of the grid's box, in
+    // which unknowns are numbered.
     if (boxes.boxes().size() > 1)
       std::sort(own_active.begin(),
                 own_active.end(),
@@ -158,6 +170,10 @@ namespace Morula
   SplineCopies<dim>::add_copies(const unsigned int                spline,
                                 const std::vector<GridCellClass> &classes)
   {
+    // Three bit masks of the support: grid cells with tissue, active ones,
+    // inner ones. Tissue connects; only active grid cells use a copy. So each
+    // connected part of the tissue that holds an active grid cell gets one,
+    // doc/theory.md, section 3.3.
     std::uint32_t tissue = 0, active = 0, inner = 0;
     for_support(boxes,
                 spline,
@@ -167,6 +183,8 @@ namespace Morula
                   active |= is_active(grid_cell) << a;
                   inner |= (grid_cell == GridCellClass::inner) << a;
                 });
+    // The loop ends once no active grid cell is left; of what remains no copy
+    // would have any.
     while ((active & tissue) != 0)
       {
         const std::uint32_t part = first_part<dim>(tissue);
@@ -195,6 +213,11 @@ namespace Morula
   unsigned int
   SplineCopies<dim>::find_parts()
   {
+    // Boost's disjoint sets join all grid cells of each copy's support: those
+    // then share a spline, so they belong to one part. Copies that this rank
+    // does not use are left out, since their grid cells may lie beyond what it
+    // knows. The parts get numbers in the order of their first grid cells in
+    // the window.
     std::vector<unsigned int> rank(boxes.size(), 0), parent(boxes.size());
     std::iota(parent.begin(), parent.end(), 0u);
     boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
@@ -204,6 +227,7 @@ namespace Morula
       {
         if (!is_used(copy))
           continue;
+        // The first grid cell of the support, with which the others are joined.
         unsigned int one = no_piece;
         for_support(boxes,
                     copy.spline,
@@ -235,6 +259,9 @@ namespace Morula
                                 const GridBox<dim>        &whole,
                                 const BackgroundGrid<dim> &grid)
   {
+    // For each part its lowest grid cell, and for each grid cell of another
+    // rank that this rank's parts hold, a message to its owner: there the two
+    // ranks' parts belong together.
     std::vector<unsigned int> lowest_of_parts(n_parts, no_piece);
     PartsOnRanks::Seen        seen;
     for (unsigned int number = 0; number < boxes.size(); ++number)
@@ -274,8 +301,10 @@ namespace Morula
   {
     const unsigned int number = boxes.number(spline);
     unsigned int       copy   = first[number];
+    // Most splines have one copy.
     if (first[number + 1] - copy == 1)
       return copy;
+    // The bit of the grid cell in the support of the spline.
     unsigned int a = 0;
     for (int d = dim - 1; d >= 0; --d)
       a = 3 * a + (grid_cell[d] - spline[d] + 1);

@@ -30,6 +30,11 @@ namespace Morula
     : occupancy_(std::move(occupancy))
     , extend(parameters.extension)
   {
+    // Classes, copies and blocks first. Whether the window was wide enough
+    // shows only after the search for blocks. If any rank's was not, all begin
+    // anew with a wider one, since the sums travel between ranks. Then unknowns
+    // get numbers over all ranks, each rank asks for those of others that it
+    // needs, and each active grid cell gets its rows of weights.
     bool wide = find_splines(grid, parameters);
     while (Utilities::MPI::logical_or(!wide, grid.communicator()))
       {
@@ -51,18 +56,20 @@ namespace Morula
     boxes   = occupancy_.boxes();
     classes = classify(occupancy_, parameters.occupation_parameter);
     copies  = SplineCopies<dim>(occupancy_.window(), classes, grid);
+    // Without extension every spline is an unknown of its own.
     if (!extend)
       return true;
     small_pieces =
       find_small_pieces(occupancy_, classes, copies, grid.communicator());
     blocks.clear();
     ExtensionSearch<dim> search(occupancy_, classes);
+    // Blocks are searched for outer copies of this rank's own grid cells alone.
     for (const unsigned int number : copies.own_grid_cells())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
           const unsigned int c    = copy_at(boxes.index(number), a);
           const SplineCopy  &copy = copies.list()[c];
-          // many grid cells share a spline
+          // Many grid cells share a spline; its blocks are searched once.
           if (!is_unknown(copy) && small_pieces.count(copy.piece) == 0 &&
               blocks.count(c) == 0)
             blocks[c] = search.blocks(copy);
@@ -74,6 +81,8 @@ namespace Morula
   void
   SplineSpace<dim>::count(const MPI_Comm comm)
   {
+    // Each rank counts its own grid cells and splines. Splines of small pieces
+    // count as outer ones.
     std::vector<unsigned int> n{
       static_cast<unsigned int>(copies.own_grid_cells().size()), 0, 0};
     for (const SplineCopy &copy : copies.list())
@@ -116,6 +125,8 @@ namespace Morula
   std::vector<unsigned int>
   SplineSpace<dim>::copies_of_others() const
   {
+    // These are splines of own grid cells that are unknowns of other ranks, and
+    // the splines of other ranks by which own outer ones are expressed.
     std::vector<unsigned int> wanted;
     for (const unsigned int number : copies.own_grid_cells())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
@@ -140,6 +151,9 @@ namespace Morula
   typename SplineSpace<dim>::Terms
   SplineSpace<dim>::expression(const unsigned int c) const
   {
+    // A copy that is an unknown stands for itself. A copy of a piece too small
+    // to have inner grid cells follows the piece's own few unknowns. Any other
+    // one is outer, and continued from inner grid cells.
     if (numbers.has(c))
       return {{numbers[c], 1.}};
 
@@ -150,7 +164,8 @@ namespace Morula
       return found->second.expression(boxes.center(index), boxes.spacing());
     const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
     AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
-    // doc/theory.md (3.3b); sums of integers, exact in any order
+    // This is the mean over all blocks, doc/theory.md (3.3b). The weights are
+    // integers, so the sums are exact in any order; one division follows.
     std::map<unsigned int, double> sums;
     for (const unsigned int block : inner_grid_cells)
       {
@@ -195,6 +210,11 @@ namespace Morula
   SplineSpace<dim>::add_grid_cell(const unsigned int        number,
                                   const std::vector<Terms> &rows)
   {
+    // A grid cell whose splines are all unknowns, each once, keeps them in the
+    // order of the splines and has no weights: that is the fast path of all
+    // loops. Otherwise the unknowns of all its splines are sorted, each taken
+    // once, and the weights stand in a matrix of splines by unknowns, C of
+    // doc/theory.md (3.5).
     constexpr unsigned int    n = BSpline<dim>::n;
     std::vector<unsigned int> terms; // of one spline after the other
     for (const Terms &row : rows)
@@ -217,6 +237,7 @@ namespace Morula
     else
       {
         grid_cell.weights.assign(n * columns.size(), 0.);
+        // Several terms of a spline may have the same unknown.
         for (unsigned int a = 0; a < n; ++a)
           for (const auto &[unknown, weight] : rows[a])
             grid_cell.weights[a * columns.size() +
@@ -234,6 +255,8 @@ namespace Morula
   void
   SplineSpace<dim>::find_relevant()
   {
+    // Grid cells have had global unknowns so far. All passes look up values of
+    // this rank by position in relevant(), so the numbers are replaced once.
     std::vector<types::global_dof_index> used;
     for (const GridCell &grid_cell : grid_cells_)
       used.insert(used.end(),
@@ -256,6 +279,10 @@ namespace Morula
                                         const double          a,
                                         const Tensor<1, dim> &gradient) const
   {
+    // Unknown splines get the field's value at their centre, which reproduces
+    // affine fields. Small pieces have unknowns of their polynomial: the value
+    // at its centre and the slopes per grid spacing, doc/theory.md (3.4);
+    // quadratic ones are 0.
     std::vector<double> coefficients(owned().n_elements(), 0.);
     const auto set = [&](const unsigned int unknown, const double value) {
       if (owned().is_element(unknown))

@@ -10,14 +10,19 @@ namespace Morula
 {
   namespace
   {
-    /** A row of so many grid cells is as thick as the grid along itself. */
+    /** A row of so many grid cells is as thick as the grid along itself. Then
+     *  no rank needs to know a row that runs through the parts of many:
+     *  doc/theory.md, section 3.2. */
     constexpr std::size_t long_row = 8;
 
-    /** A row of tissue shorter than so many grid spacings is thin. */
+    /** A row of tissue shorter than so many grid spacings is thin. It may lie
+     *  on both sides of one grid plane, and inner grid cells on both sides
+     *  would have splines that hardly touch it. */
     constexpr double thin_row = 1.5;
 
     /** A grid cell with at least this part of the fullest one's volume counts
-     *  as equally full. */
+     *  as equally full, so that noise does not change the side from row to row.
+     */
     constexpr double about_equal = 0.8;
 
     /** Calls visit(row) for the connected rows of grid cells with tissue along
@@ -28,6 +33,9 @@ namespace Morula
                  const unsigned int           direction,
                  const Visit                 &visit)
     {
+      // Along a direction a row begins wherever the coordinate is the first of
+      // its box. The window's boxes do not touch, so no row runs through two of
+      // them. One step beyond the end closes the last row.
       std::vector<unsigned int> row;
       for (unsigned int k = 0; k < contents.boxes().boxes().size(); ++k)
         {
@@ -41,6 +49,7 @@ namespace Morula
             if (first / stride % n == 0)
               for (int i = 0; i <= n; ++i)
                 {
+                  // The next grid cell of a row is `stride` numbers away.
                   const unsigned int number = begin + first + i * stride;
                   if (i < n && contents.volume(number) > 0)
                     row.push_back(number);
@@ -60,6 +69,8 @@ namespace Morula
            const unsigned int               direction,
            const GridCellContents<dim>     &contents)
     {
+      // The first and the last grid cell count as far as the tissue reaches in
+      // them, those in between as a whole.
       return contents.up(row.back(), direction) +
              contents.down(row.front(), direction) + row.size() - 2.;
     }
@@ -70,6 +81,8 @@ namespace Morula
                   const unsigned int               direction,
                   const GridCellContents<dim>     &contents)
     {
+      // The smallest rectangle around the tissue of the row, from its farthest
+      // reaches on either side in all grid cells.
       double area = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         if (d != direction)
@@ -111,6 +124,8 @@ namespace Morula
     , n_thin_(contents.boxes().size(), 0)
     , candidates(contents.boxes().size(), 1)
   {
+    // Rows in x choose their candidates first, rows in y among what is left,
+    // then rows in z. So the order of the directions is part of the rule.
     for (unsigned int d = 0; d < dim; ++d)
       for_each_row(contents, d, [&](const std::vector<unsigned int> &row) {
         measure(row, d, contents);
@@ -123,6 +138,12 @@ namespace Morula
                            const unsigned int               direction,
                            const GridCellContents<dim>     &contents)
   {
+    // One pass finds the volume and the largest candidate's volume. Then come
+    // the two uses of a row: its thickness, volume over cross-section, for the
+    // number of quadrature points; and its length, which says whether it is
+    // thin. A thin row keeps one candidate, the first that is about as full as
+    // the fullest, so that noise does not change sides from row to row
+    // (doc/theory.md, section 3.2).
     std::int64_t sum = 0, largest = 0;
     for (const unsigned int number : row)
       {
@@ -132,6 +153,8 @@ namespace Morula
       }
     const float row_length = length(row, direction, contents);
     bool        found      = false;
+    // A longer row is not thin along itself, and its ends may lie outside of
+    // the window.
     if (row.size() < long_row)
       {
         const float thickness = sum / GridCellContents<dim>::resolution /

@@ -24,6 +24,8 @@ namespace Morula
              const SplineCopies<dim>         &copies,
              const GridBox<dim>              &whole)
     {
+      // Copies of one spline keep their order: the number of the copy is the
+      // second key.
       std::vector<std::pair<unsigned int, unsigned int>> sorted;
       for (const unsigned int c : list)
         sorted.emplace_back(whole.number(copies.center(c)), c);
@@ -42,6 +44,10 @@ namespace Morula
                                       const BackgroundGrid<dim> &grid)
     : numbers(copies.list().size(), no_number)
   {
+    // A rank's unknowns are its splines, in the order of the grid's box, and
+    // then those of the small pieces whose lowest grid cell it owns. All ranks
+    // tell each other how many they have, so that the numbers run rank by rank.
+    // Numbers of other ranks' copies are asked for later.
     const MPI_Comm     comm = grid.communicator();
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
 
@@ -71,8 +77,10 @@ namespace Morula
                                         const BackgroundGrid<dim> &grid,
                                         unsigned int               next)
   {
-    const MPI_Comm            comm = grid.communicator();
-    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+    const MPI_Comm     comm = grid.communicator();
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    // Every rank knows all small pieces. The owner of each sets its first
+    // unknown, the others have 0 there, and a sum tells all.
     std::vector<unsigned int> first(small_pieces.size(), 0);
     std::size_t               k = 0;
     for (const auto &[piece, polynomial] : small_pieces)
@@ -105,6 +113,9 @@ namespace Morula
       unsigned int spline; // number in the grid's box
       unsigned int place;  // of the copy
     };
+    // A copy is named by its spline and its place among the copies of this:
+    // that is the same on all ranks that know it, whereas numbers of copies are
+    // not. Owners answer in the order of the questions.
     std::map<unsigned int, std::vector<Question>>     questions;
     std::map<unsigned int, std::vector<unsigned int>> asked, answers;
     for (const unsigned int c : of_others)
@@ -121,6 +132,8 @@ namespace Morula
     for (const auto &[rank, list] : send_records(answers, comm))
       for (std::size_t i = 0; i < list.size(); ++i)
         {
+          // An owner without a number for a copy would mean that ranks disagree
+          // on what is an unknown.
           AssertThrow(list[i] != no_number, ExcInternalError());
           numbers[asked.at(rank)[i]] = list[i];
         }

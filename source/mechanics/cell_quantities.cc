@@ -13,6 +13,8 @@ namespace Morula
     SymmetricTensor<2, 3>
     kirchhoff_stress(const ElasticPoint<dim> &state)
     {
+      // In 2-D the tensor gets the third direction, in which plane strain has a
+      // stress, too.
       SymmetricTensor<2, 3>         full;
       const SymmetricTensor<2, dim> tau = state.kirchhoff_stress();
       for (unsigned int i = 0; i < dim; ++i)
@@ -70,6 +72,8 @@ namespace Morula
     const State<dim> state(cell, material, lame);
     CellQuantities   q;
     static_cast<CellScalars &>(q) = state.scalars(cell.initial_volume());
+    // σ = W τ / V with V = V⁰ det F: V⁰ cancels, so that W/V is 1/det F or det
+    // F_g/det F (doc/theory.md, section 1.5).
     q.stress =
       kirchhoff_stress(state.point) *
       ((per_grown_volume ? q.growth_volume_ratio : 1.) / determinant(state.F));

@@ -39,6 +39,8 @@ namespace Morula
   Condensation<dim, n_components>::for_each_weight(const unsigned int a,
                                                    const Visit &visit) const
   {
+    // Most grid cells are inside the tissue, and have no weights: spline a is
+    // unknown a. Else row a of C is mostly zeros.
     if (grid_cell.weights.empty())
       visit(a, 1.);
     else
@@ -52,6 +54,7 @@ namespace Morula
   Condensation<dim, n_components>::expand(
     const std::vector<double> &coefficients) const
   {
+    // This is u = C ũ of doc/theory.md (3.5), component by component.
     LocalField<dim, n_components> field = {};
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
@@ -66,6 +69,8 @@ namespace Morula
   Condensation<dim, n_components>::condense(
     const std::array<double, n_dofs> &forces, const bool magnitudes) const
   {
+    // This is r̃ = Cᵀ r of doc/theory.md (3.5). Sums of magnitudes must not
+    // cancel, so they take |C|.
     std::vector<double> result(n_components * m(), 0.);
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
@@ -82,6 +87,8 @@ namespace Morula
                                               const unsigned int   n_columns,
                                               std::vector<double> &result) const
   {
+    // Each row of X is added to the m rows of the result with its weight. The
+    // innermost loop runs over the contiguous columns.
     result.assign(n_components * m() * n_columns, 0.);
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       for_each_weight(a, [&](const unsigned int s, const double weight) {
@@ -103,7 +110,8 @@ namespace Morula
   {
     if (grid_cell.weights.empty())
       return matrix;
-    // (Cᵀ (Cᵀ K)ᵀ)ᵀ: both products run over contiguous rows.
+    // K̃ = Cᵀ K C of doc/theory.md (3.5) is (Cᵀ (Cᵀ K)ᵀ)ᵀ: written so, both
+    // products run over contiguous rows, and one function does both.
     times_rows(matrix, n_dofs, work.product);
     transpose(work.product, n_components * m(), n_dofs, work.transposed);
     times_rows(work.transposed, n_components * m(), work.product);

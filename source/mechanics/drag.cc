@@ -22,13 +22,15 @@ namespace Morula
                  const GrowthAt         growth,
                  LocalSystem<dim>      &system) const
   {
+    // Energy and residual are sums over the cells, as for any point term.
     if (system.wanted != LocalSystem<dim>::tangent)
       {
         PointTerm<dim>::add(grid_cell, field, growth, system);
         return;
       }
-    // It does not depend on u: sums over the cells say all, which entries cell
-    // by cell would take far longer to.
+    // The stiffness does not depend on u, so the moments of the cells in the
+    // grid cell give the whole matrix: doc/theory.md (11.6). Entries cell by
+    // cell would take far longer. All components have the same block.
     const GroupedPoints<dim> &cells = this->points;
     MassMoments<dim>          moments;
     for (unsigned int p = cells.offsets[grid_cell];

@@ -14,6 +14,8 @@ namespace Morula
     dofs_of(const IndexSet &splines, const unsigned int n_components)
     {
       IndexSet dofs(splines.size() * n_components);
+      // Ranges of splines become ranges of degrees of freedom: component i of
+      // spline s is s n_components + i.
       for (auto range = splines.begin_intervals();
            range != splines.end_intervals();
            ++range)
@@ -34,6 +36,8 @@ namespace Morula
     unsigned int
     n_before(const IndexSet &some, const IndexSet &others)
     {
+      // Owned unknowns are one range, as numbers run rank by rank. So those of
+      // other ranks fall into a lower and an upper part.
       if (others.n_elements() == 0)
         return some.n_elements();
       const auto end = some.at(others.nth_index_in_set(0));
@@ -90,6 +94,8 @@ namespace Morula
   void
   FieldUnknowns<dim, n_components>::for_own(const Action &action) const
   {
+    // k counts positions in relevant(): those of lower ranks come first, then
+    // the own ones, interval by interval.
     unsigned int k = n_below;
     for (auto range = own.begin_intervals(); range != own.end_intervals();
          ++range)
@@ -104,6 +110,9 @@ namespace Morula
   std::vector<double>
   FieldUnknowns<dim, n_components>::fetch(const Vector &u) const
   {
+    // Values of other ranks come through the halo, in the order of `others`.
+    // The lower ones go to the front, the upper ones to the end; the own ones,
+    // which are copied, fill the middle.
     std::vector<double> fetched(others.n_elements());
     halo.fetch(u.begin(), fetched.data());
     std::vector<double> values(relevant_.n_elements());
@@ -121,6 +130,8 @@ namespace Morula
   TrilinosWrappers::MPI::Vector
   FieldUnknowns<dim, n_components>::sum(const std::vector<double> &values) const
   {
+    // The reverse of fetch(): what this rank has for others is sent to them and
+    // added there, its own part is copied.
     const unsigned int  n_above = others.n_elements() - n_below;
     std::vector<double> of_others(values.begin(), values.begin() + n_below);
     of_others.insert(of_others.end(), values.end() - n_above, values.end());
@@ -141,6 +152,7 @@ namespace Morula
                       const Tensor<2, dim>   &A)
   {
     std::vector<double> result(dim * space.owned().n_elements());
+    // A scalar affine field for each component; splines reproduce it exactly.
     for (unsigned int i = 0; i < dim; ++i)
       {
         const std::vector<double> component =

@@ -17,13 +17,15 @@ namespace Morula
   namespace
   {
     /** A motion is mostly rigid if no more than this part of the squares of the
-     *  held points' displacements is left without it. */
+     *  held points' displacements is left without it. Where clamps deform a
+     *  piece rather than carry it, a rigid start is no better than none. */
     constexpr double largest_rest = 0.1;
 
     /** Rotations that hardly move the held points, relative to translations,
      *  are not asked for: those about the line through all, or of one point. */
     constexpr double weakest = 1e-9;
 
+    // A fit that makes sense takes far fewer; the bound ends the others.
     constexpr unsigned int max_iterations = 50;
 
     /** y = Q (x - center) + center + shift, fitted to the points of a piece by
@@ -38,7 +40,7 @@ namespace Morula
       double         square = 0.;        // Σ a |M (y - to)|²
       double         square_before = 0.; // at rest
 
-      /** From the center. */
+      /** The place relative to the center. */
       Tensor<1, dim>
       moved(const Point<dim> &x) const
       {
@@ -49,7 +51,7 @@ namespace Morula
     template <int dim>
     using Fits = std::vector<RigidFit<dim>>;
 
-    /** With the piece that each point belongs to. */
+    /** Held points, each with the number of its piece. */
     template <int dim>
     using Points = std::vector<std::pair<unsigned int, HeldPoint<dim>>>;
 
@@ -59,6 +61,8 @@ namespace Morula
                  Fits<dim>         &fits,
                  const MPI_Comm     comm)
     {
+      // The area and its first moment by piece: one reduction serves all
+      // pieces.
       std::vector<double> sums(fits.size() * (dim + 1), 0.);
       for (const auto &[piece, point] : points)
         {
@@ -70,6 +74,7 @@ namespace Morula
       Utilities::MPI::sum(sums, comm, sums);
       for (std::size_t p = 0; p < fits.size(); ++p)
         {
+          // Pieces without held points stay as they are.
           fits[p].area = sums[p * (dim + 1) + dim];
           if (fits[p].area > 0.)
             for (unsigned int d = 0; d < dim; ++d)
@@ -85,6 +90,13 @@ namespace Morula
             Fits<dim>         &fits,
             const MPI_Comm     comm)
     {
+      // One linear least squares problem for each piece: doc/theory.md (4.14),
+      // linearised at the present motion. The first loop sums its normal matrix
+      // (lower triangle), its right-hand side and the square that is left, over
+      // this rank's held points; one reduction adds up those of all ranks. Then
+      // each rank solves all pieces' small systems, and so has the same motion.
+      // The update acts from the left, as a Cayley transform, so that Q stays a
+      // rotation.
       using Modes           = RigidModes<dim>;
       constexpr int       n = Modes::n_modes, width = n * n + n + 1;
       std::vector<double> sums(fits.size() * width, 0.);
@@ -114,6 +126,7 @@ namespace Morula
           RigidFit<dim>      &fit = fits[p];
           const double *const sum = &sums[p * width];
           fit.square              = sum[n * n + n];
+          // No point holds this piece.
           if (fit.area == 0.)
             continue;
           LAPACKFullMatrix<double> matrix(n);
@@ -124,6 +137,8 @@ namespace Morula
               for (int l = 0; l < n; ++l)
                 matrix(k, l) = sum[std::max(k, l) * n + std::min(k, l)];
             }
+          // A pseudo-inverse leaves out rotations that hardly move any held
+          // point.
           matrix.compute_inverse_svd(weakest);
           matrix.vmult(twist, forces);
           Tensor<1, dim> a;
@@ -150,6 +165,13 @@ namespace Morula
               const std::vector<HeldPoint<dim>> &held,
               const MPI_Comm                     comm)
   {
+    // Nothing is done, and u starts at 0 to the bit, unless a held point of any
+    // rank moves in this step. Each held point is assigned to the piece of its
+    // grid cell. The fit of doc/theory.md (4.14) improves the motions of all
+    // pieces together, since each correction is collective. Then the pieces
+    // that go along get the coefficients of their affine displacement; splines
+    // reproduce it exactly. The pieces' unknowns are disjoint, so their vectors
+    // simply add up.
     const bool moves =
       std::any_of(held.begin(), held.end(), [](const HeldPoint<dim> &point) {
         return point.from != point.to;
@@ -167,9 +189,11 @@ namespace Morula
     for (unsigned int i = 0; i < max_iterations; ++i)
       {
         const double largest = improve(points, length, fits, comm);
+        // The first pass has measured the motion at rest.
         if (i == 0)
           for (RigidFit<dim> &fit : fits)
             fit.square_before = fit.square;
+        // A correction below rounding of a coordinate changes nothing any more.
         if (largest <= 1e-13 * length)
           break;
       }
@@ -179,9 +203,13 @@ namespace Morula
     for (unsigned int p = 0; p < fits.size(); ++p)
       {
         const RigidFit<dim> &fit = fits[p];
+        // Pieces at rest, pieces that a free motion would make ambiguous, and
+        // pieces whose clamps deform them rather than carry them, start from 0.
         if (fit.square_before == 0. || modes.has_free_motion(p) ||
             fit.square > largest_rest * fit.square_before)
           continue;
+        // The motion y = Q (x - center) + center + shift is written as a + A x,
+        // and less x it is the displacement.
         const Tensor<1, dim> center = fit.center - Point<dim>();
         const auto           part =
           affine_displacement(space,

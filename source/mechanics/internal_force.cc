@@ -19,6 +19,8 @@ namespace Morula
       SpatialGradients(const SplineValues<dim> &splines,
                        const Tensor<2, dim>    &f_inverse)
       {
+        // f⁻ᵀ maps gradients in the configuration at t to those in the trial
+        // configuration.
         for (unsigned int j = 0; j < dim; ++j)
           for (unsigned int a = 0; a < n; ++a)
             {
@@ -38,6 +40,9 @@ namespace Morula
                 const double                 W,
                 VolumeMean<dim>             &mean)
     {
+      // Projected, the mean weighs ln J_e by W k, doc/theory.md (2.6); pooled,
+      // sums of present and of grown volumes are compared, W J_e and W,
+      // doc/theory.md (2.8).
       const double modulus = W * state.response().volumetric.modulus;
       const bool   pooled  = mean.form == VolumetricStrain::pooled;
       const double weight  = pooled ? W * state.strain().J : modulus;
@@ -56,6 +61,7 @@ namespace Morula
                const SymmetricTensor<2, dim> &tau,
                LocalSystem<dim>              &system)
     {
+      // This is the force on each spline, doc/theory.md (2.4).
       constexpr unsigned int n = BSpline<dim>::n;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
@@ -65,6 +71,7 @@ namespace Morula
               force += tau[i][j] * gradients.g[j][a];
             system.residual[i * n + a] += force;
           }
+      // A loop of its own keeps the one above free of a branch.
       if (system.wanted == LocalSystem<dim>::rounding)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < n; ++a)
@@ -80,10 +87,16 @@ namespace Morula
                     const StrainOfGridCell  *strain)
     {
       const auto &r = state.response();
+      // Pointwise strain: the law's own A and γ, with their volumetric parts.
       if (strain == nullptr)
         return {r.total_A(), r.total_gamma()};
+      // Projected: the volumetric part of A is the product of the means, which
+      // VolumeMean adds. Its share of γ stays at the point: doc/theory.md
+      // (2.7).
       if (strain->form != VolumetricStrain::pooled)
         return {r.A, r.total_gamma()};
+      // Pooled: doc/theory.md (2.9) has one pressure for the grid cell in both
+      // places, times the point's volume J_e.
       const double pull = strain->mean_stress * state.strain().J;
       return {r.A + pull, r.gamma + pull};
     }
@@ -106,6 +119,10 @@ namespace Morula
                const bool                     coupled,
                double                        *matrix)
     {
+      // With b_e g_a in a table of its own, the block (i, j) of doc/theory.md
+      // (2.5) is an outer product of rows by a and by c. The loop runs over
+      // rows a, components i and j ≥ i, and innermost over all columns c. The
+      // terms with C, and the rest of B, exist for coupled laws only.
       constexpr unsigned int n      = BSpline<dim>::n;
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       const auto            &g      = gradients.g;
@@ -120,6 +137,7 @@ namespace Morula
           }
       for (unsigned int a = 0; a < n; ++a)
         {
+          // α g_a · b_e g_c is the same for all blocks on the diagonal.
           double alpha_b_g[dim], geometric[n];
           for (unsigned int j = 0; j < dim; ++j)
             alpha_b_g[j] = of.alpha * b_g[j][a];
@@ -161,6 +179,8 @@ namespace Morula
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
+          // The blocks on the diagonal are symmetric in themselves;
+          // add_blocks() has filled them whole.
           for (unsigned int j = i; j < dim; ++j)
             for (unsigned int c = 0; c < n; ++c)
               {
@@ -194,6 +214,8 @@ namespace Morula
          p < points.offsets[grid_cell + 1];
          ++p)
       {
+        // f is the step's deformation, the reference being the configuration at
+        // t; with A = F_t F_g⁻¹ it gives F_e: doc/theory.md (1.3).
         const SplineValues<dim> splines(points.xi[p], points.h);
         const Tensor<2, dim>    f   = field.step_deformation(splines);
         const Tensor<2, dim>    F_e = f * states[p].A;
@@ -225,12 +247,15 @@ namespace Morula
           const ElasticPoint<dim>     &state,
           const double                 W) {
         const auto &response = state.response();
+        // Without a mean the law acts as a whole.
         if (mean == nullptr)
           {
             add_stress(gradients, W * state.kirchhoff_stress(), system);
             system.add_energy(W * state.energy(), W * state.energy_magnitude());
             return;
           }
+        // With one, only the distortional part does; add() adds the volumetric
+        // part once the mean over the grid cell is known.
         add_stress(gradients, W * state.distortional_stress(), system);
         system.add_energy(W * response.energy, W * response.magnitude);
         add_to_mean(gradients, state, W, *mean);
@@ -245,6 +270,9 @@ namespace Morula
                                   const StrainOfGridCell *strain,
                                   LocalSystem<dim>       &system) const
   {
+    // The upper blocks are summed in an array of their own, since the matrix
+    // may already hold terms that are not symmetric. A point that is inverted
+    // leaves the matrix as it was.
     std::vector<double> upper(system.matrix.size(), 0.);
     const bool          coupled = points.material->coupled();
     const bool          valid   = for_each_point(
@@ -276,7 +304,8 @@ namespace Morula
                            const LocalField<dim> &field,
                            const GrowthAt         growth) const
   {
-    VolumeMean<dim>  mean{form};
+    VolumeMean<dim> mean{form};
+    // The mean is all that is wanted of this loop over the points.
     LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
     add_forces(grid_cell, field, growth, &mean, unused);
     return mean;
@@ -289,6 +318,10 @@ namespace Morula
                                                const GrowthAt         growth,
                                                LocalSystem<dim> &system) const
   {
+    // The mean over the grid cell comes first, since the tangent at the points
+    // needs it. ϑ is what the last tangent foresaw, if there was one; see the
+    // class. After the points' part the product of the means completes
+    // doc/theory.md (2.7), (2.9).
     const VolumeMean<dim> mean = this->mean(grid_cell, field, growth);
     const double          theta =
       system.last != nullptr ? system.last->at(field) : mean.theta();
@@ -297,7 +330,8 @@ namespace Morula
     if (!add_tangent(grid_cell, field, growth, &strain, system))
       return;
     mean.add_tangent(U, system);
-    // What the next residual is of: the growth at t + dt.
+    // The next residual has the growth at t + dt, so the linearisation starts
+    // from ϑ with that growth, also where this tangent has the growth at t.
     system.linearisation = {field,
                             mean.derivative(),
                             growth == GrowthAt::current ?
@@ -315,6 +349,7 @@ namespace Morula
     const bool wants_tangent = system.wanted == LocalSystem<dim>::tangent;
     if (form == VolumetricStrain::pointwise)
       {
+        // No grid cell's mean is asked for: one pass over the points does all.
         if (wants_tangent)
           add_tangent(grid_cell, field, growth, nullptr, system);
         else
@@ -324,6 +359,8 @@ namespace Morula
       add_tangent_of_grid_cell(grid_cell, field, growth, system);
     else
       {
+        // The points' pass leaves the sums; then the volumetric part is one
+        // force for the whole grid cell.
         VolumeMean<dim> mean{form};
         if (add_forces(grid_cell, field, growth, &mean, system))
           mean.add_forces(points.material->volumetric(mean.theta()), system);

@@ -52,6 +52,8 @@ namespace Morula
         {"keep strain|forget stress"})
     , materials(materials)
   {
+    // All further laws of the list, also those that a program has added, are
+    // allowed words.
     const std::vector<std::string> names = materials.names();
     for (std::size_t i = 1; i < names.size(); ++i)
       law.add_word(names[i]);
@@ -81,6 +83,7 @@ namespace Morula
   void
   MaterialParameters::review(Review &review) const
   {
+    // 1e-9 admits the number 0.49 as users write it.
     const double largest = poissons_ratio.largest_number(3).value_or(0.);
     if (volumetric_form() == VolumetricStrain::pointwise &&
         largest > 0.49 - 1e-9)
@@ -125,6 +128,8 @@ namespace Morula
   void
   require_elastic(const MaterialParameters &material, const Point<dim> &X)
   {
+    // What depends on a cell's state or on time cannot be judged from a place:
+    // those values are checked where cells are evaluated.
     const auto require = [&X](const ExpressionKey &key,
                               const double         smallest,
                               const double         largest,

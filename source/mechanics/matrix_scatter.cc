@@ -23,6 +23,10 @@ namespace Morula
     , matrix(matrix)
     , comm(comm)
   {
+    // The columns that this rank's grid cells couple come first. From these the
+    // owners of shared rows learn what they will receive; the pattern needs
+    // both. The tables of positions come last, as they point into the arrays of
+    // the finished matrix.
     const Couplings                 columns   = couplings();
     const std::vector<unsigned int> owners    = owners_of_relevant();
     const Messages                  announced = announce(columns, owners);
@@ -35,6 +39,10 @@ namespace Morula
   typename MatrixScatter<dim, n_components>::Couplings
   MatrixScatter<dim, n_components>::couplings() const
   {
+    // Unknowns are numbered here as in space.relevant(): 0, 1, ... on this
+    // rank. Two unknowns couple if they share a grid cell. `last` marks the
+    // columns that a row has already, so that none enters twice without a
+    // search.
     Couplings columns(space.relevant().n_elements());
     Couplings grid_cells_of(columns.size());
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
@@ -60,6 +68,8 @@ namespace Morula
   std::vector<unsigned int>
   MatrixScatter<dim, n_components>::owners_of_relevant() const
   {
+    // This rank's own unknowns need no question. Only the owners of the others
+    // are asked for. Collective.
     const IndexSet &relevant = space.relevant();
     IndexSet        foreign  = relevant;
     foreign.subtract_set(space.owned());
@@ -77,6 +87,9 @@ namespace Morula
   MatrixScatter<dim, n_components>::announce(
     const Couplings &columns, const std::vector<unsigned int> &owners)
   {
+    // The order of the messages is the order in which exchange() sends values
+    // later: by owner, then by relevant number, and within a row by column.
+    // Both sides keep to it, so that no index has to travel again.
     const IndexSet &relevant = space.relevant();
     Messages        messages;
     for (unsigned int s = 0; s < columns.size(); ++s)
@@ -89,6 +102,7 @@ namespace Morula
         message.push_back(columns[s].size());
         for (const unsigned int column : columns[s])
           message.push_back(relevant.nth_index_in_set(column));
+        // Room for the block of each pair of unknowns, all components.
         auto &values = sent[owners[s]];
         values.resize(values.size() +
                       n_components * n_components * columns[s].size());
@@ -102,6 +116,11 @@ namespace Morula
                                                  const Messages  &announced,
                                                  const IndexSet  &own_rows)
   {
+    // Each owned row takes the columns that this rank's grid cells couple with
+    // it, then those that other ranks have announced. A column may come from
+    // several ranks, so rows are sorted and made unique. The columns that other
+    // ranks own are collected in a list of their own: the column map has them
+    // behind the owned ones.
     const IndexSet &relevant = space.relevant(), &owned = space.owned();
     Unknowns        unknowns(owned.n_elements());
     for (unsigned int s = 0; s < columns.size(); ++s)
@@ -110,6 +129,7 @@ namespace Morula
           unknowns[owned.index_within_set(row)].push_back(
             relevant.nth_index_in_set(column));
     for (const auto &[rank, message] : announced)
+      // A record is: unknown, number of columns, columns.
       for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
         {
           auto &row = unknowns[owned.index_within_set(message[m])];
@@ -129,7 +149,8 @@ namespace Morula
       }
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
-    // Only the graph is taken: no need for a matrix with values of its own.
+    // reinit() wants a matrix, of which it takes the structure only. The values
+    // of this one are never used.
     Epetra_CrsMatrix without_values(View, graph(unknowns, others, own_rows));
     without_values.FillComplete();
     matrix.reinit(without_values, false);
@@ -142,6 +163,11 @@ namespace Morula
     const std::vector<types::global_dof_index> &others,
     const IndexSet                             &own_rows) const
   {
+    // Columns get local numbers: owned ones first, in the order of the rows,
+    // then the others by global number. FillComplete() would find an order
+    // itself, at the price that the header states. All components of an unknown
+    // stand side by side in columns and rows, so a row of one component has the
+    // columns of the others.
     const IndexSet  &owned = space.owned();
     const Epetra_Map rows  = own_rows.make_trilinos_map(comm);
 
@@ -150,6 +176,7 @@ namespace Morula
     for (const auto unknown : others)
       for (unsigned int i = 0; i < n_components; ++i)
         columns.push_back(unknown * n_components + i);
+    // Exact row lengths: Epetra then allocates once.
     std::vector<int> lengths;
     for (const auto &row : unknowns)
       lengths.insert(lengths.end(), n_components, n_components * row.size());
@@ -166,6 +193,7 @@ namespace Morula
         ids.clear();
         for (const auto unknown : unknowns[r])
           {
+            // The local number of a column, as in the map above.
             const int number =
               owned.is_element(unknown) ?
                 owned.index_within_set(unknown) :
@@ -197,6 +225,10 @@ namespace Morula
   void
   MatrixScatter<dim, n_components>::make_received(const Messages &announced)
   {
+    // The values that arrive have no indices. So each announced row gets a
+    // table: where in the row of the matrix the k-th announced column stands.
+    // One component is enough, as the others stand next to it and all
+    // components' rows have the same columns.
     std::vector<int> position_of(matrix.trilinos_matrix().NumMyCols());
     for (const auto &[rank, message] : announced)
       for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
@@ -210,6 +242,9 @@ namespace Morula
                                                     length,
                                                     values,
                                                     ids);
+          // The inverse of the row's column list, for this row only. Entries of
+          // earlier rows stay in position_of, but no column of this row reads
+          // them.
           for (int k = 0; k < length; ++k)
             position_of[ids[k]] = k;
           for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
@@ -223,6 +258,14 @@ namespace Morula
   MatrixScatter<dim, n_components>::make_positions(
     const Couplings &columns, const std::vector<unsigned int> &owners)
   {
+    // Makes three tables that add() reads for every entry of every grid cell's
+    // matrix: where each row of a relevant degree of freedom begins, in the
+    // matrix if this rank owns it, else in the buffer that goes to its owner;
+    // and where in such a row each column of a grid cell stands. The first loop
+    // translates relevant unknowns to local columns and rows. The second one
+    // inverts the grid cells' lists of unknowns. The third goes row by row, so
+    // that one inverse of a row's column list, position_of, serves all grid
+    // cells that add to this row.
     const IndexSet         &relevant = space.relevant();
     const Epetra_CrsMatrix &epetra   = matrix.trilinos_matrix();
     std::vector<int>        ids(relevant.n_elements());
@@ -246,12 +289,18 @@ namespace Morula
           places[unknowns[s]].emplace_back(c, s);
       }
 
+    // The place in the buffer of each owner up to which rows have been handed
+    // out. It advances in the order of announce().
     rows.resize(relevant.n_elements() * n_components);
     std::map<unsigned int, std::size_t> n_sent;
     std::vector<unsigned int>           position_of(
       std::max<int>(epetra.NumMyCols(), relevant.n_elements()));
+    // The loop is over the relevant unknowns, owned or not, since all of them
+    // have rows here.
     for (unsigned int unknown = 0; unknown < places.size(); ++unknown)
       {
+        // An owned row lies in the matrix: its columns are local column
+        // numbers.
         const bool owned = owned_number[unknown] >= 0;
         for (unsigned int i = 0; i < n_components; ++i)
           if (owned)
@@ -262,12 +311,15 @@ namespace Morula
                                       length,
                                       rows[unknown * n_components + i],
                                       row_ids);
-              // All components' rows have the same columns.
+              // All components' rows have the same columns, so the first one's
+              // list serves all.
               for (int k = 0; i == 0 && k < length; ++k)
                 position_of[row_ids[k]] = k;
             }
           else
             {
+              // A row of another rank lies in a buffer, with the columns that
+              // this rank has announced, n_components numbers each.
               const unsigned int rank          = owners[unknown];
               rows[unknown * n_components + i] = &sent[rank][n_sent[rank]];
               n_sent[rank] += n_components * columns[unknown].size();
@@ -275,6 +327,8 @@ namespace Morula
         if (!owned)
           for (unsigned int k = 0; k < columns[unknown].size(); ++k)
             position_of[columns[unknown][k]] = k * n_components;
+        // Each grid cell that holds this unknown gets the places of its own
+        // unknowns in the row.
         for (const auto &[c, s] : places[unknown])
           {
             const auto &unknowns = space.grid_cells()[c].unknowns;
@@ -290,6 +344,9 @@ namespace Morula
   MatrixScatter<dim, n_components>::add(const unsigned int         grid_cell,
                                         const std::vector<double> &local_matrix)
   {
+    // Rows and columns of the local matrix are ordered by component, those of
+    // the sparse one by unknown. The components of a column stand side by side,
+    // so one position serves all of them.
     const auto        &unknowns = space.grid_cells()[grid_cell].unknowns;
     const unsigned int m        = unknowns.size();
     for (unsigned int s = 0; s < m; ++s)
@@ -321,6 +378,10 @@ namespace Morula
   std::map<unsigned int, std::vector<double>>
   MatrixScatter<dim, n_components>::exchange() const
   {
+    // Both sides know from announce() how much comes from whom. So plain
+    // messages between neighbours do, and no rank waits for one that has
+    // nothing for it. All receives are posted first, so that messages go
+    // straight into their buffers.
     constexpr int                               tag = 0;
     std::map<unsigned int, std::vector<double>> values;
     std::vector<MPI_Request>                    requests;
@@ -358,6 +419,8 @@ namespace Morula
   void
   MatrixScatter<dim, n_components>::finish()
   {
+    // Records arrive in the order of announce(); a record holds all rows of one
+    // unknown, one component after the other.
     const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
     for (const auto &[rank, values] : exchange())
       {

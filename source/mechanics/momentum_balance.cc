@@ -24,6 +24,9 @@ namespace Morula
                   const Better               &better,
                   const MPI_Comm              comm)
     {
+      // Every rank gathers the extremes of all ranks, so that all of them pick
+      // the same one. An equal value of a later rank does not replace an
+      // earlier one.
       const auto all =
         Utilities::MPI::all_gather(comm,
                                    std::array<double, 4>{{extreme.value,
@@ -87,13 +90,25 @@ namespace Morula
                                Vector       &R,
                                Vector       *magnitudes) const
   {
+    // The terms of all active grid cells of this rank add up here: the energy,
+    // doc/theory.md (2.1), and its derivative, the residual, which is condensed
+    // to the unknown splines, doc/theory.md (3.5). Energies and inversions of
+    // all ranks are summed before anything is done with the residuals. If a
+    // point of any rank is inverted there is no residual to exchange: all ranks
+    // take the same branch, and leave R alone. Else the owners of the unknowns
+    // collect what other ranks have for them.
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted(magnitudes));
     std::vector<double>      sizes;
     Evaluation               evaluation;
+    // Any point has a smaller J_e than this.
     evaluation.smallest_J.value = std::numeric_limits<double>::infinity();
-    double     energies[3]      = {0., 0., 0.};
-    const auto add              = [&](const unsigned int     c,
+    // This rank's energy, its magnitude, and whether a point is inverted: one
+    // reduction sums all three.
+    double energies[3] = {0., 0., 0.};
+    // The field on a grid cell is given by its plain splines. A false return
+    // ends this rank's loop, as no residual is needed any more.
+    const auto add = [&](const unsigned int     c,
                          const LocalField<dim> &field,
                          LocalSystem<dim>      &local) {
       for (const auto &term : terms)
@@ -154,6 +169,8 @@ namespace Morula
                                  Vector       &R,
                                  Vector       *magnitudes) const
   {
+    // The content of a lumen follows from the volume at u, which an inverted
+    // state does not have.
     Evaluation evaluation = sum_up(u, R, magnitudes);
     if (enclosure != nullptr && std::isfinite(evaluation.energy))
       add_content(u, evaluation, R, magnitudes);
@@ -177,10 +194,15 @@ namespace Morula
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted(magnitudes));
     std::vector<double>      sizes;
-    double                   volumes[2] = {0., 0.};
-    const auto               add        = [&](const unsigned int     c,
+    // The volume and its magnitude on this rank; then over all ranks.
+    double     volumes[2] = {0., 0.};
+    const auto add        = [&](const unsigned int     c,
                          const LocalField<dim> &field,
-                         LocalSystem<dim>      &local) {
+                         // The terms' own loop is used, though the sums mean a
+                         // volume: the local "energy" is what the enclosure
+                         // gains, the "residual" its derivative by u,
+                         // doc/theory.md (4.8h).
+                         LocalSystem<dim> &local) {
       enclosure->gain.add(c, field, GrowthAt::current, local);
       volumes[0] += local.energy;
       volumes[1] += local.energy_magnitude;
@@ -210,6 +232,10 @@ namespace Morula
                                     Vector       &R,
                                     Vector       *magnitudes) const
   {
+    // With b = dV/du the content adds the energy and the force -p b of
+    // doc/theory.md (4.8i). It needs the volume of all ranks before it can say
+    // its pressure; so the volume takes a loop over the boundary points of its
+    // own.
     Vector b, sizes;
     const auto [gained, magnitude] =
       gain(u, b, magnitudes != nullptr ? &sizes : nullptr);
@@ -218,6 +244,8 @@ namespace Morula
     if (magnitudes != nullptr)
       magnitudes->add(std::abs(pressure), sizes);
     evaluation.energy += enclosure->content.energy(V, enclosure->volume);
+    // The content has no volume left: the state counts as inverted, and R is
+    // left alone.
     if (!std::isfinite(evaluation.energy))
       return;
     evaluation.energy_magnitude += std::abs(pressure) * magnitude;
@@ -230,6 +258,8 @@ namespace Morula
                                         const unsigned int      number,
                                         Evaluation &evaluation) const
   {
+    // Terms know places only as coordinates in their grid cell. Places of the
+    // configuration at t are needed where ranks compare.
     const auto place = [&](const Point<dim> &xi) {
       return in_space(space.box().corner(space.box().index(number)) +
                       space.box().spacing() * Tensor<1, dim>(xi));
@@ -266,6 +296,9 @@ namespace Morula
   bool
   MomentumBalance<dim>::is_far_from(const Vector &begin, const Vector &u) const
   {
+    // Tissue that is squeezed to less than this part of its volume within a
+    // step has left the range in which Newton's method converges from the old
+    // state.
     constexpr double least_J = 0.3;
     Vector           moved(u), R(u);
     moved -= begin;
@@ -279,7 +312,11 @@ namespace Morula
   {
     double     largest = -1.;
     Point<dim> place;
-    // An unknown belongs to the place that is its coefficient in the field x.
+    // The search runs over the unknowns that this rank owns, component after
+    // component. An unknown's place is its coefficient in the field x, the
+    // affine field that maps each point to itself: the centre of a plain
+    // spline. That field is made only for pieces in which a larger entry was
+    // met.
     std::vector<std::vector<double>> places(space.n_pieces());
     unsigned int                     k = 0;
     for (const auto row : R.locally_owned_elements())
@@ -327,11 +364,21 @@ namespace Morula
   const TrilinosWrappers::SparseMatrix &
   MomentumBalance<dim>::tangent(const Vector &u, const GrowthAt growth)
   {
+    // The first call of a step makes the sparsity pattern. A lumen comes first,
+    // since its pressure at u, a sum over all ranks, multiplies the second
+    // derivative of its volume in each grid cell; its dense part p' b bᵀ of
+    // doc/theory.md (4.8i) is kept beside the sparse matrix. Then the terms add
+    // their tangents grid cell by grid cell. Where the volumetric strain is a
+    // mean over a grid cell, each tangent leaves a linearisation that the next
+    // one reads (section 2.4). So the order of calls matters, and a first
+    // tangent, which is asked for with the growth of t, forgets the former
+    // ones.
     if (!assembly.has_pattern())
       {
         const TimerOutput::Scope section(timer, "sparsity pattern");
         assembly.make_pattern();
       }
+    // A later turn of the step starts in equilibrium with the new growth.
     const GrowthAt at       = goes_on ? GrowthAt::current : growth;
     double         pressure = 0.;
     if (enclosure != nullptr)
@@ -352,13 +399,16 @@ namespace Morula
       local.last = !linearisations.empty() && linearisations[c] ?
                            &*linearisations[c] :
                            nullptr;
-      // Hardly anything may resist extended splines, and some motions of thin
-      // tissue.
+      // Single precision is enough where the matrix is far from singular.
+      // Hardly anything resists extended splines, and some motions of thin
+      // tissue: there rounding to seven digits would let them drift.
       const auto &grid_cell = space.grid_cells()[c];
       local.in_single =
         dim == 3 && grid_cell.weights.empty() && !grid_cell.thin;
       for (const auto &term : terms)
         term->add(c, field, at, local);
+      // The sparse part of the lumen's tangent: -p times the second derivative
+      // of the gained volume.
       if (pressure != 0.)
         {
           of_gain.clear();
@@ -366,6 +416,8 @@ namespace Morula
           for (std::size_t k = 0; k < local.matrix.size(); ++k)
             local.matrix[k] -= pressure * of_gain.matrix[k];
         }
+      // Only terms with a mean volumetric strain leave one; others take no
+      // memory for it.
       if (local.linearisation)
         {
           linearisations.resize(space.grid_cells().size());
@@ -402,14 +454,18 @@ namespace Morula
     // with a kept tangent these drift.
     constexpr double least_cells_a_spline = dim == 2 ? 20. : 2.;
     LinearProblem    result;
+    // The solver takes conjugate gradients only if all terms have an energy.
     result.symmetric =
       std::all_of(terms.begin(), terms.end(), [](const auto &term) {
         return term->is_conservative();
       });
     result.null_space   = std::move(null_space);
     result.n_components = dim;
+    // E h^(dim-2) is the size of an entry of the tangent, doc/theory.md (2.5):
+    // W/h² times E, with W = h^dim.
     result.typical_entry =
       youngs_modulus * std::pow(space.box().spacing(), dim - 2);
+    // A sum of doubles does not overflow where cells are many.
     result.costly = Utilities::MPI::sum(1. * n_cells, comm) >=
                     least_cells_a_spline * space.n_unknowns();
     // With the reference BLAS MUMPS takes 12 s for 11,016 unknowns in 3-D and
@@ -424,6 +480,8 @@ namespace Morula
   MomentumBalance<dim>::scales(const double youngs_modulus) const
   {
     const double h = space.box().spacing();
+    // A force on the face of a grid cell counts as small at a millionth of
+    // Young's modulus: doc/theory.md (5.3).
     return {1e-6 * youngs_modulus * std::pow(h, dim - 1), h};
   }
 

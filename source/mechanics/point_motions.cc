@@ -12,6 +12,8 @@ namespace Morula
   void
   find_motions_plainly(const KernelInput &input, double *motions)
   {
+    // The slow but obvious form of the kernels: tests compare with it, and
+    // materials without kernels of their own use it.
     LocalField<dim> field;
     std::copy_n(input.coefficients,
                 LocalSystem<dim>::n_dofs,
@@ -36,6 +38,7 @@ namespace Morula
   FindMotions
   motion_kernel(const Material &material, const std::string &kernel)
   {
+    // Kernels are listed fastest first, so "automatic" takes the first one.
     for (const auto &kernels : material.vector_kernels<dim>())
       if (kernel == "automatic" || kernel == kernels.name)
         return kernels.find_motions;
@@ -48,10 +51,14 @@ namespace Morula
                 const DisplacementField<dim> &displacement,
                 const FindMotions             find_motions)
   {
+    // Kernels write u and f one after the other as plain numbers, into the
+    // memory of the result.
     static_assert(sizeof(PointMotion<dim>) ==
                   (dim + dim * dim) * sizeof(double));
     std::vector<PointMotion<dim>> motions(store.size());
     std::vector<Point<dim>>       xi;
+    // One call for each grid cell that holds points of the store. The points of
+    // a grid cell are neighbours in the store, so their results are, too.
     displacement.on_grid_cells(
       store,
       [&](const auto            &grid_cell,

@@ -20,6 +20,8 @@ namespace Morula
                       const GrowthAt,
                       LocalSystem<dim> &system) const
   {
+    // A term that has met an inverted point needs no further ones: the state is
+    // refused anyway.
     for (unsigned int p = points.offsets[grid_cell];
          p < points.offsets[grid_cell + 1] && !system.inverted;
          ++p)
@@ -74,12 +76,15 @@ namespace Morula
   {
     constexpr unsigned int n      = BSpline<dim>::n;
     constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
+    // Energy and residual come together, the tangent alone: this is how
+    // Newton's method asks.
     if (system.wanted != LocalSystem<dim>::tangent)
       {
         system.add_energy(energy);
         add_force_at(splines, force, system);
         return;
       }
+    // The stiffness at the point times N_a N_b: row by row, contiguous in b.
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int j = 0; j < dim; ++j)

@@ -33,6 +33,8 @@ namespace Morula
           result[i] = c[i] / (v + (1. - v) * c[i]);
           product *= result[i];
         }
+      // A flow keeps the volume, so the product of the principal values has to
+      // stay 1.
       const double scale = std::pow(product, -1. / dim);
       for (double &value : result)
         value *= scale;
@@ -55,6 +57,8 @@ namespace Morula
       double
       operator()(const Isochoric<dim> &c) const
       {
+        // The stress depends on c by its deviator and on α(tr b_e, J_e). tr b_e
+        // - 3 is factor * trace - dim also in 2-D, where b_e,zz is 1.
         double trace = 0.;
         for (const double value : c)
           trace += value;
@@ -92,6 +96,9 @@ namespace Morula
     double
     what_stays_of_exact_flow(const Isochoric<dim> &c, const double gamma)
     {
+      // The slope is smooth and tends to 1, so that steps of half a relaxation
+      // time are short ones. After 40 relaxation times e^{-s} is below
+      // rounding, and the rest of the time is added to s as it is.
       constexpr double longest = 0.5, nearly_all = 40.;
       const auto       slope = [&c](const double s) {
         double product = 1.;
@@ -127,18 +134,24 @@ namespace Morula
                const double            dt)
     {
       const double tau = flow.relaxation_time;
+      // Without a yield stress the flow is exact for any step.
       if (flow.yield_stress <= 0.)
         return what_stays_of_exact_flow<dim>(c, dt / tau);
       const double v = tau / (tau + dt);
+      // Below the yield stress nothing flows. Above it the root of
+      // doc/theory.md (8.5) lies between v = tau / (tau + dt), the root without
+      // a yield stress, and 1, no flow.
       if (stress(c) <= flow.yield_stress)
         return 1.;
       const auto residual = [&](const double v) {
         const double m = stress(relaxed<dim>(c, v));
         return (1. - v) * tau * m - v * dt * (m - flow.yield_stress);
       };
-      // A yield stress below rounding.
+      // The yield stress is below rounding: the residual has no change of sign,
+      // and the flow is that without one.
       if (!(residual(v) > 0.))
         return v;
+      // The bound is a guard only.
       std::uintmax_t iterations = 100;
       const auto [below, above] = boost::math::tools::toms748_solve(
         residual,
@@ -157,6 +170,8 @@ namespace Morula
   weight_of_end(const double gamma)
   {
     // Below this the difference has fewer digits than the series.
+    // At 10⁻³ the series is wrong by γ³/720, the difference by rounding over γ:
+    // both are below 10⁻¹¹.
     constexpr double small = 1e-3;
     return gamma < small ? 0.5 + gamma / 12. :
                            -1. / std::expm1(-gamma) - 1. / gamma;
@@ -186,6 +201,9 @@ namespace Morula
                const FlowLaw        &flow,
                const double          dt)
   {
+    // The flow is coaxial with C_e = F_eᵀ F_e. So its principal values are what
+    // relaxes, at constant J_e and constant directions; what is left of each
+    // gives the stretch of D along its direction: doc/theory.md (8.4).
     const auto C       = eigenvectors(symmetrize(transpose(F_e) * F_e));
     double     product = 1.; // J_e²
     for (const auto &[value, vector] : C)
@@ -196,7 +214,8 @@ namespace Morula
 
     Isochoric<dim>         after = before;
     const ShearStress<dim> stress(std::sqrt(product), lame, material);
-    const unsigned int     passes = flow.yield_stress > 0. ? flow.passes : 1;
+    // The exact flow needs one pass; backward Euler is more exact in several.
+    const unsigned int passes = flow.yield_stress > 0. ? flow.passes : 1;
     for (unsigned int pass = 0; pass < passes; ++pass)
       {
         const double v = what_stays<dim>(after, stress, flow, dt / passes);
@@ -204,7 +223,7 @@ namespace Morula
           after = relaxed<dim>(after, v);
       }
 
-    // Exactly the identity where nothing flows.
+    // Written as I plus a sum, D is exactly the identity where nothing flows.
     SymmetricTensor<2, dim> D = unit_symmetric_tensor<dim>();
     for (unsigned int i = 0; i < dim; ++i)
       D += (std::sqrt(before[i] / after[i]) - 1.) *

@@ -78,6 +78,9 @@ namespace Morula
                    typename Masses::const_iterator       &mass,
                    const typename Masses::const_iterator &end)
       {
+        // Masses come sorted by grid cell, so one grid cell's are neighbours.
+        // The motion of a rigid mode is linear in x: two sums by spline serve
+        // all modes.
         for (; mass != end; ++mass)
           {
             const GridIndex<dim> index = space.box().locate(mass->x);
@@ -128,6 +131,8 @@ namespace Morula
       mode.a[k] = 1.;
     else
       {
+        // Rotations act in the planes (0,1), (1,2), (2,0); in 2-D there is only
+        // the first.
         const unsigned int i = (k - dim) % dim, j = (i + 1) % dim;
         mode.B[i][j] = 1. / length;
         mode.B[j][i] = -1. / length;
@@ -139,6 +144,8 @@ namespace Morula
   Tensor<2, dim>
   RigidModes<dim>::rotation(const Tensor<2, dim> &B)
   {
+    // Cayley's transform is a rotation to rounding for any skew B, unlike I +
+    // B.
     return invert(identity<dim>() - 0.5 * B) * (identity<dim>() + 0.5 * B);
   }
 
@@ -159,6 +166,8 @@ namespace Morula
   void
   RigidModes<dim>::find_centers(const std::vector<Mass> &masses)
   {
+    // Sums of V⁰ and V⁰ x by piece. Every rank has all pieces, as pieces may
+    // run through several ranks.
     std::vector<double> sums(pieces.size() * (dim + 1), 0.);
     for (const Mass &mass : masses)
       {
@@ -171,6 +180,8 @@ namespace Morula
     for (unsigned int p = 0; p < pieces.size(); ++p)
       {
         pieces[p].volume = sums[p * (dim + 1) + dim];
+        // A piece may be without particles where only boundary points make grid
+        // cells active. It keeps the origin as its center.
         if (pieces[p].volume > 0.)
           for (unsigned int d = 0; d < dim; ++d)
             pieces[p].center[d] = sums[p * (dim + 1) + d] / pieces[p].volume;
@@ -181,13 +192,21 @@ namespace Morula
   void
   RigidModes<dim>::find_free_modes(const std::vector<Support> &supports)
   {
+    // The first loop sums the matrix S of doc/theory.md (4.9) over this rank's
+    // supports, for all pieces at once, and one reduction adds up all ranks':
+    // pieces may run through several. Then every rank finds the same
+    // eigenvectors of the small matrices of all pieces. Those with next to no
+    // eigenvalue are motions that nothing holds; they are combined from the
+    // elementary ones. The length makes translations and rotations comparable
+    // in S.
     const double        length = space.box().spacing();
     constexpr int       n      = n_modes;
     std::vector<double> sums(pieces.size() * n * n, 0.);
     for (const Support &support : supports)
       {
         const Tensor<1, dim> z = support.x - pieces[support.piece].center;
-        Tensor<1, dim>       held[n];
+        // The part of each elementary motion that this support holds.
+        Tensor<1, dim> held[n];
         for (unsigned int k = 0; k < n; ++k)
           {
             const Mode mode = elementary_mode(k, length);
@@ -206,11 +225,16 @@ namespace Morula
         for (unsigned int k = 0; k < n; ++k)
           for (unsigned int l = 0; l < n; ++l)
             stiffness(k, l) = sums[(p * n + k) * n + l];
+        // The scale of S: a piece without supports has 0 here, and keeps all
+        // its motions.
         double largest = 0.;
         for (unsigned int k = 0; k < n; ++k)
           largest = std::max(largest, stiffness(k, k));
         Vector<double>     eigenvalues;
         FullMatrix<double> eigenvectors;
+        // LAPACK finds eigenvalues within bounds only. S is semidefinite, so
+        // the lower bound is far below all; 1e-300 keeps 0 inside where S
+        // vanishes.
         stiffness.compute_eigenvalues_symmetric(-1. - largest,
                                                 support_tolerance * largest +
                                                   1e-300,
@@ -251,6 +275,8 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   RigidModes<dim>::null_space() const
   {
+    // Projects out motions as coefficient vectors. The origin of a + B x is
+    // moved from the piece's center to that of the coordinates.
     const FieldUnknowns<dim>         unknowns(space, comm);
     std::vector<Equilibrium::Vector> basis;
     for (unsigned int p = 0; p < pieces.size(); ++p)
@@ -268,6 +294,11 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   RigidModes<dim>::inertia(const std::vector<Mass> &masses) const
   {
+    // The loop over the particles goes grid cell by grid cell, as they are
+    // sorted so, and sums V⁰ N_a m(x) for all free motions of the piece,
+    // condensed to its unknowns: w of doc/theory.md (4.10). The sums of ranks
+    // are added up, and made orthonormal, afterwards. All ranks have the same
+    // motions in the same order, so that the collective calls agree.
     std::vector<unsigned int> first(1, 0); // vector of each piece
     for (const Piece &piece : pieces)
       first.push_back(first.back() + piece.free.size());
@@ -276,8 +307,9 @@ namespace Morula
       first.back(), std::vector<double>(unknowns.relevant().n_elements(), 0.));
     for (auto mass = masses.begin(); mass != masses.end();)
       {
-        const unsigned int      p         = mass->piece;
-        const auto             &grid_cell = grid_cell_at(space, mass->x);
+        const unsigned int p         = mass->piece;
+        const auto        &grid_cell = grid_cell_at(space, mass->x);
+        // The constructor advances `mass` to the next grid cell.
         const FirstMoments<dim> moments(
           space, grid_cell.number, pieces[p].center, mass, masses.end());
         const Condensation<dim> condensation(grid_cell);
@@ -297,7 +329,10 @@ namespace Morula
     std::vector<Equilibrium::Vector>       basis;
     for (unsigned int p = 0; p < pieces.size(); ++p)
       for (unsigned int k = first[p]; k < first[p + 1]; ++k)
-        // A rotation without inertia keeps its coefficient vector.
+        // A rotation without inertia (of a single particle, or of a row about
+        // its line) would leave a vector of rounding errors. It keeps its
+        // coefficient vector, as the motion still has to stay out of the
+        // solution.
         if (!add_orthonormal(unknowns.sum(sums[k]),
                              basis,
                              inertia_tolerance * pieces[p].volume))

@@ -31,13 +31,16 @@ namespace Morula
     const auto &unknowns = space.grid_cells()[grid_cell].unknowns;
     if (space.grid_cells()[grid_cell].weights.empty())
       {
-        // The unknowns are the splines.
+        // Inside of the tissue the unknowns are the splines, and their values
+        // are copied.
         LocalField<dim, n_components> field;
         for (unsigned int s = 0; s < unknowns.size(); ++s)
           for (unsigned int i = 0; i < n_components; ++i)
             field.coefficient[i][s] = values[unknowns[s] * n_components + i];
         return field;
       }
+    // At the surface the outer splines follow from the unknowns by C,
+    // doc/theory.md (3.5), which wants the values component after component.
     std::vector<double> coefficients(n_components * unknowns.size());
     for (unsigned int s = 0; s < unknowns.size(); ++s)
       for (unsigned int i = 0; i < n_components; ++i)

@@ -43,6 +43,9 @@ namespace Morula
       Polynomials<n_powers, n_pairs> result{};
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b <= a; ++b)
+          // The derivative by s of s^i is i s^(i-1): so the first power that
+          // counts is that of the derivative, and the degree falls by one for
+          // each factor.
           for (unsigned int i = n_derivatives; i < 3; ++i)
             for (unsigned int j = n_derivatives; j < 3; ++j)
               result[i + j - 2 * n_derivatives][pairs[a][b]] +=
@@ -68,6 +71,10 @@ namespace Morula
                   const unsigned int  n_others,
                   double *const       result)
     {
+      // In `sums` the direction's powers are the slowest index, in `result` its
+      // polynomials are the fastest. So the next direction is the slowest one
+      // then, and after all directions have had their turn the order is the old
+      // one again.
       for (unsigned int q = 0; q < n_others; ++q)
         {
           double *const row = &result[q * n_polynomials];
@@ -83,7 +90,10 @@ namespace Morula
     sums_of_splines(const double *const powers)
     {
       constexpr auto polynomials = single<n_powers>();
-      Sums<dim>      sums{};
+      // The powers of one direction after the other give way to splines; what
+      // is left of the others does not change. Each step costs a small product
+      // for all powers of the other directions: doc/theory.md, section 11.6.
+      Sums<dim> sums{};
       std::copy_n(powers, Utilities::pow<int>(n_powers, dim), sums.begin());
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -95,7 +105,8 @@ namespace Morula
                         next.data());
           sums = next;
         }
-      // The last direction runs fastest there, the first one in splines.
+      // The last direction runs fastest there, whereas the first one does in
+      // the numbering of splines.
       std::array<double, BSpline<dim>::n> result;
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
@@ -114,12 +125,18 @@ namespace Morula
                   const double              h,
                   const bool                with_values)
     {
+      // A product of gradients is a sum over directions in which one direction
+      // has derivatives and all others have values. `before` carries sums in
+      // which no direction has had its derivatives yet, `after` those in which
+      // one has, together with the products of values: a direction either
+      // passes on `after`, or moves `before` there. So both parts of the
+      // matrix, doc/theory.md (11.2), come from one pass over the directions.
       constexpr auto values = products<5>(0);
       auto           slopes = products<3>(1);
       for (auto &power : slopes)
         for (double &coefficient : power)
           coefficient /= h * h;
-      // Before and after one direction had its derivatives.
+      // Sums before one direction had its derivatives, and after.
       Sums<dim> before{}, after{};
       std::copy(moments.sums[0].begin(), moments.sums[0].end(), before.begin());
       if (with_values)
@@ -133,6 +150,7 @@ namespace Morula
           Sums<dim> next_before{}, next_after{};
           add_direction(values, after.data(), n_others, next_after.data());
           add_direction(slopes, before.data(), n_others, next_after.data());
+          // In the last direction nothing can come later.
           if (d + 1 < dim)
             add_direction(values, before.data(), n_others, next_before.data());
           before = next_before;
@@ -167,6 +185,8 @@ namespace Morula
     std::array<unsigned int, BSpline<dim>::n * BSpline<dim>::n>
     places_of_pairs()
     {
+      // The pair of each direction is a digit in base n_pairs, the first
+      // direction's the most significant one.
       constexpr unsigned int          n = BSpline<dim>::n;
       std::array<unsigned int, n * n> places{};
       for (unsigned int a = 0; a < n; ++a)
@@ -187,11 +207,14 @@ namespace Morula
              const bool                lumped,
              std::vector<double>      &matrix)
   {
-    constexpr unsigned int n      = BSpline<dim>::n;
-    static const auto      places = places_of_pairs<dim>();
-    const Sums<dim>        sums   = sums_of_pairs(moments, h, !lumped);
+    constexpr unsigned int n = BSpline<dim>::n;
+    // The table is the same for all grid cells; a static is made once.
+    static const auto places = places_of_pairs<dim>();
+    const Sums<dim>   sums   = sums_of_pairs(moments, h, !lumped);
     for (unsigned int k = 0; k < n * n; ++k)
       matrix[k] += sums[places[k]];
+    // A lumped field has only gradients in the product; the values stand on the
+    // diagonal as row sums.
     if (!lumped)
       return;
     const auto diagonal = sums_of_splines<dim, 5>(moments.sums[1].data());
@@ -226,6 +249,8 @@ namespace Morula
   double
   value_at(const LocalField<dim, 1> &field, const Point<dim> &xi)
   {
+    // These are the splines in each direction, doc/theory.md (2.3). Summing
+    // direction by direction needs half the products of a sum over all splines.
     double N[dim][3];
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -14,6 +14,8 @@ namespace Morula
                        double                   *block,
                        const unsigned int        stride)
   {
+    // The slow but obvious form of the kernels: tests compare with it, and
+    // materials without kernels of their own use it.
     for (unsigned int p = 0; p < n; ++p)
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         for (unsigned int b = 0; b < BSpline<dim>::n; ++b)

@@ -97,8 +97,12 @@ namespace Morula
                 const std::array<Tensor<1, dim>, BSpline<dim>::n> &g,
                 LocalSystem<dim>                                  &system)
     {
-      constexpr unsigned int        n      = BSpline<dim>::n;
-      constexpr unsigned int        n_dofs = LocalSystem<dim>::n_dofs;
+      constexpr unsigned int n      = BSpline<dim>::n;
+      constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
+      // The second derivative of ψ has two kinds of parts. Displacement with
+      // gradient: N_a with the change of area by g_b, and the reverse. Gradient
+      // with gradient, in 3-D only: an antisymmetric block for each pair. Both
+      // enter with a minus sign, as the normals point into the space.
       std::array<Tensor<2, dim>, n> M;
       for (unsigned int a = 0; a < n; ++a)
         M[a] = prism.change_of_area(g[a]);
@@ -138,6 +142,8 @@ namespace Morula
                               const LocalField<dim>   &field,
                               LocalSystem<dim>        &system) const
   {
+    // Gradients here are those of the configuration at t, as doc/theory.md
+    // (4.8h) integrates from there to u, unlike those of other terms.
     constexpr unsigned int        n = BSpline<dim>::n;
     std::array<Tensor<1, dim>, n> g;
     for (unsigned int a = 0; a < n; ++a)
@@ -152,7 +158,8 @@ namespace Morula
         add_tangent(prism, splines, g, system);
         return;
       }
-    // Towards the tissue is out of the space.
+    // Areas point out of the tissue, that is into the space: where they move
+    // along their normals, the space gets smaller.
     const Tensor<1, dim> area = prism.mean_area();
     system.add_energy(-(prism.u * area));
     for (unsigned int a = 0; a < n; ++a)

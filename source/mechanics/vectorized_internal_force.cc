@@ -14,7 +14,8 @@ namespace Morula
     : InternalForce<dim>(points, form)
     , kernels(kernels)
   {
-    // What the kernels take arrays of these for.
+    // The kernels read arrays of these types as plain numbers, and rely on
+    // their layout.
     static_assert(sizeof(Point<dim>) == dim * sizeof(double));
     static_assert(sizeof(ElasticState<dim>) ==
                   (dim * dim + 1) * sizeof(double));
@@ -29,6 +30,8 @@ namespace Morula
                                       const LocalField<dim> &field,
                                       const GrowthAt         growth) const
   {
+    // A uniform material has one pair of constants, which the kernels read
+    // again for each point with stride 0.
     const auto        &points = this->points;
     const unsigned int first  = points.offsets[grid_cell],
                        stride = points.lame.size() == 1 ? 0 : 2;
@@ -49,6 +52,8 @@ namespace Morula
                                       LocalSystem<dim>   &system) const
   {
     const auto &points = this->points;
+    // Kernels fold det f into their smallest J: it is det f where that is not
+    // positive. So 1 stands for det f here.
     return system.admits(1.,
                          found.smallest_J,
                          points.xi[points.offsets[grid_cell] + found.at]);
@@ -62,9 +67,12 @@ namespace Morula
                                            VolumeMean<dim>       *mean,
                                            LocalSystem<dim>      &system) const
   {
+    // input() needs at least one point.
     if (!this->points.any(grid_cell))
       return true;
     KernelVolume volume{this->form};
+    // The kernel adds the gradients to the mean's own array; the scalars of the
+    // volume come back and are added below.
     if (mean != nullptr)
       volume.gradients = &mean->gradients[0][0];
     const KernelResult found =
@@ -92,6 +100,7 @@ namespace Morula
                                             const StrainOfGridCell *strain,
                                             LocalSystem<dim> &system) const
   {
+    // The caller says whether rounding to seven digits does here.
     const auto tangent =
       system.in_single ? kernels.tangent_in_single : kernels.tangent;
     return !this->points.any(grid_cell) ||
@@ -108,6 +117,8 @@ namespace Morula
                  const VolumetricStrain     form,
                  const std::string         &kernel)
   {
+    // A material without kernels for this processor, or "plain", takes the
+    // simple form.
     for (const auto &kernels : points.material->template vector_kernels<dim>())
       if (kernel == "automatic" || kernel == kernels.name)
         return std::make_unique<VectorizedInternalForce<dim>>(points,

@@ -37,6 +37,10 @@ namespace Morula
                  const std::string &header,
                  const TableExtent &kept)
     {
+      // A resumed run appends to this file, so what it has must be what the run
+      // has written up to the snapshot. Header, number of rows and digest are
+      // compared, and the reason is said. What stands behind, rows of steps
+      // after the snapshot, is cut off by the caller.
       std::ifstream in(path, std::ios::binary);
       if (!in)
         throw InputError("--resume",
@@ -59,7 +63,7 @@ namespace Morula
       for (std::uint64_t row = 0; row < kept.n_rows; ++row)
         {
           std::getline(in, line);
-          // a last line without its newline is incomplete
+          // A last line without its newline is incomplete.
           if (in.eof() || !in)
             throw InputError("--resume",
                              path,
@@ -114,6 +118,7 @@ namespace Morula
   {
     on_root(comm, [&]() {
       const Beginning beginning = beginning_of(path, csv_header(names), kept);
+      // Rows that were written after the snapshot are computed again.
       file   = std::make_unique<PosixFile>(path, PosixFile::Mode::overwrite);
       digest = beginning.digest;
       size   = beginning.size;
@@ -134,6 +139,7 @@ namespace Morula
   AppendedCsv::append(const std::string &rows)
   {
     on_root(comm, [&]() {
+      // Somebody may have moved the file while the run went on.
       file->check_in_place();
       file->write_at(rows, size);
       digest.add(rows);
@@ -148,6 +154,9 @@ namespace Morula
   {
     const auto sizes =
       Utilities::MPI::all_gather(comm, std::uint64_t(rows.size()));
+    // Long lists are written by all ranks, each its part behind those of lower
+    // ranks. Short ones, and all on file systems where that is not safe, are
+    // gathered.
     const auto own = sizes.begin() + Utilities::MPI::this_mpi_process(comm);
     const std::uint64_t n_all =
       std::accumulate(sizes.begin(), sizes.end(), std::uint64_t(0));
@@ -167,6 +176,11 @@ namespace Morula
                            const std::uint64_t n_before,
                            const std::uint64_t n_all)
   {
+    // Each rank writes its part at its place. Rank 0 makes the file long enough
+    // before, so that a full disk shows before anything is written. If any rank
+    // fails, the file is cut to what it was, and all of them throw. The digest
+    // of the rows follows from those of the parts, so that no rank reads the
+    // others'.
     const std::uint64_t begin = Utilities::MPI::broadcast(comm, size);
     const auto cut = [&]() { on_root(comm, [&]() { file->truncate(begin); }); };
     try

@@ -16,6 +16,8 @@ namespace Morula
 {
   namespace
   {
+    // Rows are short, and a call of the system for each of them would take
+    // longer than the row.
     constexpr std::size_t buffer_size = 1 << 20;
 
     /**
@@ -42,6 +44,7 @@ namespace Morula
       if (std::rename(temporary_path(path).c_str(), path.c_str()) != 0)
         {
           const int reason = errno;
+          // The reason is read before anything else may change errno.
           throw std::runtime_error("cannot replace the file '" + path +
                                    "': " + std::strerror(reason));
         }
@@ -58,6 +61,9 @@ namespace Morula
   void
   publish(const std::string &path)
   {
+    // What another library has written under the temporary name is forced to
+    // the disk before it takes the file's name: after a crash there is the old
+    // file or the new one, never a part.
     PosixFile file(temporary_path(path), PosixFile::Mode::change);
     file.sync();
     file.close();
@@ -71,6 +77,7 @@ namespace Morula
 
   AtomicFile::~AtomicFile()
   {
+    // A file that was not committed leaves nothing behind.
     if (!committed)
       std::remove(temporary_path(path).c_str());
   }
@@ -92,6 +99,7 @@ namespace Morula
   void
   AtomicFile::commit()
   {
+    // First the content is on the disk, then the name changes.
     file.write(buffer);
     file.sync();
     file.close();

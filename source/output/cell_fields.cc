@@ -14,6 +14,10 @@ namespace Morula
     , has_checkpoint(has_checkpoint)
     , declared(columns)
   {
+    // The names of the columns in the order in which add() appends values:
+    // those of every cell, the checkpoint's, those that effects declare. What
+    // stands behind n_csv_columns is for VTU alone, as it follows from the
+    // others. Vectors and tensors are names for several columns there.
     table.names = {"time",
                    "id",
                    "parent",
@@ -38,6 +42,7 @@ namespace Morula
                    "sigma_zx"};
     if (has_checkpoint)
       table.names.push_back("held_at_checkpoint");
+    // Names that do not exist in a table do not matter here.
     table.whole = {"id", "parent", "generation", "phase", "held_at_checkpoint"};
     declared.add_names(table);
     table.n_csv_columns = table.names.size();
@@ -63,6 +68,8 @@ namespace Morula
                        const bool                         held,
                        const CellQuantities              &q)
   {
+    // The values in the order of the names, and all of them: the table is one
+    // long list, row by row.
     const SymmetricTensor<2, 3> &sigma  = q.stress;
     std::vector<double>         &values = table.values;
     table.ids.push_back(id);
@@ -91,6 +98,7 @@ namespace Morula
     if (has_checkpoint)
       values.push_back(held);
     declared.add_values(cell.row(), table);
+    // The values for VTU alone: pressure, principal stresses, displacement.
     values.push_back(-trace(sigma) / 3.);
     for (const double principal : eigenvalues(sigma))
       values.push_back(principal);

@@ -18,6 +18,11 @@ namespace Morula
             const MPI_Comm          comm,
             const std::uint64_t     shared_from)
   {
+    // Rows are made on the rank that has the points, and then exchanged by id
+    // so that each rank has an equal part of the file, in order. If all ranks
+    // can write the file each writes its part from where lower ranks' end, in
+    // the background. Else rank 0 gathers and writes at once. The bytes are the
+    // same.
     CsvRows rows;
     for (std::size_t i = 0; i < fields.size(); ++i)
       rows.add(csv_row(fields.row(i), fields.n_csv_columns));
@@ -44,6 +49,7 @@ namespace Morula
         });
         return nullptr;
       }
+    // MPI_Exscan() leaves it alone on rank 0, which begins at 0.
     std::uint64_t before = 0; // stays on rank 0
     const int     error =
       MPI_Exscan(&n_own, &before, 1, MPI_UINT64_T, MPI_SUM, comm);

@@ -13,8 +13,8 @@ namespace Morula
   void
   append_number(std::string &text, const double value)
   {
-    // %.10g needs at most sign, 10 digits, point and exponent; like %g but
-    // several times faster and in every locale the same
+    // %.10g needs at most sign, 10 digits, point and exponent. to_chars() gives
+    // the same several times faster, in every locale; -0 becomes 0.
     char       digits[32];
     const auto end = std::to_chars(digits,
                                    digits + sizeof(digits),
@@ -70,12 +70,18 @@ namespace Morula
   std::string
   CsvRows::share_in_order(const GlobalOrder &order, const MPI_Comm comm) const
   {
+    // Each row's place among all ranks' rows is known, so it is also known
+    // which rank writes it: each gets an equal number. Rows travel as one text
+    // to each rank, with a list of places and lengths beside. What a rank has
+    // received is then put in order by place.
     std::vector<std::pair<std::uint64_t, std::string_view>> rows;
     const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    // place and length of each row; and the rows
+    // Place and length of each row, and the rows' text, by the rank that gets
+    // them.
     std::map<unsigned int, std::vector<std::uint64_t>> heads;
     std::map<unsigned int, std::vector<char>>          texts;
     for (std::size_t i = 0; i < ends.size(); ++i)
+      // On one rank nothing has to travel.
       if (const std::uint64_t place = order.places[i]; n_ranks == 1)
         rows.emplace_back(place, row(i));
       else
@@ -91,6 +97,7 @@ namespace Morula
         texts = Utilities::MPI::some_to_some(comm, texts);
         for (const auto &[rank, head] : heads)
           {
+            // The lengths cut the text into its rows again.
             const char *row = texts.at(rank).data();
             for (std::size_t k = 0; k < head.size(); row += head[k + 1], k += 2)
               rows.emplace_back(head[k], std::string_view(row, head[k + 1]));

@@ -21,6 +21,8 @@ namespace Morula
       if (column.rank == 0)
         return {column.name};
       std::vector<std::string> names;
+      // In 2-D the third components are there as well, as zeros, so that
+      // programs that read files need not ask for the dimension.
       for (const char i : {axes[0], axes[1], axes[2]})
         if (column.rank == 1)
           names.push_back(column.name + '_' + i);
@@ -37,6 +39,8 @@ namespace Morula
     for (const Columns::Entry &column : all.entries())
       if (column.in_output)
         {
+          // Files have 32 bits for each number, so larger integers would be
+          // wrong there.
           if (column.rank == 0 && column.n != 1)
             throw std::invalid_argument("The column '" + column.name +
                                         "' of 64 bits cannot be in the output: "
@@ -62,6 +66,8 @@ namespace Morula
   void
   DeclaredFields<dim>::combine(PointFields<dim> &table) const
   {
+    // Names of columns must be unique over all names, combined or not. That is
+    // tested here, as only here all of them are known.
     std::multiset<std::string> names(table.names.begin(), table.names.end());
     for (const auto &nonscalar : table.nonscalars)
       names.insert(nonscalar.name);
@@ -97,6 +103,7 @@ namespace Morula
           {
             const auto t = Flat<Tensor<2, dim>>::read(numbers);
             for (unsigned int i = 0; i < n_directions; ++i)
+              // A tensor has three rows in the table, also in 2-D.
               table.add_vector(i < dim ? t[i] : Tensor<1, dim>());
           }
       }

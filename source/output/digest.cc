@@ -16,11 +16,14 @@ namespace Morula
 
     constexpr std::uint64_t one = std::uint64_t(1) << 63; // x^0
 
-    /** a b modulo the generator. */
+    /** The product of a and b modulo the generator. */
     std::uint64_t
     product(const std::uint64_t a, std::uint64_t b)
     {
       std::uint64_t sum = 0;
+      // This multiplies polynomials over the field of two elements: for each
+      // term of a, b times that power of x is added, without carries. Whatever
+      // exceeds the degree is reduced by the generator at once.
       for (std::uint64_t term = one; term != 0; term >>= 1)
         {
           if (a & term)
@@ -35,6 +38,7 @@ namespace Morula
     power_of_bytes(std::uint64_t n)
     {
       std::uint64_t power = one;
+      // x^8 is one shifted by eight: the highest bit is x^0.
       for (std::uint64_t square = one >> 8; n > 0; n >>= 1)
         {
           if (n & 1)
@@ -54,6 +58,8 @@ namespace Morula
       Tables tables{};
       for (unsigned int byte = 0; byte < 256; ++byte)
         {
+          // The remainder of one byte, bit by bit; then with more and more
+          // zeros behind it.
           std::uint64_t rest = byte;
           for (unsigned int bit = 0; bit < 8; ++bit)
             rest = (rest >> 1) ^ ((rest & 1) != 0 ? generator : 0);
@@ -86,7 +92,9 @@ namespace Morula
                  const std::uint64_t second,
                  const std::uint64_t n_bytes)
   {
-    // What the inversion of begin and end adds is the same in all three.
+    // The digest of both parts joined is that of the first with n_bytes of
+    // zeros behind it, plus the second one's: a remainder is linear. The
+    // inversions of begin and end add the same in all three.
     return product(first, power_of_bytes(n_bytes)) ^ second;
   }
 
@@ -96,6 +104,8 @@ namespace Morula
     const auto *byte = reinterpret_cast<const unsigned char *>(bytes.data());
     const auto *const end  = byte + bytes.size();
     std::uint64_t     rest = remainder;
+    // Eight bytes at a time: each has a table of its own, for its distance to
+    // the end of the eight, and the results do not wait for each other.
     for (; end - byte >= 8; byte += 8)
       {
         const std::uint64_t word = rest ^ little_endian(byte);
@@ -103,6 +113,7 @@ namespace Morula
         for (unsigned int k = 0; k < 8; ++k)
           rest ^= tables[7 - k][word >> (8 * k) & 255];
       }
+    // The last few bytes, one at a time.
     for (; byte != end; ++byte)
       rest = (rest >> 8) ^ tables[0][(rest ^ *byte) & 255];
     remainder = rest;
@@ -122,6 +133,7 @@ namespace Morula
   std::vector<int>
   as_integers(const std::uint64_t digest)
   {
+    // Snapshots have tables of ints, so a digest is two of them.
     return {static_cast<int>(digest >> 32),
             static_cast<int>(digest & 0xffffffffu)};
   }

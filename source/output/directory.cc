@@ -24,7 +24,8 @@ namespace Morula
   {
     const char *const key = "Output directory";
 
-    /** The next run does not replace one that took longer, seconds. */
+    /** The next run does not replace one that took longer, seconds. An hour of
+     *  work is not lost because somebody starts the scene again by mistake. */
     constexpr double longest_replaceable = 3600.;
 
     /** Throws an InputError about a path, with the system's reason. */
@@ -42,6 +43,7 @@ namespace Morula
     long long
     series_number(const std::string &name)
     {
+      // 18 digits are what stoll() can read for sure.
       static const std::regex pattern(
         "(?:cells|surface)-([0-9]{4,18})\\.(?:vtu|pvtu|csv)(?:\\.tmp)?");
       std::smatch match;
@@ -63,6 +65,8 @@ namespace Morula
     std::vector<fs::path>
     files_with(const fs::path &directory, const Predicate &wanted)
     {
+      // The entries are listed without exceptions, so that every error names
+      // the directory.
       std::vector<fs::path>  files;
       std::error_code        error;
       fs::directory_iterator entries(directory, error);
@@ -110,6 +114,7 @@ namespace Morula
       std::ifstream   in(fs::path(directory) / "statistics.csv");
       std::string     line;
       std::getline(in, line);
+      // The first columns of statistics.csv have always been these.
       return line.rfind("step,time,dt,cells,", 0) == 0 &&
              fs::exists(parameters_file(directory), ignored);
     }
@@ -134,6 +139,8 @@ namespace Morula
                      const RunSetup    &run,
                      RunRecord          record)
     {
+      // The record names the scene that the run is of, also if it was started
+      // from its own parameters.prm.
       record.scene = recorded_name(directory, run.scene_file);
       write_atomically(parameters_file(directory),
                        record.comments() + run.parameters);
@@ -159,7 +166,7 @@ namespace Morula
                        "the path of a directory",
                        "Name one, for instance 'output'.");
 
-    // the path itself, or the nearest directory above it that exists
+    // The path itself is tested, or the nearest directory above it that exists.
     std::error_code error;
     fs::path        existing = fs::absolute(directory, error);
     while (!error && !fs::exists(existing, error) && !error &&
@@ -173,6 +180,7 @@ namespace Morula
                        directory,
                        "a directory, but '" + existing.string() + "' is a file",
                        "Choose another one.");
+    // The system knows whether this process may write there.
     if (::access(existing.c_str(), W_OK | X_OK) != 0)
       refuse(existing, std::error_code(errno, std::generic_category()));
   }
@@ -192,12 +200,16 @@ namespace Morula
                     const std::string &scene_file,
                     const bool         replace)
   {
+    // A directory may hold no run, somebody's files, or a run. Files that only
+    // look like a run's are never deleted. Of a run the record says what it is.
+    // It may be replaced without being asked for if it is finished, of the same
+    // scene, and took less than an hour: anything else needs --replace.
     std::error_code error;
     if (!fs::is_directory(directory, error))
       return;
     const std::vector<fs::path> files =
       files_with(directory, [](const std::string &name) {
-        // a run that was killed at its very beginning leaves this file
+        // A run that was killed at its very beginning leaves this file.
         return is_run_file(name) && name != "parameters.prm.tmp";
       });
     if (files.empty())
@@ -244,12 +256,16 @@ namespace Morula
                     const MPI_Comm     comm)
   {
     on_root(comm, [&]() {
+      // The inputs of the scene may stand in the directory as well. They are
+      // looked for before anything is deleted.
       create_directory(directory);
       check_replaceable(directory, run.scene_file, run.replace);
       std::vector<fs::path> old_run = files_with(directory, is_run_file);
       refuse_to_remove_inputs(old_run, run.inputs);
-      // First, so that a run killed here leaves no files without a record.
+      // The record is written first, so that a run that is killed here leaves
+      // no files without one.
       write_parameters(directory, run, {});
+      // parameters.prm has just been replaced, and stays.
       old_run.erase(std::remove_if(old_run.begin(),
                                    old_run.end(),
                                    [](const fs::path &file) {
@@ -268,6 +284,8 @@ namespace Morula
   {
     on_root(comm, [&]() {
       check_directory(directory);
+      // Files of series behind the snapshot belong to a future that is computed
+      // again.
       remove(files_with(directory, [&](const std::string &name) {
         return series_number(name) >= static_cast<long long>(first_number);
       }));

@@ -29,8 +29,8 @@ namespace Morula
 
   namespace
   {
-    // Another process may hold the file for a moment only to look at it, or
-    // may not have written its name yet: hence several attempts.
+    // There are several attempts, as another process may hold the file for a
+    // moment only to look at it, or may not have written its name yet.
     constexpr unsigned int              n_attempts = 20;
     constexpr std::chrono::milliseconds pause(10);
 
@@ -48,6 +48,7 @@ namespace Morula
       std::ifstream in(path);
       std::string   line;
       std::getline(in, line);
+      // The file may be anybody's, so its text is cut and made printable.
       line.resize(std::min<std::size_t>(line.size(), 200));
       for (char &c : line)
         if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
@@ -73,6 +74,7 @@ namespace Morula
       const std::string name = "process " + std::to_string(::getpid()) +
                                " on " + Utilities::System::get_hostname() +
                                '\n';
+      // The name of an earlier holder may be longer.
       return ::ftruncate(descriptor, 0) == 0 &&
              ::pwrite(descriptor, name.data(), name.size(), 0) > 0;
     }
@@ -105,6 +107,12 @@ namespace Morula
   void
   DirectoryLock::take(const std::string &directory)
   {
+    // A lock on a file that the directory no longer has is worth nothing: the
+    // holder before may have deleted it between open() and flock(). So a lock
+    // counts only if the file is still the one of that name; else another one
+    // is made and tried. A lock that somebody holds is tried again for a
+    // moment. On a file system without locks the run goes on, and the log says
+    // so.
     for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
         descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -140,7 +148,7 @@ namespace Morula
   {
     if (descriptor < 0)
       return;
-    // before the lock is released: until then nobody else can take it
+    // The file goes before the lock does: until then nobody else can take it.
     if (is_open_at(descriptor, path))
       std::remove(path.c_str());
     ::close(descriptor);
@@ -154,6 +162,7 @@ namespace Morula
     if (descriptor < 0)
       return;
     const bool held =
+      // A shared lock only looks: it disturbs nobody for longer than this call.
       ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(descriptor);
     if (held)

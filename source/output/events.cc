@@ -10,7 +10,7 @@ namespace Morula
 {
   namespace
   {
-    /** By these the rows are ordered. */
+    /** The rows are ordered by time, then by id, then by kind. */
     struct EventKey
     {
       double                time;
@@ -72,8 +72,8 @@ namespace Morula
         rows.add(event_row(event, contents));
         keys.push_back({event.time, event.id, event.kind.order});
       }
-    // Several changes of a cell stay in their order: each ends where the next
-    // begins.
+    // Several changes of a cell at one time stay in their order: each ends
+    // where the next one begins.
     return rows.share_in_order(global_order(keys, comm), comm);
   }
 } // namespace Morula

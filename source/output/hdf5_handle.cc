@@ -7,6 +7,7 @@ namespace Morula
 {
   Hdf5Silence::Hdf5Silence()
   {
+    // HDF5 prints every error; here they are handled, or tried for.
     H5Eget_auto2(H5E_DEFAULT, &function, &data);
     H5Eset_auto2(H5E_DEFAULT, &Hdf5Silence::remember, this);
   }
@@ -49,6 +50,7 @@ namespace Morula
   std::string
   name_for_mpi(const std::string &path)
   {
+    // MPI I/O takes what stands before a colon for a file system.
     return path.find(':') == std::string::npos ? path : "ufs:" + path;
   }
 } // namespace Morula

@@ -14,6 +14,7 @@ namespace Morula
     Number
     check(const Number result, const std::string &what)
     {
+      // Results of HDF5 are negative where something failed.
       if (result < 0)
         throw std::runtime_error("cannot read " + what);
       return result;
@@ -22,6 +23,7 @@ namespace Morula
     /** Collects the names that H5Literate and H5Aiterate visit. */
     template <typename Info>
     herr_t
+    // HDF5 calls this for each name, and goes on as long as it returns 0.
     append_name(hid_t, const char *name, const Info *, void *names)
     {
       static_cast<std::vector<std::string> *>(names)->push_back(name);
@@ -30,6 +32,7 @@ namespace Morula
   } // namespace
 
   Hdf5Reader::Hdf5Reader(const std::string &path)
+    // Each rank reads by itself, but through MPI I/O as it was written.
     : file(H5Fopen(name_for_mpi(path).c_str(),
                    H5F_ACC_RDONLY,
                    access_by(MPI_COMM_SELF)),
@@ -94,6 +97,7 @@ namespace Morula
                              H5Dclose);
     const Hdf5Handle  type(check(H5Dget_type(dataset), what), H5Tclose);
     const Hdf5Handle  space(check(H5Dget_space(dataset), what), H5Sclose);
+    // Only what the writer has made is accepted: one string of fixed length.
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         H5Sget_simple_extent_npoints(space) != 1)
       throw std::runtime_error("cannot read " + what);
@@ -101,6 +105,7 @@ namespace Morula
     std::string value(H5Tget_size(type), '\0');
     check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value[0]),
           what);
+    // Shorter strings are filled up with zeros.
     value.erase(std::find(value.begin(), value.end(), '\0'), value.end());
     return value;
   }
@@ -135,6 +140,9 @@ namespace Morula
                    const hsize_t      begin,
                    const hsize_t      end) const
   {
+    // The range is checked against the file before memory is taken. Of the
+    // columns all are read: a selection of rows [begin, end) in the file, the
+    // same number of values in memory.
     const std::string    what  = "the data set '" + name + "'";
     std::vector<hsize_t> count = size(name);
     if (count.empty() || end < begin || end > count[0])

@@ -19,6 +19,8 @@ namespace Morula
     create_file(const std::string &path, const MPI_Comm comm)
     {
       const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      // HDF5 leaves so many bytes at the beginning of the file alone: there the
+      // seal goes.
       H5Pset_userblock(creation, size_of_seal);
       return {H5Fcreate(name_for_mpi(path).c_str(),
                         H5F_ACC_TRUNC,
@@ -95,6 +97,7 @@ namespace Morula
   Hdf5Writer::text(const std::string &name, const std::string &value)
   {
     const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
+    // Rank 0 writes the text; the others take part in the call with no rows.
     write_dataset(
       name, string_type(value.size()), {1}, 0, root ? 1 : 0, value.c_str());
   }
@@ -119,6 +122,7 @@ namespace Morula
                    const hsize_t      n_local_rows,
                    const hsize_t      n_columns)
   {
+    // The first row of each rank is the number of rows of all lower ranks.
     const unsigned long long n_local = n_local_rows;
     unsigned long long       before  = 0; // MPI_Exscan leaves rank 0's
     const int                ierr =
@@ -140,7 +144,13 @@ namespace Morula
                             const hsize_t               n_local_rows,
                             const void                 *values)
   {
+    // The data set is made by all ranks together with its size over all ranks.
+    // Then each selects its rows in the file and in memory, and all write in
+    // one collective call. Errors are noted and not thrown, as a rank that
+    // leaves would let the others wait; close() tells all of them.
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    // Without times of creation and without fill values the file depends on the
+    // data alone, bit by bit.
     H5Pset_obj_track_times(creation, false);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const Hdf5Handle file_space(H5Screate_simple(global_size.size(),
@@ -157,7 +167,8 @@ namespace Morula
                              H5Dclose);
     note(dataset >= 0);
 
-    // a data set without any value has no place in the file
+    // A data set without any value has no place in the file, and nothing is to
+    // be written.
     const auto has_no_values = [](const std::vector<hsize_t> &size) {
       return std::find(size.begin(), size.end(), hsize_t(0)) != size.end();
     };
@@ -170,6 +181,7 @@ namespace Morula
     count[0]                   = n_local_rows;
     const Hdf5Handle memory_space(
       H5Screate_simple(count.size(), count.data(), nullptr), H5Sclose);
+    // A rank without rows takes part with an empty selection.
     const bool nothing = has_no_values(count);
     if (nothing)
       {
@@ -198,6 +210,7 @@ namespace Morula
   bool
   Hdf5Writer::close()
   {
+    // Whether the file was closed without an error counts as well.
     note(file.release());
     return Utilities::MPI::min(good ? 1 : 0, comm) == 1;
   }

@@ -28,6 +28,7 @@ namespace Morula
     std::vector<types::particle_index> ids;
     for (const Birth<dim> &birth : births)
       {
+        // In 2-D z is 0.
         std::array<double, 8> values = {{static_cast<double>(birth.id),
                                          static_cast<double>(birth.parent),
                                          static_cast<double>(birth.generation),
@@ -38,6 +39,7 @@ namespace Morula
                                          static_cast<double>(birth.type)}};
         for (unsigned int d = 0; d < dim; ++d)
           values[4 + d] = birth.position[d];
+        // Without types the last value is left out.
         rows.add(csv_row(values.data(), with_types ? 8 : 7));
         ids.push_back(birth.id);
       }

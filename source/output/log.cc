@@ -32,7 +32,7 @@ namespace Morula
       }
     catch (const std::exception &)
       {
-        // the error that is being reported matters more than this one
+        // The error that is being reported matters more than this one.
       }
   }
 } // namespace Morula

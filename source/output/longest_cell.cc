@@ -18,6 +18,7 @@ namespace Morula
   double
   LongestCell<dim>::limit() const
   {
+    // A cell at the limit, as in an even lattice, is not too long.
     constexpr double slack = 1e-9; // for rounding
     return h / (CellLengths::fewest - slack);
   }
@@ -40,6 +41,8 @@ namespace Morula
   void
   LongestCell<dim>::add(const Point<dim> &x, const DeformedCube<dim> &cell)
   {
+    // Most cells are shorter than the longest so far, which a bound shows
+    // without eigenvalues.
     if (!cell.is_within_length(std::min(longest, limit())))
       add(cell.at(x));
   }
@@ -55,6 +58,7 @@ namespace Morula
     for (unsigned int d = 0; d < dim; ++d)
       all.place[d] = place[d];
     all.place =
+      // The place is known on the rank with the longest cell.
       Utilities::MPI::broadcast(comm, all.place, over_ranks.max_index);
     all.n_too_long = Utilities::MPI::sum(n_too_long, comm);
     return all;

@@ -17,6 +17,7 @@ namespace Morula
                 const double             time,
                 const ConditionEstimate &estimate)
   {
+    // Values in the order of condition_columns().
     const std::vector<double> values = {double(step),
                                         time,
                                         double(estimate.unknowns),

@@ -33,6 +33,7 @@ namespace Morula
     std::string rows;
     for (const NewtonIteration &state : trace)
       {
+        // The extremes are those of all ranks by now.
         const Equilibrium::Extreme &J      = state.evaluation.smallest_J;
         const std::vector<double>   values = {double(step),
                                               double(state.place.attempt),

@@ -47,6 +47,8 @@ namespace Morula
                    "and where. Shows why a step takes long, or fails.")
   {
     using Words = std::vector<std::string>;
+    // Words that exclude each other cannot be said by the list of allowed
+    // words.
     formats.require(
       [](const Words &words) {
         return !words.empty() &&
@@ -83,6 +85,9 @@ namespace Morula
                            Review      &review) const
   {
     constexpr double hour = 3600.;
+    // A run of some hours without snapshots, outputs between the ends of steps,
+    // and outputs that come at other times than the user may think: each gets a
+    // warning, with the numbers of this scene.
     if (snapshot_interval == 0. && snapshot_minutes == 0. && seconds > hour)
       review.warn(snapshot_interval.path(),
                   "0 day",
@@ -103,11 +108,13 @@ namespace Morula
                       "steps.",
                     "Raise it to the step, or shorten the step.");
     const double steps = interval / step;
+    // The default is no choice of the user's, so it gives no warning.
     if ((review.has_set(interval) || !interval.is_default()) && steps > 1. &&
         std::abs(steps - std::round(steps)) > 1e-9 * steps)
       {
         std::string times;
         for (unsigned int n = 1; n <= 3; ++n)
+          // The end of the step in which the n-th output is due.
           times += (n == 1 ? "" : ", ") +
                    as_text(std::ceil(n * steps * (1. - 1e-9)) * step);
         review.warn(interval.path(),

@@ -18,8 +18,9 @@ namespace Morula
 
   namespace
   {
-    /** Of statfs(2): NFS, SMB, CIFS, SMB2, and what runs in user space, such as
-     *  sshfs. Their nodes write back whole pages of their own. */
+    /** File systems by their number in statfs(2): NFS, SMB, CIFS, SMB2, and
+     *  what runs in user space, such as sshfs. Their nodes write back whole
+     *  pages of their own, so that two nodes may destroy each other's parts. */
     constexpr unsigned long incoherent[] = {
       0x6969, 0x517b, 0xff534d42, 0xfe534d42, 0x65735546};
 
@@ -33,8 +34,8 @@ namespace Morula
                        found.f_type & 0xffffffffu) == std::end(incoherent);
     }
 
-    /** Another node may have a file of that name on a disk of its own: of
-     *  another size. */
+    /** Another node may have a file of that name on a disk of its own, which
+     *  has another size. */
     bool
     has_size(const std::string &path, const std::uint64_t n_bytes)
     {
@@ -47,6 +48,9 @@ namespace Morula
                          const std::uint64_t n_bytes,
                          const MPI_Comm      comm)
   {
+    // One rank alone can always write. Several can if each sees the same file
+    // on a file system that keeps what several nodes write. All use their
+    // parts, or none does: the last line makes that one decision for all.
     bool usable = Utilities::MPI::n_mpi_processes(comm) == 1 ||
                   (is_coherent(path) && has_size(path, n_bytes));
     if (usable)

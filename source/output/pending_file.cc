@@ -17,6 +17,7 @@ namespace Morula
   PendingFile::write()
   {
     content(*file);
+    // The content may hold much memory, and is not needed any more.
     content = nullptr;
     file->close();
   }

@@ -36,6 +36,8 @@ namespace Morula
   bool
   is_open_at(const int descriptor, const std::string &path)
   {
+    // A file with the same device and the same number is the same one, whatever
+    // its name.
     struct stat opened{}, there{};
     return ::fstat(descriptor, &opened) == 0 &&
            ::stat(path.c_str(), &there) == 0 && opened.st_dev == there.st_dev &&
@@ -61,6 +63,8 @@ namespace Morula
   {
     while (!text.empty())
       {
+        // A call may write less than it was given, and may be interrupted by a
+        // signal.
         const ssize_t n = ::write(descriptor, text.data(), text.size());
         if (n >= 0)
           text.remove_prefix(n);
@@ -89,6 +93,8 @@ namespace Morula
   void
   PosixFile::reserve(const std::size_t size)
   {
+    // Not all file systems can reserve room. On those a full disk shows only
+    // later.
     errno = ::posix_fallocate(descriptor, 0, size);
     if (errno != 0 && errno != EOPNOTSUPP && errno != EINVAL)
       fail("write");
@@ -104,7 +110,7 @@ namespace Morula
   void
   PosixFile::sync()
   {
-    // pipes and some special files cannot be synchronised, which is no error
+    // Pipes and some special files cannot be synchronised, which is no error.
     if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
       fail("write");
   }
@@ -122,6 +128,7 @@ namespace Morula
   void
   PosixFile::close()
   {
+    // A file system may report only now that it could not write.
     if (::close(std::exchange(descriptor, -1)) != 0)
       fail("write");
   }

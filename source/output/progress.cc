@@ -25,6 +25,7 @@ namespace Morula
     std::string
     format(const char *pattern, const Values... values)
     {
+      // Long enough for all patterns of this file.
       char text[256];
       std::snprintf(text, sizeof(text), pattern, values...);
       return text;
@@ -47,6 +48,8 @@ namespace Morula
     terminal_columns()
     {
       const unsigned int columns = columns_of(STDOUT_FILENO);
+      // Without a terminal the width is 0. With one of no size mpirun may be in
+      // between.
       if (columns > 0 || isatty(STDOUT_FILENO) == 0)
         return columns;
 
@@ -94,6 +97,10 @@ namespace Morula
                const double       seconds_left,
                const unsigned int width)
   {
+    // The line has a bar, and behind it as many parts as the terminal's width
+    // allows, the most important ones first. The bar gets what is left, within
+    // bounds. Where not even a bar fits, the percentage stands alone, or
+    // nothing.
     const double fraction =
       end_time > start_time ?
         std::clamp((report.time - start_time) / (end_time - start_time),
@@ -101,16 +108,18 @@ namespace Morula
                    1.) :
         1.;
 
+    // A shorter bar says nothing, a longer one no more.
     constexpr std::size_t smallest_bar = 10, largest_bar = 40;
     constexpr std::size_t brackets_and_space = 3;
     constexpr std::size_t with_bar = smallest_bar + brackets_and_space;
 
-    // the most important part first
+    // The most important part comes first.
     const std::vector<std::string> parts = {
       seconds_left >= 0. ? duration(seconds_left) + " left" : "",
       format("day %.4g of %.4g", report.time, end_time),
       format("%llu cells", static_cast<unsigned long long>(report.cells)),
       format("%u Newton", report.newton_iterations)};
+    // Rounded down, so that 100 % means the end.
     std::string text = format("%3.0f %%", std::floor(100. * fraction));
     if (text.size() + with_bar >= width)
       return text.size() < width ? text : "";
@@ -128,6 +137,8 @@ namespace Morula
   std::string
   summary_block(const FinalReport &summary)
   {
+    // The three sections of the timings that took longest are named, with their
+    // share of the wall time. What a scene does not have gives no line.
     std::vector<std::pair<std::string, double>> sections;
     for (const auto &section : summary.sections)
       sections.emplace_back(section.first, section.second.wall_seconds);
@@ -197,10 +208,12 @@ namespace Morula
     const double      seconds_left = time_left.seconds();
     const std::string line = progress_line(report, end_time, seconds_left);
 
+    // Only rank 0 writes on the terminal. A terminal gets a bar that is written
+    // over; a file gets a line a step.
     const unsigned int columns = is_root ? terminal_columns() : 0;
     if (columns > 0)
       {
-        // "\033[K" clears the rest of a longer bar
+        // "\033[K" clears what is left of a longer bar.
         std::cout
           << '\r'
           << progress_bar(report, start_time, end_time, seconds_left, columns)
@@ -228,6 +241,7 @@ namespace Morula
       std::cout << std::endl;
     bar_shown = false;
     log.write_if_possible(text);
+    // Nothing is thrown here: an error is being reported.
   }
 
   void

@@ -39,6 +39,8 @@ namespace Morula
   std::optional<RunRecord>
   RunRecord::read(const std::string &directory)
   {
+    // Three lines in front of parameters.prm; any other beginning is not of
+    // Morula, or of one without records.
     std::ifstream in(parameters_file(directory));
     std::string   first, second, third;
     std::getline(in, first);
@@ -76,6 +78,8 @@ namespace Morula
   std::string
   recorded_name(const std::string &directory, const std::string &scene_file)
   {
+    // A run that was started from its own parameters.prm is still of the scene
+    // that it was of before.
     if (is_own_parameters(directory, scene_file))
       if (const auto record = RunRecord::read(directory))
         return record->scene;
@@ -83,6 +87,7 @@ namespace Morula
     std::string     name  = scene_file;
     const fs::path  scene = full_path(scene_file, error);
     const fs::path  from  = error ? fs::path() : full_path(directory, error);
+    // A relative path stays right when directory and scene are moved together.
     if (!error)
       name = scene.lexically_relative(from).string();
     for (char &c : name) // a comment is one line

@@ -40,6 +40,7 @@ namespace Morula
     {
       std::ifstream in(path, std::ios::binary);
       in.seekg(begin);
+      // A file may be larger than memory, so it is read in parts of a megabyte.
       std::vector<char> buffer(1 << 20);
       Digest            digest;
       std::uint64_t     n_bytes = 0;
@@ -69,6 +70,8 @@ namespace Morula
     {
       std::string text = first_line + "bytes " + std::to_string(n_bytes) +
                          "\nCRC-64/XZ " + digest_text(digest) + '\n';
+      // Newlines fill the seal up to its fixed size, so that it can be read as
+      // text.
       text.resize(size_of_seal, '\n');
       return text;
     }
@@ -78,7 +81,8 @@ namespace Morula
     std::optional<std::string>
     seal_of_rest(const std::string &path, const MPI_Comm comm)
     {
-      // As the first rank sees the file.
+      // The size is what the first rank sees; another node may not see all of
+      // it yet.
       const std::uint64_t n_bytes =
         Utilities::MPI::broadcast(comm, n_bytes_behind_seal(path));
       const auto [begin, end] = share(n_bytes, comm);
@@ -86,6 +90,7 @@ namespace Morula
         digest_of(path, size_of_seal + begin, size_of_seal + end)};
       Digest        digest;
       std::uint64_t n_read = 0;
+      // In the order of the ranks the parts are the file.
       for (const std::vector<Part> &parts : gather_everywhere(own, comm))
         {
           digest.add(parts[0].digest, parts[0].n_bytes);
@@ -108,6 +113,8 @@ namespace Morula
     read_seal(const std::string &path, std::string &found)
     {
       std::ifstream in(path, std::ios::binary);
+      // An HDF5 file without a seal is told from other files, as its message
+      // says something else.
       if (!in)
         return SealState::missing;
       found.resize(size_of_seal);
@@ -124,6 +131,7 @@ namespace Morula
   seal(const std::string &path, const MPI_Comm comm)
   {
     const std::optional<std::string> text = seal_of_rest(path, comm);
+    // The seal's place was left free by the writer, so nothing moves.
     on_root(comm, [&]() {
       if (!text)
         throw std::runtime_error("cannot read the file '" + path + "'");
@@ -142,7 +150,7 @@ namespace Morula
     state = Utilities::MPI::broadcast(comm, state);
     if (state != SealState::whole)
       return state;
-    // If the file ends within the seal, the number of bytes differs.
+    // If the file ends within the seal, the number of bytes differs, too.
     const bool same = seal_of_rest(path, comm) == found; // on the first rank
     return Utilities::MPI::broadcast(comm, same) ? SealState::whole :
                                                    SealState::damaged;

@@ -16,6 +16,7 @@ namespace Morula
                    const MPI_Comm      comm,
                    const std::uint64_t shared_from)
   {
+    // Rank 0 alone writes short files.
     if (Utilities::MPI::n_mpi_processes(comm) > 1 && n_bytes < shared_from)
       return nullptr;
     std::unique_ptr<SharedFile> file(new SharedFile(path, n_bytes, comm));
@@ -27,6 +28,8 @@ namespace Morula
                          const MPI_Comm      comm)
     : comm(comm)
   {
+    // Rank 0 makes the file with its full size, so that a full disk shows
+    // before anything is written. Then all ranks open it.
     on_root(comm, [&]() {
       whole.emplace(path);
       whole->reserve(n_bytes);

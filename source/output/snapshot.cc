@@ -22,6 +22,7 @@ namespace Morula
 {
   namespace
   {
+    // HDF5 has names for the types of C, not for those of fixed width.
     using Id =
       std::conditional_t<sizeof(types::particle_index) == sizeof(unsigned int),
                          unsigned int,
@@ -37,7 +38,11 @@ namespace Morula
                  const std::string    &columns,
                  const MPI_Comm        comm)
     {
-      // ranks without points may not know how long the rows are
+      // Ranks without points may not know how long the rows are, but all ranks
+      // must give the same size.
+      // Each rank writes its own points, behind those of lower ranks. So the
+      // order in the file is that of the ranks, and a run on another number of
+      // ranks reads slices of its own.
       const unsigned int n_numbers =
         Utilities::MPI::max(points.n_numbers, comm);
 
@@ -78,6 +83,8 @@ namespace Morula
     std::pair<hsize_t, hsize_t>
     slice(const hsize_t n, const MPI_Comm comm)
     {
+      // The file's rows belong to nobody: each rank reads an equal share of
+      // them, and the tissue sends the points where they belong.
       const hsize_t rank    = Utilities::MPI::this_mpi_process(comm);
       const hsize_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
       return {n * rank / n_ranks, n * (rank + 1) / n_ranks};
@@ -87,6 +94,7 @@ namespace Morula
     GridCellCounts
     read_weights(const Hdf5Reader &file, const MPI_Comm comm)
     {
+      // Sizes are checked before memory is taken by them.
       const auto size = file.size(weights_name);
       if (size.size() != 2 || size[1] != 2)
         throw std::runtime_error("the grid weights do not fit");
@@ -106,6 +114,8 @@ namespace Morula
     SnapshotData<dim>
     shared_parts_of_root(const SnapshotData<dim> &data, const MPI_Comm comm)
     {
+      // What HDF5 calls attributes is written by all ranks together and must
+      // agree. So all of it comes from rank 0; the points are not part of it.
       SnapshotData<dim> shared;
       shared.program_version =
         Utilities::MPI::broadcast(comm, data.program_version);
@@ -128,6 +138,8 @@ namespace Morula
                  const SnapshotData<dim> &shared,
                  const MPI_Comm           comm)
     {
+      // A generous bound of what HDF5 needs besides the values for a data set
+      // or an attribute.
       constexpr std::size_t n_bytes_an_object = 2048;
       std::size_t           n_objects         = 32 + shared.numbers.size();
       std::size_t           n_values          = 0;
@@ -154,6 +166,8 @@ namespace Morula
                 const std::string &group,
                 const MPI_Comm     comm)
     {
+      // The three tables of a group must have the same number of rows. A file
+      // from elsewhere, or one that is damaged, may not.
       const auto ids        = file.size(group + "/ids");
       const auto positions  = file.size(group + "/positions");
       const auto properties = file.size(group + "/properties");
@@ -195,6 +209,8 @@ namespace Morula
                const std::string &layout,
                const Columns     &columns)
     {
+      // Snapshots that say nothing of their columns can still be told by the
+      // length of their rows.
       if (!layout.empty())
         if (const std::string text = columns.differences(layout); !text.empty())
           refuse_snapshot(path,
@@ -202,7 +218,8 @@ namespace Morula
                             " have the columns that the scene's effects "
                             "declare (this one " +
                             text + ")");
-      // Ranks without points may not know how long the rows are.
+      // A rank without points may not know how long the rows are, so it has
+      // nothing to say.
       if (n_points > 0 && n_numbers != columns.n_numbers())
         refuse_snapshot(path,
                         "a snapshot whose " + points + " have " +
@@ -249,6 +266,8 @@ namespace Morula
     {
       try
         {
+          // Whatever the HDF5 library complains of becomes a refusal of the
+          // snapshot. An InputError says more already, and passes.
           const Hdf5Reader file(path);
           const int        format = file.attribute<int>("/", format_name);
           if (format != snapshot_format)
@@ -356,11 +375,17 @@ namespace Morula
                  const SnapshotData<dim> &data,
                  const MPI_Comm           comm)
   {
+    // The common parts come from rank 0, everything else from all ranks. The
+    // file is written under another name and takes the place of the last
+    // snapshot only at the end, when its digest stands in front of it: a run
+    // that is killed in between leaves the last good one. All calls are
+    // collective.
     const SnapshotData<dim> shared = shared_parts_of_root(data, comm);
 
-    // When the disk is full, MPI I/O fails on some ranks only and the others
-    // wait for ever, and HDF5 crashes at the end of the program; so do not
-    // begin. The reservation ends with the temporary object.
+    // When the disk is full MPI I/O fails on some ranks only and the others
+    // wait for ever, and HDF5 crashes at the end of the program. So it does not
+    // begin without the room for it. The reservation ends with the temporary
+    // object.
     const std::size_t size = size_in_file(data, shared, comm);
     on_root(comm, [&]() { AtomicFile(path).reserve(size); });
 
@@ -386,6 +411,7 @@ namespace Morula
                  shared.boundary_columns,
                  comm);
     write_weights(file, data.grid_weights);
+    // All ranks know whether any has failed.
     if (!file.close())
       {
         const std::string reason = reason_of(file);
@@ -426,6 +452,10 @@ namespace Morula
   SnapshotData<dim>
   read_snapshot(const std::string &path, const MPI_Comm comm)
   {
+    // The seal is examined first: a damaged file must not reach the HDF5
+    // library. Each rank then opens the file by itself, reads all common parts,
+    // and its own share of the points. What one rank cannot read ends the run
+    // on all of them.
     SnapshotData<dim> data;
     data.file       = path;
     const auto read = [&](const Hdf5Reader &file) {

@@ -28,6 +28,10 @@ namespace Morula
   std::vector<std::pair<std::string, double>>
   StatisticsRow::columns() const
   {
+    // The columns and their order are a contract: others read them by name.
+    // What a scene does not have gives no columns, so they come last, effect by
+    // effect. The same list gives the header and each row, so the two cannot
+    // differ.
     const auto number = [](const auto count) {
       return static_cast<double>(count);
     };

@@ -11,6 +11,7 @@ namespace Morula
     : time(time)
     , declared(columns)
   {
+    // The names of the columns, in the order in which add() appends values.
     table.names = {"time",
                    "id",
                    "x",
@@ -28,6 +29,7 @@ namespace Morula
     declared.add_names(table);
     table.n_csv_columns = table.names.size();
     table.csv_only      = {"time", "x", "y", "z"};
+    // VTU has vectors, and the displacement, which CSV's readers can compute.
     table.combine("normal", "nx", 3);
     table.add_nonscalar("displacement", 3);
     declared.combine(table);
@@ -39,6 +41,7 @@ namespace Morula
                           const BoundaryView<dim>    &point,
                           const Point<dim>           &position)
   {
+    // This is a n of doc/theory.md (1.2), at present.
     const Tensor<1, dim> area_vector = point.area_vector();
     const double         area        = area_vector.norm();
     const Tensor<1, dim> normal      = area_vector / area;

@@ -23,6 +23,9 @@ namespace Morula
   double
   TimeLeft::seconds() const
   {
+    // The work so far is taken as a power of the simulated time, whose exponent
+    // follows from the first and the second half: tissue that grows takes
+    // longer and longer. The rest of the run follows by the same power.
     const Record &first = records.front();
     const Record &last  = records.back();
     const double  done  = last.time - first.time;
@@ -32,7 +35,8 @@ namespace Morula
     if (last.time >= end)
       return 0.;
 
-    // wall time at half of the simulated time, interpolated between records
+    // The wall time at half of the simulated time is interpolated between
+    // records.
     const double half = first.time + 0.5 * done;
     const auto   after =
       std::lower_bound(records.begin() + 1,
@@ -47,9 +51,9 @@ namespace Morula
       before.wall_seconds +
       weight * (after->wall_seconds - before.wall_seconds);
 
-    // A few steps say nothing about growth. The lower bound holds where the
-    // set-up outweighs the first steps, the upper one where cells have doubled
-    // four times.
+    // A few steps say nothing about growth, so they count as even. The lower
+    // bound holds where the set-up outweighs the first steps, the upper one
+    // where cells have doubled four times.
     const double exponent =
       records.size() > 4 && spent_at_half > 0. ?
         std::clamp(std::log2(spent / spent_at_half), 0.5, 4.) :

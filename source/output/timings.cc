@@ -12,6 +12,7 @@ namespace Morula
   section_times(const TimerOutput &timer, const SectionTimes &before)
   {
     SectionTimes times = before;
+    // A resumed run goes on from the times of the snapshot.
     for (const auto &section :
          timer.get_summary_data(TimerOutput::total_wall_time))
       times[section.first].wall_seconds += section.second;
@@ -41,6 +42,7 @@ namespace Morula
     };
     for (const auto &section : sections)
       add(section.first, section.second);
+    // The total is no sum of the sections, which do not cover all of the run.
     add("total", {1., total_seconds});
 
     on_root(comm, [&]() { write_atomically(path, text); });

@@ -13,6 +13,7 @@ namespace Morula
   template <int dim>
   TissueSums<dim>::Box::Box()
   {
+    // An empty box: any point makes it larger on both sides.
     lower.fill(std::numeric_limits<double>::max());
     upper.fill(std::numeric_limits<double>::lowest());
   }
@@ -32,6 +33,8 @@ namespace Morula
   void
   TissueSums<dim>::add_cell(const CellScalars &q, const Point<dim> &position)
   {
+    // Energies have the initial volume as their weight: doc/theory.md, section
+    // 1.5.
     n_cells += 1.;
     initial_volume += q.initial_volume;
     total_volume += q.volume;
@@ -56,6 +59,10 @@ namespace Morula
   TissueTotals
   TissueSums<dim>::totals(const MPI_Comm comm) const
   {
+    // One reduction for all sums; extremes take their own. Without cells, as at
+    // the end of a tissue that dies out, there is nothing to divide by. The
+    // extent is that of the surface, or of the cells where a scene has no
+    // boundary points.
     std::array<double, 7> sums = {{n_cells,
                                    initial_volume,
                                    total_volume,

@@ -25,6 +25,7 @@ namespace Morula
                 const PointFields<dim> &fields,
                 std::uint64_t           offset)
     {
+      // One part after the other is made and written, in the same memory.
       std::string text;
       for (std::size_t k = 0; k < piece.n_parts(); ++k)
         {
@@ -50,6 +51,8 @@ namespace Morula
         file.emplace(path);
         file->write(head);
       });
+      // All ranks take part in each round, though only one of them has
+      // something to send: so rank 0 holds one part of one rank at a time.
       for (unsigned int r = 0; r < Utilities::MPI::n_mpi_processes(comm); ++r)
         for (std::size_t k = 0; k < piece.n_parts(); ++k)
           {
@@ -80,6 +83,10 @@ namespace Morula
             const MPI_Comm      comm,
             const std::uint64_t shared_from)
   {
+    // The size of each rank's piece follows from its number of points alone. So
+    // every rank knows where all pieces stand, and the file's length, without
+    // making any. If all ranks can write the file, each writes its own piece in
+    // the background. Else rank 0 writes them at once, as they come.
     const unsigned int  rank = Utilities::MPI::this_mpi_process(comm);
     const VtuPiece<dim> piece(fields);
     const std::string   head  = vtu_head(time, number);
@@ -102,6 +109,7 @@ namespace Morula
       }
     return std::make_unique<PendingFile>(
       std::move(file), [=, fields = std::move(fields)](SharedFile &file) {
+        // Rank 0 also writes the head, the last one the end.
         if (rank == 0)
           file.write(head, 0);
         write_piece(file, piece, fields, begin);
@@ -117,6 +125,8 @@ namespace Morula
   {
     on_root(comm, [&]() {
       const auto directory = std::filesystem::path(path).parent_path();
+      // A file that the user has deleted is no reason for a record that cannot
+      // be opened.
       std::vector<std::pair<double, std::string>> existing;
       for (const auto &entry : times_and_names)
         if (std::filesystem::exists(directory / entry.second))

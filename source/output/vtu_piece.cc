@@ -20,6 +20,9 @@ namespace Morula
     std::vector<Group>
     groups_of(const PointFields<dim> &fields)
     {
+      // Groups are made one after the other: coordinates, cells, then the
+      // fields, some at a time, so that a group's values come from the same
+      // rows while they are in the cache.
       constexpr std::size_t largest_group = 8;
       const Group           points = {{"Points", VtuArray::Float32, 3, 0, {}}};
       const Group cells = {{"connectivity", VtuArray::Int32, 1, 0, {}},
@@ -42,6 +45,8 @@ namespace Morula
       };
       for (unsigned int column = 0; column < fields.names.size(); ++column)
         if (!fields.names[column].empty() &&
+            // Columns without a name, and those for CSV alone, are no arrays
+            // here.
             fields.csv_only.count(fields.names[column]) == 0)
           add(fields.names[column], column, 1, {});
       for (const auto &nonscalar : fields.nonscalars)
@@ -85,6 +90,9 @@ namespace Morula
       void
       add(const T *const values, const std::size_t n_values)
       {
+        // Base64 turns three bytes into four digits. Bytes that do not fill
+        // three wait for the next call. 12 bits at a time are looked up, two
+        // digits each.
         const auto *bytes     = reinterpret_cast<const unsigned char *>(values);
         const auto *const end = bytes + n_values * sizeof(T);
         for (; n > 0 && n < 3 && bytes != end; ++bytes)
@@ -106,6 +114,7 @@ namespace Morula
       {
         if (n == 0)
           return;
+        // The missing bytes count as zeros; as many digits are replaced by '='.
         std::fill(rest.begin() + n, rest.end(), 0);
         encode(rest.data(), rest.data() + rest.size(), target);
         std::fill(target + n + 1, target + 4, '=');
@@ -119,6 +128,7 @@ namespace Morula
         static constexpr Pairs pairs = base64_pairs();
         for (; bytes != end; bytes += 3, target += 4)
           {
+            // Base64 takes the first byte for the highest.
             const std::uint32_t bits =
               bytes[0] << 16 | bytes[1] << 8 | bytes[2];
             std::memcpy(target, pairs[bits >> 12].data(), 2);
@@ -153,6 +163,8 @@ namespace Morula
                const Value       &value,
                Base64            &array)
     {
+      // Values are converted to the file's type some at a time, component by
+      // component.
       std::vector<T> values((end - first) * n_components);
       T             *next = values.data();
       for (std::size_t i = first; i < end; ++i)
@@ -173,6 +185,9 @@ namespace Morula
                 const std::string &behind,
                 std::string       &text)
       {
+        // The length of all arrays is known before, so the text is made once,
+        // with room for them. First the frame is written: tags, and the number
+        // of bytes in front of each array. The values follow group by group.
         std::size_t size = before.size() + behind.size();
         for (const VtuArray &array : group)
           size += array.n_bytes_in_file(n_points);
@@ -187,6 +202,8 @@ namespace Morula
           {
             put(array.tag());
             arrays.emplace_back(place);
+            // An array begins with the number of its bytes, as a number of 64
+            // bits.
             const std::uint64_t n_bytes =
               array.n_bytes(n_points) - sizeof(std::uint64_t);
             arrays.back().add(&n_bytes, 1);
@@ -251,6 +268,8 @@ namespace Morula
                const Group            &group,
                GroupText              &text)
     {
+      // All arrays of a group take their values of some points before the next
+      // points are read.
       for_all(fields.size(), [&](const auto first, const auto end) {
         for (std::size_t k = 0; k < group.size(); ++k)
           {
@@ -274,6 +293,7 @@ namespace Morula
     std::string
     before(const std::size_t g, const std::size_t n_points)
     {
+      // Only the first three groups begin a section of the piece.
       if (g > 2)
         return "";
       if (g > 0)
@@ -303,6 +323,7 @@ namespace Morula
   std::uint64_t
   VtuArray::n_bytes(const std::uint64_t n_points) const
   {
+    // The size in front is part of the array.
     return sizeof(std::uint64_t) +
            (type == UInt8 ? 1 : 4) * n_components * n_points;
   }
@@ -310,6 +331,7 @@ namespace Morula
   std::uint64_t
   VtuArray::n_bytes_in_file(const std::uint64_t n_points) const
   {
+    // Three bytes take four digits.
     return tag().size() + (n_bytes(n_points) + 2) / 3 * 4 + end_of_array.size();
   }
 

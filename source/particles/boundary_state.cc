@@ -18,7 +18,8 @@ namespace Morula
         return {{cross_product_2d(N)}};
       else
         {
-          // the axis that is the most tangential
+          // The axis that is the most tangential gives the first tangent, so
+          // that the difference is never short.
           unsigned int axis = 0;
           for (unsigned int d = 1; d < dim; ++d)
             if (std::abs(N[d]) < std::abs(N[axis]))
@@ -36,6 +37,7 @@ namespace Morula
                                         const bool coarsens,
                                         const bool with_force)
   {
+    // All scenes have these columns.
     initial_position =
       add<Point<dim>>({"initial_position", "um", "position at t = 0"});
     initial_normal =
@@ -58,6 +60,8 @@ namespace Morula
                                    Tensor<1, dim>(),
                                    AtDivision::copied,
                                    true});
+    // The columns of a patch exist only if the scene refines the surface, the
+    // last one only if it coarsens it: no other scene stores them.
     if (!with_patch)
       return;
     seed_position =
@@ -87,6 +91,7 @@ namespace Morula
     point.set(initial_normal, N);
     point.set(initial_area, area);
     point.set(this->condition, condition);
+    // The patch is a square of the point's area in the tangent plane.
     if (point.has_patch())
       {
         const double side = std::pow(area, 1. / (dim - 1));
@@ -105,6 +110,9 @@ namespace Morula
                                          const Tensor<2, dim>    &F,
                                          const Tensor<1, dim>    &area) const
   {
+    // The present area vector and F determine the initial ones by doc/theory.md
+    // (1.2), solved for a⁰ N. The edges are square in the present
+    // configuration; F⁻¹ takes them back to the initial one.
     const BoundaryView<dim, double> point(row, *this);
     const Tensor<2, dim>            back    = invert(F);
     const Tensor<1, dim>            initial = // (1.2), the other way round

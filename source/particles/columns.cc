@@ -15,6 +15,7 @@ namespace Morula
     std::map<std::string, unsigned int>
     sizes(const std::string &layout)
     {
+      // A line of a layout is a name and a number.
       std::map<std::string, unsigned int> columns;
       std::istringstream                  lines(layout);
       std::string                         name;
@@ -47,6 +48,8 @@ namespace Morula
     std::vector<double> row(mother.begin(), mother.end());
     for (const Entry &entry : list)
       for (unsigned int i = entry.first; i < entry.first + entry.n; ++i)
+        // Each number of the row follows the rule of its column: halved, reset
+        // to a founder's value, or copied as it stands.
         if (entry.at_division == AtDivision::halved)
           row[i] *= 0.5;
         else if (entry.at_division == AtDivision::reset)
@@ -66,6 +69,8 @@ namespace Morula
   std::string
   Columns::differences(const std::string &other) const
   {
+    // The columns are compared by name, as users know them. The order matters
+    // as well, since a row is read by places.
     const std::map<std::string, unsigned int> mine   = sizes(layout());
     const std::map<std::string, unsigned int> theirs = sizes(other);
     std::vector<std::string>                  parts;

@@ -17,7 +17,8 @@ namespace Morula
     /** How many reaches a boundary point may be away from its nearest cell. */
     constexpr double most_reaches = 4. / 3.;
 
-    /** No reach is shorter than this, in units of h. */
+    /** No reach is shorter than this, in units of h: splines do not resolve how
+     *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
     /** Whether a cell of this rank, in the grid cell of @p x or a neighbouring
@@ -28,6 +29,8 @@ namespace Morula
                   const Tissue<dim> &tissue,
                   const double       near)
     {
+      // Most boundary points have a cell in their own grid cell. So this is
+      // looked at first, and the neighbours only if it holds none.
       const GridBox<dim> &box   = tissue.grid().box();
       const auto         &store = tissue.cells();
       const auto          is_in = [&](const unsigned int number) {
@@ -68,6 +71,10 @@ namespace Morula
                const Tissue<dim>             &tissue,
                const double                   reaches)
     {
+      // Points with a cell of this rank nearby are settled without any message:
+      // a reach is never below a quarter of a grid spacing. Only for the others
+      // ranks exchange what their cells near them have. If no rank has any, no
+      // rank enters the second part.
       const std::vector<unsigned int> far = points_without_cell(
         points, tissue, reaches * least_reach * tissue.grid().box().spacing());
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
@@ -103,6 +110,8 @@ namespace Morula
     Tensor<1, dim>
     way_back(const Point<dim> &point, const NearCell<dim> &cell)
     {
+      // 1e-9 keeps a point that was pulled to the limit from being pulled
+      // again.
       const Tensor<1, dim> way = std::get<0>(cell) - point;
       return way.norm() <= farthest(cell) * (1. + 1e-9) ? Tensor<1, dim>() :
                                                           way;
@@ -139,7 +148,8 @@ namespace Morula
   {
     const Tensor<2, dim> F_g = cell.growth();
     const Tensor<2, dim> F_e = cell.elastic_deformation();
-    // An upper bound, which is exact without shear; the eigenvalues of nearly
+    // The largest row sum is an upper bound of the largest eigenvalue, and
+    // exact without shear: doc/theory.md (4.13). The eigenvalues of nearly
     // isotropic tensors may come out as no numbers.
     const double stretch = std::sqrt(l1_norm(F_e * transpose(F_e)));
     const double width =
@@ -150,6 +160,7 @@ namespace Morula
   double
   attachment(const double distance, const double reach)
   {
+    // The part falls from 1 at one reach to 0 at 4/3 of it.
     const double part = (most_reaches - distance / reach) / (most_reaches - 1.);
     return std::min(1., std::max(0., part));
   }
@@ -195,6 +206,7 @@ namespace Morula
       {
         const unsigned int   p   = far[k];
         const Tensor<1, dim> way = way_back(positions[p], nearest[k]);
+        // Fixed points stay where they are held.
         if (way.norm() == 0. || points.condition(p) == SurfaceCondition::fixed)
           continue;
         ++n;
@@ -204,6 +216,8 @@ namespace Morula
                                      std::get<1>(nearest[k]));
       }
     n = Utilities::MPI::sum(n, tissue.communicator());
+    // Points may change their grid cell and their rank, so the move is one of
+    // all ranks, or of none.
     if (n > 0)
       tissue.move(tissue.cells().positions(), positions);
     return n;
@@ -213,6 +227,11 @@ namespace Morula
   std::uint64_t
   pull_to_cells(Tissue<dim> &tissue, const double farthest)
   {
+    // As in pull_back_detached_points(), with one distance for all cells: first
+    // the points without a cell of this rank within it, then, if any rank has
+    // some, the nearest cells of all ranks. A point is moved along the way to
+    // its cell until it is as near as allowed; slip points take only the part
+    // of the way in their plane.
     const BoundaryPoints<dim>      &points    = tissue.boundary_points();
     const Cells<dim>               &cells     = tissue.cells();
     std::vector<Point<dim>>         positions = points.positions();

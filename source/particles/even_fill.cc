@@ -13,7 +13,9 @@ namespace Morula
 {
   namespace
   {
-    /** Least fill of grid cells inside the tissue. */
+    /** The least fill of grid cells inside the tissue. A grid cell that the
+     *  surface cuts has room that belongs to no cell: its cells must not be
+     *  taken to leave gaps. */
     constexpr double nearly_full = 0.6;
 
     /** A grid cell that is nearly full, or more. */
@@ -31,6 +33,10 @@ namespace Morula
     nearly_full_around(const Occupancy<dim>      &occupancy,
                        const BackgroundGrid<dim> &grid)
     {
+      // Fills are known by grid cell of the time of the occupancy, by the
+      // owners of that time. Cells are asked for on the ranks that own their
+      // grid cells now. So each owner sends its nearly full grid cells to the
+      // ranks that own them or a neighbour now.
       std::map<unsigned int, std::vector<FullGridCell<dim>>> by_rank;
       for (const unsigned int number : occupancy.own())
         if (const double fill = occupancy.fill(number); fill >= nearly_full)
@@ -52,8 +58,8 @@ namespace Morula
       return fills;
     }
 
-    /** Those of them whose neighbours are nearly full, too: the neighbours of
-     *  GridBox are with the grid cell itself. */
+    /** The nearly full grid cells whose neighbours are nearly full, too.
+     *  GridBox counts a grid cell among its own neighbours. */
     template <int dim>
     std::unordered_map<unsigned int, double>
     inside(const std::unordered_map<unsigned int, double> &fills,
@@ -68,7 +74,8 @@ namespace Morula
                             [&](const unsigned int other, const auto &) {
                               n_full += fills.count(other);
                             });
-          // at the edge of the box there are fewer
+          // At the edge of the box a grid cell has fewer neighbours, and is not
+          // inside.
           if (n_full == Utilities::fixed_power<dim>(3u))
             result[number] = fill;
         }
@@ -90,6 +97,9 @@ namespace Morula
         const GridIndex<dim> index = box.locate(tissue.cells().position(p));
         if (!box.contains(index))
           continue;
+        // Where cells overlap F becomes smaller, where they leave gaps it
+        // becomes larger: doc/theory.md (6.9c). The exponent is that of one
+        // direction.
         const auto found = fills.find(box.number(index));
         if (found == fills.end())
           continue;

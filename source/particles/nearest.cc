@@ -29,7 +29,8 @@ namespace Morula
                  const BackgroundGrid<dim>     &grid,
                  const int                      radius)
     {
-      const GridBox<dim>      &box = grid.box();
+      const GridBox<dim> &box = grid.box();
+      // Many queries share a grid cell, which is looked at once.
       std::set<GridIndex<dim>> with_query; // many queries share a grid cell
       for (const Point<dim> &query : queries)
         with_query.insert(box.locate(query));
@@ -54,7 +55,9 @@ namespace Morula
               const NearestQuery              &wanted)
     {
       std::vector<unsigned int> found;
-      auto                      cell = points.grid_cells().begin();
+      // Both lists are in the order of the numbers, so one pass through both is
+      // enough.
+      auto cell = points.grid_cells().begin();
       for (const unsigned int number : grid_cells)
         {
           while (cell != points.grid_cells().end() && cell->number < number)
@@ -83,7 +86,8 @@ namespace Morula
             const PointList<dim> &list,
             const Tree           &tree)
     {
-      // A lattice can have 2^dim points at the same distance.
+      // A lattice can have 2^dim points at the same distance. Twice as many are
+      // looked at, so that all of them are found also beside a few nearer ones.
       constexpr unsigned int n_ties   = 2 << dim;
       double                 shortest = std::numeric_limits<double>::infinity();
       std::vector<unsigned int> found;
@@ -95,6 +99,11 @@ namespace Morula
                                  found.end(),
                                  [&](const unsigned int i) {
                                    return query.distance(list.positions[i]) >
+                                          // Distances that differ by rounding
+                                          // only count as equal; else the
+                                          // choice would depend on the frame.
+                                          // The order by id makes the sum of a
+                                          // mean independent of ranks.
                                           shortest * (1. + 1e-9);
                                  }),
                   found.end());
@@ -136,11 +145,14 @@ namespace Morula
   {
     const MPI_Comm     comm = grid.communicator();
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    GridCellsOfRanks   near = near_queries(queries, grid, radius);
-    PointList<dim>     list = points_in(near[rank], points, wanted);
+    // Grid cells around the queries, by owner. This rank's own points in them
+    // need no message.
+    GridCellsOfRanks near = near_queries(queries, grid, radius);
+    PointList<dim>   list = points_in(near[rank], points, wanted);
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return list;
-    // Ranks ask the owners of these grid cells for them.
+    // Each rank asks the owners of these grid cells for their points, and
+    // answers what others ask of it.
     near.erase(rank);
     std::map<unsigned int, PointList<dim>> points_to;
     for (const auto &[asking, grid_cells] :
@@ -157,6 +169,10 @@ namespace Morula
                   const NearestQuery            &wanted,
                   const BackgroundGrid<dim>     &grid)
   {
+    // The nearest point may be in any grid cell. So the radius doubles until
+    // every query of every rank has found a point that is nearer than all that
+    // may lie outside of the list. Mostly the first radius does. Ranks go on
+    // together, since each pass is collective.
     const GridBox<dim> &box     = grid.box();
     int                 largest = 0;
     for (const int n : box.n())
@@ -175,11 +191,13 @@ namespace Morula
             if (!found.empty())
               append_wanted(found, list, wanted.ties, numbers);
           }
-        // Farther points than this may be missing from the list.
+        // A point of a grid cell outside of the radius is farther away than
+        // this.
         const double sure = radius * box.spacing();
         if (Utilities::MPI::max(farthest, grid.communicator()) <= sure)
           return numbers;
-        // Nothing in the box is farther than its diagonal.
+        // Nothing in the box is farther than its diagonal, so there is no point
+        // at all.
         AssertThrow(radius <= 2 * largest, ExcMessage("There are no cells."));
       }
   }

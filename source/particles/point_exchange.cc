@@ -23,6 +23,7 @@ namespace Morula
                const std::size_t     i,
                std::vector<double>  &rows)
     {
+      // A row begins with the point's id and position.
       append_flat(rows, std::tuple(points.ids[i], points.positions[i]));
       const ArrayView<const double> row = points.row(i);
       rows.insert(rows.end(), row.begin(), row.end());
@@ -65,6 +66,8 @@ namespace Morula
       const std::vector<unsigned int> &
       around(const GridIndex<dim> &index)
       {
+        // Neighbouring points share a grid cell, so the owners around it are
+        // looked up once.
         const unsigned int number = grid.box().number(index);
         const auto         found  = owners.find(number);
         if (found != owners.end())
@@ -93,6 +96,8 @@ namespace Morula
              const MPI_Comm                                     comm,
              PointList<dim>                                    &points)
     {
+      // Room for all received points is made at once: this is the largest list
+      // that a step may hold.
       const auto  received  = send_records(rows_to, comm);
       std::size_t n_numbers = 0;
       for (const auto &[rank, rows] : received)
@@ -130,6 +135,8 @@ namespace Morula
            const unsigned int                            n_numbers,
            const MPI_Comm                                comm)
   {
+    // The points become rows of plain numbers, which travel in one message to
+    // each rank.
     std::map<unsigned int, std::vector<double>> rows_to;
     for (const auto &[rank, points] : points_to)
       {
@@ -147,6 +154,8 @@ namespace Morula
   PointList<dim>
   of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
   {
+    // All ranks get all points, sorted by id, so that they find the same in the
+    // same order. For short lists only.
     PointList<dim> all(own.n_numbers);
     const auto     ids       = gather_everywhere(own.ids, comm);
     const auto     positions = gather_everywhere(own.positions, comm);
@@ -178,6 +187,10 @@ namespace Morula
   PointList<dim>
   send_to_owners(PointList<dim> points, const BackgroundGrid<dim> &grid)
   {
+    // The owners are found first. Then points are sent in rounds of a bounded
+    // number, so that no rank holds all of them as messages as well. All ranks
+    // take as many rounds as the longest list asks for, since each is
+    // collective. With several rounds the memory for the result is taken once.
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return points;
     const MPI_Comm            comm = grid.communicator();
@@ -214,6 +227,8 @@ namespace Morula
        const BackgroundGrid<dim> &grid,
        const double               reach)
   {
+    // A point goes to all ranks that own a grid cell within reach of its own,
+    // whether or not there are positions to ask for.
     PointList<dim> others(points.n_numbers);
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return others;

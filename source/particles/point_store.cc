@@ -25,6 +25,7 @@ namespace Morula
     std::vector<unsigned int>
     canonical_order(const PointList<dim> &points, const GridBox<dim> &box)
     {
+      // Sorting small records is faster than sorting an index with look-ups.
       struct Place
       {
         unsigned int          number; // of the grid cell
@@ -68,7 +69,7 @@ namespace Morula
   PointStore<dim>::insert(PointList<dim>             points,
                           const BackgroundGrid<dim> &grid)
   {
-    // Who gives none may not know how long the rows are.
+    // A rank without points may not have set n_numbers.
     if (points.size() == 0)
       points.n_numbers = n_numbers;
     points = send_to_owners(std::move(points), grid);
@@ -80,10 +81,14 @@ namespace Morula
   PointStore<dim>::insert_own(const PointList<dim>      &points,
                               const BackgroundGrid<dim> &grid)
   {
+    // Points that are inserted into a store with points lie behind these in
+    // memory.
     if (!order.empty())
       n_disordered += points.size();
     reserve(order.size() + points.size());
-    const GridBox<dim>                        &box  = grid.box();
+    const GridBox<dim> &box = grid.box();
+    // Points come in the order of grid cells, so each grid cell is looked up
+    // once.
     unsigned int                               last = box.size();
     typename BackgroundGrid<dim>::CellIterator grid_cell;
     for (const unsigned int i : canonical_order(points, box))
@@ -116,6 +121,10 @@ namespace Morula
   PointStore<dim>::move(const std::vector<Point<dim>> &positions,
                         const BackgroundGrid<dim>     &grid)
   {
+    // Points that stay in their grid cell get their new position where they
+    // are. The others are taken out and inserted again, perhaps on another
+    // rank: they may have gone any distance, which the ParticleHandler's own
+    // sorting would not allow.
     AssertDimension(positions.size(), order.size());
     const GridBox<dim>       &box = grid.box();
     PointList<dim>            leaving(n_numbers);
@@ -162,6 +171,7 @@ namespace Morula
   void
   PointStore<dim>::take_out(const std::vector<unsigned int> &removed)
   {
+    // One call removes all: deal.II counts the points of all ranks in each.
     std::vector<Iterator> particles;
     particles.reserve(removed.size());
     for (const unsigned int p : removed)
@@ -204,8 +214,9 @@ namespace Morula
   void
   PointStore<dim>::reserve(const std::size_t n)
   {
-    // deal.II's pool would double, and for a moment hold three times what a
-    // growing tissue needs. What is not used yet takes no memory.
+    // deal.II's pool would double its memory when it is full, and for a moment
+    // hold three times what a growing tissue needs. An eighth more than needed
+    // is enough, as what is not used yet takes no memory.
     if (n <= capacity)
       return;
     capacity = n + n / 8;
@@ -216,6 +227,9 @@ namespace Morula
   void
   PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
   {
+    // The handler has a list of points for each of its cells. Taken by number
+    // of the grid cells and sorted by id inside each, they are in the canonical
+    // order, which all loops and sums use.
     grid_cells_.clear();
     order.clear();
     for (const auto &[number, cell] : grid.owned_grid_cells())
@@ -259,7 +273,8 @@ namespace Morula
   extent(const std::vector<const std::vector<Point<dim>> *> &positions,
          const BackgroundGrid<dim>                          &grid)
   {
-    // Largest coordinates, and largest of the negated: one reduction for both.
+    // The largest coordinates, and the largest negated ones, so that one
+    // reduction gives both bounds.
     std::vector<int> bounds(2 * dim, std::numeric_limits<int>::lowest());
     for (const auto *list : positions)
       for (const Point<dim> &x : *list)
@@ -290,7 +305,8 @@ namespace Morula
     for (const Point<dim> &x : positions)
       {
         const unsigned int number = grid.box().number(grid.box().locate(x));
-        // In a store's order, points of one grid cell follow one another.
+        // In a store's order points of one grid cell follow one another, so
+        // most counts are complete before they are sent.
         if (counts.empty() || counts.back().number != number)
           counts.push_back({number, 0});
         ++counts.back().n;

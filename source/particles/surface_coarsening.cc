@@ -20,11 +20,13 @@ namespace Morula
     namespace bgi = boost::geometry::index;
 
     /** Areas in units of the reference area: patches below the first merge, and
-     *  give none above the second. */
+     *  give none above the second. The second is below two, at which refinement
+     *  would split the result again. */
     constexpr double too_small = 0.5, largest_merged = 1.6;
 
-    /** Cosine of the largest angle between the normals of patches that merge:
-     *  not across an edge of the body. */
+    /** Cosine of the largest angle between the normals of patches that merge.
+     *  Sides of a box differ by a right angle, so no patch reaches across an
+     *  edge of the body. */
     constexpr double least_cosine = 0.5;
 
     /** Patches that may merge, of all ranks, by id. */
@@ -41,6 +43,7 @@ namespace Morula
         , columns(columns)
         , alike(alike)
       {
+        // More than this would be split again.
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             areas.push_back(view(i).area_vector());
@@ -51,14 +54,17 @@ namespace Morula
           }
       }
 
-      /** Those that are too small, each with the one that it merges with;
-       *  none is in two pairs. */
+      /** The patches that are too small, each with the one that it merges with.
+       *  No patch is in two pairs. */
       std::vector<std::pair<std::size_t, std::size_t>>
       pairs() const
       {
         std::vector<std::pair<std::size_t, std::size_t>> list;
-        std::vector<bool>                                taken(points.size());
-        const auto tree = pack_rtree_of_indices(points.positions);
+        // Patches are taken by id, each that is too small and still free with
+        // the nearest that fits. The list of candidates is the same on all
+        // ranks, and so are the pairs.
+        std::vector<bool> taken(points.size());
+        const auto        tree = pack_rtree_of_indices(points.positions);
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             if (taken[i] || !(areas[i].norm() < too_small * wanted[i]))
@@ -71,6 +77,7 @@ namespace Morula
                        std::back_inserter(nearest));
             if (nearest.empty())
               continue;
+            // No patch is in two pairs of one round.
             taken[i] = taken[nearest[0]] = true;
             list.emplace_back(std::min(i, nearest[0]), std::max(i, nearest[0]));
           }
@@ -83,12 +90,16 @@ namespace Morula
             const std::size_t j,
             PointList<dim>   &list) const
       {
+        // What two patches become has the sum of their area vectors and keeps
+        // the enclosed volume: doc/theory.md (4.12c), (4.12d). Means are
+        // weighted by area. The larger patch gives all that is not a mean, as
+        // its condition.
         const double         total = areas[i].norm() + areas[j].norm();
         const double         w_i = areas[i].norm() / total, w_j = 1. - w_i;
         const Tensor<1, dim> area   = areas[i] + areas[j];
         const Tensor<1, dim> apart  = points.positions[j] - points.positions[i];
         const Point<dim>     middle = points.positions[i] + w_j * apart;
-        // doc/theory.md (4.12d)
+        // This is the shift of doc/theory.md (4.12d), along the normal.
         const Tensor<1, dim> shift =
           (w_i * (areas[j] * apart) - w_j * (areas[i] * apart)) /
           area.norm_square() * area;
@@ -96,12 +107,15 @@ namespace Morula
         std::vector<double>             row(points.row(main).begin(),
                                 points.row(main).end());
         const BoundaryView<dim, double> merged(make_array_view(row), columns);
+        // A mean of very different deformations may have no volume.
         Tensor<2, dim> F = w_i * view(i).F() + w_j * view(j).F();
         if (!(determinant(F) > 0.))
           F = view(main).F();
-        const Point<dim> X    = Point<dim>(w_i * view(i).initial_position() +
+        const Point<dim> X = Point<dim>(w_i * view(i).initial_position() +
                                         w_j * view(j).initial_position());
-        const bool       held = merged.condition() == SurfaceCondition::fixed ||
+        // The gap of a held point is x - X, which must remain the mean of both
+        // gaps: so X is shifted as x is.
+        const bool held = merged.condition() == SurfaceCondition::fixed ||
                           merged.condition() == SurfaceCondition::slip;
         merged.set(columns.initial_position, held ? X + shift : X);
         merged.set(columns.reference_area,
@@ -126,6 +140,9 @@ namespace Morula
       fit(const std::size_t i, const std::size_t j) const
       {
         const double a_i = areas[i].norm(), a_j = areas[j].norm();
+        // The conditions of doc/theory.md, section 4.5: small enough together,
+        // not across an edge of the body, near, and with the same condition and
+        // loads.
         const double sides =
           std::pow(a_i, 1. / (dim - 1)) + std::pow(a_j, 1. / (dim - 1));
         return a_i + a_j <= std::min(largest[i], largest[j]) &&
@@ -152,6 +169,9 @@ namespace Morula
             const Candidates<dim>                                  &merging,
             PointList<dim>                                         &points)
     {
+      // Every rank knows all pairs. The owner of the first patch puts the
+      // merged one in its place; the owner of the second drops it. Points are
+      // in another grid cell afterwards, perhaps: the caller places them anew.
       std::unordered_map<types::particle_index, std::size_t> first, second;
       for (std::size_t k = 0; k < pairs.size(); ++k)
         {
@@ -188,6 +208,10 @@ namespace Morula
   {
     for (bool any = false;; any = true)
       {
+        // Each round merges pairs that are disjoint, until no rank has a patch
+        // that is too small, or none of them fits another. In most steps the
+        // first test ends it, with one reduction. Only patches that may take
+        // part are shown to all ranks.
         bool           small = false;
         PointList<dim> own(points.n_numbers);
         for (std::size_t i = 0; i < points.size(); ++i)

@@ -20,8 +20,9 @@ namespace Morula
     largest_distance_of(const std::vector<Point<dim>> &points,
                         const Tissue<dim>             &tissue)
     {
-      const Cells<dim> &cells   = tissue.cells();
-      const auto        nearest = nearest_values(
+      const Cells<dim> &cells = tissue.cells();
+      // The nearest cell may belong to another rank.
+      const auto nearest = nearest_values(
         points,
         cells,
         [&cells](const unsigned int p) { return cells.position(p); },
@@ -65,7 +66,11 @@ namespace Morula
   SurfaceFit
   surface_fit(const Tissue<dim> &tissue)
   {
-    // Sums over the patches: a, a n, a x and a n·x; and over the cells: V.
+    // Everything follows from sums over the patches of this rank, a, a n, a x
+    // and a n·x, and over its cells, V. One reduction makes them those of all
+    // ranks. The enclosed volume is taken from the surface's middle, so that a
+    // surface that is not quite closed has the same anywhere: doc/theory.md
+    // (4.12f). Last comes the distance, which asks ranks for their cells.
     std::vector<double>        sums(2 * dim + 3, 0.);
     const BoundaryPoints<dim> &points = tissue.boundary_points();
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -93,7 +98,8 @@ namespace Morula
     for (unsigned int d = 0; d < dim; ++d)
       {
         opening[d] = sums[3 + d];
-        // seen from the surface's middle, as (4.8g)
+        // The volume is that seen from the surface's middle, as in
+        // doc/theory.md (4.8g).
         fit.enclosed -= opening[d] * sums[3 + dim + d] / sums[0];
       }
     fit.enclosed /= dim;

@@ -43,7 +43,9 @@ namespace Morula
                 2. * point.wanted_area(longest_edge));
     }
 
-    /** Longest edge that is split, in units of what an edge may have. */
+    /** Longest edge that is split, in units of what an edge may have. It would
+     *  take six halvings in one step: no growth does that, so the points have
+     *  left the tissue. */
     constexpr double longest_split = 64.;
 
     /** Throws on all ranks if any has a patch that is too long to be split. */
@@ -55,6 +57,9 @@ namespace Morula
                   const double                longest_edge,
                   const MPI_Comm              comm)
     {
+      // Each rank finds its longest patch, and the longest of all decides. The
+      // rank that has it writes the message; of several the lowest one. All
+      // ranks throw it.
       double                length = 0.;
       types::particle_index id     = 0;
       Point<dim>            where;
@@ -99,6 +104,13 @@ namespace Morula
                  types::particle_index                         &next_id,
                  const MPI_Comm                                 comm)
   {
+    // Where the surface is crowded nothing is split. Each round finds the
+    // patches of this rank that are too large; all ranks' are put into one
+    // order by id, which gives the new points their ids, the same for any
+    // number of ranks. A patch is halved across its longest edge, doc/theory.md
+    // (4.12): the new point takes the half at the end of the edge, the old one
+    // the other half. Halves that are still too large are split in the next
+    // round.
     std::vector<bool> leave;
     for (const Point<dim> &x : points.positions)
       leave.push_back(crowded(x));
@@ -116,6 +128,7 @@ namespace Morula
               split.push_back(i);
               ids.push_back(points.ids[i]);
             }
+        // Collective: all ranks know how many are split, and end together.
         const GlobalOrder order = global_order(ids, comm);
         if (order.n_keys == 0)
           return any;
@@ -128,6 +141,7 @@ namespace Morula
               0.25 * (view(i).F() * view(i).initial_edge(k));
             const std::vector<double> row(points.row(i).begin(),
                                           points.row(i).end());
+            // A new point is in the surroundings of one that was not crowded.
             leave.push_back(false);
             points.add(next_id + order.places[s],
                        points.positions[i] + quarter,

@@ -43,6 +43,9 @@ namespace Morula
     void
     make_linear(const std::vector<Tensor<1, dim>> &s, std::vector<double> &w)
     {
+      // The weights w get a factor that is linear in s, such that Σ ω s = 0:
+      // with it the value at the place is that of the plane through the cells'
+      // values.
       double         sum = 0.;
       Tensor<1, dim> mean;
       for (std::size_t i = 0; i < s.size(); ++i)
@@ -70,6 +73,11 @@ namespace Morula
     , cells(tissue.cells())
     , grid(tissue.grid())
   {
+    // Cells within reach are at most in the neighbouring grid cells, of this or
+    // another rank; they come with their volumes. A tree finds those around
+    // each place. Their weights fall to zero at the reach, so that no cell
+    // enters or leaves with a jump, and are made linear after that,
+    // doc/theory.md (4.6c). A place without cells keeps an empty list.
     const double radius = reach * grid.box().spacing();
     const auto   volume = [&](const unsigned int p, std::vector<double> &list) {
       list.push_back(cells[p].volume());
@@ -82,7 +90,7 @@ namespace Morula
         std::vector<std::size_t> found;
         tree.query(boost::geometry::index::intersects(box_around(x, radius)),
                    std::back_inserter(found));
-        // By id, so that sums do not depend on the ranks.
+        // They are taken by id, so that sums do not depend on the ranks.
         std::sort(found.begin(), found.end(), [&](const auto i, const auto j) {
           return near.ids[i] < near.ids[j];
         });

@@ -14,7 +14,9 @@ namespace Morula
 {
   namespace
   {
-    /** Load of the fullest rank over the mean that is put up with. */
+    /** Load of the fullest rank over the mean that is put up with. All ranks
+     *  wait for the fullest, so this is the time that is lost; a new partition
+     *  moves cells and makes the next step dearer. */
     constexpr double worst_imbalance = 1.15;
 
     /** The corners of the smallest box around the domains of cells, which are
@@ -34,6 +36,8 @@ namespace Morula
             upper[d] = std::max(upper[d], last[d]);
           }
       };
+      // All positions first: then most cells, which lie inside of that box by
+      // more than their size, need no bounds of their own.
       for (const Point<dim> &x : positions)
         include(x, x);
       for (std::size_t i = 0; i < positions.size(); ++i)
@@ -82,12 +86,13 @@ namespace Morula
     if (n_ranks == 1)
       return true;
     double load = 0.;
+    // Each owner counts the cells that it would have.
     for (const GridCellCount &count : count_points(positions, grid_))
       load += count.n;
     const auto loads = Utilities::MPI::min_max_avg(load, grid_.communicator());
     const double last_total = grid_.total_weight();
-    // A partition of few grid cells may not get better: try again only after
-    // the tissue has changed.
+    // A partition of few grid cells may not get any better. So another one is
+    // tried only after the number of cells has changed by a twentieth.
     return loads.max * n_ranks <= worst_imbalance * loads.sum ||
            std::abs(loads.sum - last_total) <= 0.05 * last_total;
   }
@@ -98,6 +103,10 @@ namespace Morula
   {
     cells_.clear();
     boundary_points_.clear();
+    // The box of the grid must hold all domains and boundary points, of all
+    // ranks. A new triangulation is made only if it does not, a new partition
+    // also if the load has got out of balance. Either makes the stores empty,
+    // and bound to the new triangulation.
     const std::vector<Point<dim>> corners =
       domain_corners(cells, cells_.columns());
     const auto [first, last] =
@@ -129,6 +138,9 @@ namespace Morula
         return std::as_const(cells_)[i];
       });
     const auto [first, last] = extent<dim>({&corners, &boundary_points}, grid_);
+    // Both questions are answered by all ranks alike. If the box or the
+    // partition has to change all points are placed anew; else only those
+    // travel that change their grid cell.
     if (!grid_.covers(first, last) || !balanced(cells))
       {
         PointList<dim> all = cells_.copy(), surface = boundary_points_.copy();
@@ -163,6 +175,8 @@ namespace Morula
                        const GridIndex<dim> &n,
                        const GridCellCounts &weights)
   {
+    // Box and partition come from the snapshot rather than from the points: a
+    // run that was not stopped has these, and its sums depend on them.
     grid_.make(first, n);
     grid_.partition(weights);
     cells_.attach(grid_);
@@ -176,7 +190,8 @@ namespace Morula
   Tissue<dim>::replace(const std::vector<unsigned int> &mothers,
                        const PointList<dim>            &daughters)
   {
-    // Daughters stand next to their mothers, but that may be the box's edge.
+    // Daughters stand next to their mothers, but these may be at the edge of
+    // the box.
     const std::vector<Point<dim>> corners =
       domain_corners(daughters, cells_.columns());
     const auto [first, last] = extent<dim>({&corners}, grid_);
@@ -226,6 +241,11 @@ namespace Morula
   SplineSpace<dim>
   Tissue<dim>::splines(const bool share_points) const
   {
+    // The first round of the occupancy takes all cells and boundary points, and
+    // sums over ranks. It shows where tissue is thin, and so how many
+    // quadrature points the cells need; these make the second round:
+    // doc/theory.md, sections 3.1 and 3.2. Grid cells, classes and splines
+    // follow from both.
     std::vector<ParticleDomain<dim>> domains;
     domains.reserve(cells_.size());
     for (unsigned int p = 0; p < cells_.size(); ++p)
@@ -257,6 +277,8 @@ namespace Morula
         for (unsigned int d = 0; d < dim; ++d)
           farthest = std::max(farthest, upper[d] - domain.position()[d]);
       }
+    // One distance for all cells of the rank: a few grid cells more in the
+    // window cost less than bounds of each cell would.
     const GridBox<dim> &box = grid_.box();
     const int rings = static_cast<int>(std::ceil(farthest / box.spacing()));
     std::vector<GridRange<dim>> ranges;

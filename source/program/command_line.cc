@@ -28,6 +28,8 @@ namespace Morula
     options::options_description
     visible_options()
     {
+      // print_help() prints these. What a program needs only inside, as the
+      // place of the scene, is added in parse().
       options::options_description result("Options");
       result.add_options()(
         "set,s",
@@ -82,6 +84,9 @@ namespace Morula
     bool
     is_scene(const std::string &word)
     {
+      // A word that ends in .prm counts even if there is no such file: then the
+      // message says that the scene cannot be read, and not that no key has the
+      // word.
       std::error_code error;
       return boost::ends_with(word, ".prm") ||
              std::filesystem::is_regular_file(word, error);
@@ -92,6 +97,11 @@ namespace Morula
   CommandLine
   CommandLine::parse(const std::vector<std::string> &words)
   {
+    // Boost splits the words into options and the rest, and refuses unknown
+    // options. Then come the checks that it cannot make: which options exclude
+    // each other, and that there is one scene unless the option needs none. The
+    // line as it was typed is kept for the messages. Abbreviated options are
+    // not allowed, since a new option could change their meaning.
     std::string all;
     for (const std::string &word : words)
       all += (all.empty() ? "" : " ") + word;
@@ -140,6 +150,9 @@ namespace Morula
                                "leave one of the two out.");
     if (found.count("set") > 0)
       result.overrides = found["set"].as<std::vector<std::string>>();
+    // All words without an option arrive as scenes. With --parameters those
+    // that are no file are words to look for. More than one scene mostly comes
+    // from an override with blanks that is not quoted.
     auto scenes = found.count("scene") > 0 ?
                     found["scene"].as<std::vector<std::string>>() :
                     std::vector<std::string>();
@@ -189,6 +202,11 @@ namespace Morula
                    const CommandLine &command,
                    const Catalogue   &catalogue)
   {
+    // Sections of types, fields and obstacles exist only where a scene names
+    // them. So the scene is read for its names alone, and its sections are
+    // declared in a fresh scene, which has the defaults to print. Each word
+    // then removes the keys that do not have it, so that several words mean all
+    // of them.
     Scene scene(catalogue);
     if (!command.scene_file.empty())
       scene.declare_sections(

@@ -168,6 +168,10 @@ namespace Morula
       const Catalogue           &catalogue = scene.catalogue;
       const bool                 divides   = scene.has_proliferation();
 
+      // The rows come in a fixed order: first what the library does to cells,
+      // then fields and the effects of the catalogue in its order, then
+      // properties of the material and of the numerical method. An effect that
+      // is off has a row, too: a reader sees so what he has not asked for.
       std::ostringstream half_a_grid_cell;
       half_a_grid_cell << 0.5 * scene.grid.spacing;
 
@@ -203,6 +207,8 @@ namespace Morula
       add_effects(out, catalogue.step_effects);
       for (const auto &choice : catalogue.boundary_conditions)
         {
+          // A condition is on if it acts somewhere: its expression may be true
+          // at no boundary point.
           const types::particle_index n     = counts.acting.at(choice.name());
           const AnyKey *const         where = choice.keys().switch_key();
           add_effect(out,
@@ -246,6 +252,8 @@ namespace Morula
                   const CellColumns<dim> &used,
                   const CellColumns<dim> &known)
     {
+      // The columns that the scene stores come first. Those that only other
+      // scenes have follow as off.
       std::set<std::string> names;
       out << "Slots of a cell: " << used.n_numbers() << '\n';
       for (const auto *columns : {&used, &known})
@@ -284,6 +292,8 @@ namespace Morula
     {
       if (!scene.has_proliferation())
         return "";
+      // Only the run can tell times that depend on the cells' state: the sum
+      // over generations is then a bound.
       const CellCycleParameters &cycle = scene.cell_cycle;
       const unsigned int         dim   = scene.dimension;
       return has_checkpoint(scene) || Scene::has_any(scene.catalogue.fates) ||
@@ -369,6 +379,10 @@ namespace Morula
     Explanation<dim>
     explanation_of(const Scene &scene, const MPI_Comm comm)
     {
+      // The order is that of the cost: memory is tested before anything is
+      // seeded, and the first splines are made once the tissue is known. Every
+      // call is collective, so all ranks make an explanation and only rank 0
+      // prints it.
       check_memory(scene, initial_size(scene), comm);
       Explanation<dim> result;
       result.tissue                   = seed_tissue<dim>(scene, comm);
@@ -377,6 +391,9 @@ namespace Morula
       const unsigned int n_unknowns =
         Simulation<dim>(scene, comm, tissue).n_unknowns();
       result.free = free_growth(scene, tissue.founders, tissue.surface, comm);
+      // Growth that place and time alone tell is in the estimate of the size
+      // already. What depends on the cells' state is not, so the mean over
+      // founders stands for it, and is printed with the size.
       if (result.free && !result.free->known_before)
         result.growth = result.free->mean;
       result.size =
@@ -424,13 +441,16 @@ namespace Morula
         text << warning << '\n';
     }
 
-    /** The same as JSON: an object a line. */
+    /** Prints what print_text() does as JSON, an object a line. */
     template <int dim>
     void
     print_json(std::ostream           &out,
                const Scene            &scene,
                const Explanation<dim> &found)
     {
+      // The lists are made first, each entry an object of its own, and put into
+      // one object at the end. Effects and folds have the texts of
+      // print_text(), so that both forms say the same.
       std::vector<std::string> effects, columns, types;
       for (const EffectRow &row : found.effects)
         effects.push_back(Json::object(

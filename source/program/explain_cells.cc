@@ -15,6 +15,8 @@ namespace Morula
     variables_of_cells(const Expression &expression)
     {
       std::string names;
+      // The variables of place and time, up to t, come first in the list; all
+      // behind them belong to cells.
       for (const Variable variable : expression.used())
         if (variable > Variable::t)
           names += (names.empty() ? "" : ", ") +

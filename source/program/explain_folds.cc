@@ -23,6 +23,9 @@ namespace Morula
     std::string
     buckling(const Scene &scene, const std::optional<FreeGrowth> &growth)
     {
+      // A tissue folds where parts of it are held shorter than they would grow:
+      // by neighbours that grow less, by a lumen that does not yield, or by
+      // stiffer tissue. Each cause has a line.
       std::ostringstream text;
       if (growth && growth->most > unequal * growth->least)
         text << "    founders grow unequally: by factors of " << growth->least
@@ -61,6 +64,8 @@ namespace Morula
   double
   viscosity_of_medium(const double friction, const double length)
   {
+    // Stokes' force 6 π η R v on a sphere equals ζ V v with V = 4 π R³/3, hence
+    // η = 2 ζ R²/9. R is that of the sphere with the volume of the cube.
     constexpr double pascal_seconds = 1e3 * 86400.; // in a kPa day
     const double     radius_squared =
       std::pow(3. / (4. * numbers::PI), 2. / 3.) * length * length;
@@ -73,6 +78,9 @@ namespace Morula
               const Scene                     &scene,
               const std::optional<FreeGrowth> &growth)
   {
+    // First comes what may buckle, then keys that unequal growth asks for.
+    // Either may be missing, and without both nothing is printed. Cells that
+    // proliferate grow unequally because each has its own phase of the cycle.
     const std::string what   = buckling(scene, growth);
     const bool        uneven = scene.has_proliferation() ||
                         (growth && growth->most > unequal * growth->least);

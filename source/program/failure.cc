@@ -22,6 +22,9 @@ namespace Morula
     bool
     all_arrive(const MPI_Comm comm)
     {
+      // MPI has no barrier with a limit of time, so the rank looks again each
+      // millisecond. The request of a barrier that is never reached is left
+      // open, as the program is aborted then.
       MPI_Request request;
       MPI_Ibarrier(comm, &request);
       const auto end     = std::chrono::steady_clock::now() + waiting_time;
@@ -45,7 +48,8 @@ namespace Morula
       if (message.size() > longest_message)
         message = message.substr(0, longest_message / 2) + " [...] " +
                   message.substr(message.size() - longest_message / 2);
-      // in one piece, so that the lines of ranks do not mix
+      // The message is written in one piece, so that the lines of ranks do not
+      // mix.
       std::cerr << "morula: " + message + "\n" << std::flush;
     }
   } // namespace
@@ -56,6 +60,10 @@ namespace Morula
                 const std::string &message,
                 const MPI_Comm     comm)
   {
+    // The barrier tells whether every rank has failed. Only then is it safe to
+    // gather the messages and to return: a rank that still works would wait in
+    // its next collective call for ever, so it is aborted instead. The largest
+    // exit code counts, as 1 promises that nothing was computed.
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
     if (!all_arrive(comm))
       {
@@ -63,7 +71,8 @@ namespace Morula
         MPI_Abort(comm, exit_code);
       }
 
-    // a rank that fails because another one did has another message
+    // A rank that fails because another one did has another message, so all
+    // different ones are printed.
     std::set<std::string> printed;
     for (const std::string &each :
          dealii::Utilities::MPI::gather(comm, message))

@@ -32,10 +32,15 @@ namespace Morula
   void
   set_up_open_mpi()
   {
+    // The number of a component is that of the ROMIO which the version of Open
+    // MPI contains; a name that it does not know is ignored. The last argument
+    // 0 leaves what the user has set.
     for (const char *variable :
          {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
       setenv(variable, "100", 0);
     setenv("HWLOC_COMPONENTS", "-gl", 0);
+    // What follows is for one rank that starts itself. Ranks of a launcher need
+    // the daemon and the directories to find each other.
     if (is_launched())
       return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

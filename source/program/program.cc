@@ -75,6 +75,9 @@ namespace Morula
           try
             {
               Scene scene(catalogue);
+              // The scene is small, but goes through seeding, cell cycle,
+              // solver and output, whose libraries have work to do on their
+              // first use. A program for one dimension warms up only that one.
               scene.dimension         = dim;
               scene.proliferation_law = "cell cycle";
               scene.tissue.radius     = 40.;
@@ -98,7 +101,8 @@ namespace Morula
     {
       if (!command.help && !command.version && !command.parameters)
         return false;
-      // On all ranks, as a scene may be refused.
+      // All ranks make the text, since each of them must learn of a scene that
+      // is refused. Only the first one prints it.
       std::ostringstream text;
       if (command.help)
         print_help(text);
@@ -119,6 +123,10 @@ namespace Morula
                   const Scene       &scene,
                   std::string       &resume_hint)
     {
+      // The keys come first, since that costs nothing. --explain makes the
+      // further checks by itself. A run is tested for memory before cells are
+      // placed, and only a run that is accepted can have a snapshot to go on
+      // from.
       scene.check();
       if (program.dimension != 0 && scene.dimension != program.dimension)
         throw InputError("Dimension",
@@ -156,6 +164,9 @@ namespace Morula
       Scene scene =
         Scene::read(command.scene_file, command.overrides, program.catalogue);
       scene.replace = command.replace;
+      // An error that is found after the reading gets the file and the line of
+      // its key here, in one place. What the reading itself refuses has them
+      // already.
       try
         {
           check_and_run(command, program, scene, resume_hint);
@@ -188,6 +199,8 @@ namespace Morula
   int
   Program::run(int argc, char *argv[]) const
   {
+    // MPI is finalized as run_with_mpi() returns. Raised earlier, the signal
+    // would end the process before that.
     int       stop_signal = 0;
     const int exit_code   = run_with_mpi(argc, argv, stop_signal);
     if (stop_signal != 0)
@@ -199,6 +212,11 @@ namespace Morula
   int
   Program::run_with_mpi(int argc, char *argv[], int &stop_signal) const
   {
+    // The order matters: Open MPI reads its environment in MPI_Init, which is
+    // in the constructor of mpi, and the share of a rank in map_large_arrays()
+    // needs MPI. deal.II must throw instead of abort, so that an error of one
+    // rank can end all of them. One thread a rank is asked for: the ranks share
+    // the cores.
     set_up_open_mpi();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
@@ -214,10 +232,13 @@ namespace Morula
     if (words != std::vector<std::string>{"--serve"} ||
         Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       return run_words(words, stop_signal);
+    // Serving is for one rank: forks of several would share the connections
+    // between them.
     unsigned int n_asked = 0;
     serve(
       [&]() {
-        // not for a single run: a start is as quick
+        // A single run does not pay for it: a start of the program is as quick.
+        // Who asks for a third run will ask for more.
         if (++n_asked == 3)
           warm_up(catalogue, dimension);
       },
@@ -236,6 +257,12 @@ namespace Morula
   Program::run_words(const std::vector<std::string> &words,
                      int                            &stop_signal) const
   {
+    // Each kind of exception has its exit code and message. The kinds stand
+    // from the special to the general, as the first that fits catches: input
+    // that is refused, a signal that has stopped the run after a snapshot, lack
+    // of memory, and the rest. Every rank calls end_all_ranks(), which is
+    // collective. The hint is empty until the scene is accepted: before that
+    // there is nothing to go on from.
     std::string resume_hint;
     try
       {

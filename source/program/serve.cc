@@ -34,6 +34,8 @@ namespace Morula
     Words
     next_request()
     {
+      // First stands the number of words, since words may be empty. A request
+      // that ends too early is taken for the end of the input.
       std::string number;
       if (!std::getline(std::cin, number, '\0'))
         return {};
@@ -58,6 +60,11 @@ namespace Morula
     do_run(const Words                                    &request,
            const std::function<int(const Words &command)> &run)
     {
+      // The session lets whoever asked end the run with all that it starts.
+      // What the process has open is replaced before the run says its first
+      // word. 127 is what a shell returns for a command that it cannot start.
+      // The fork ends by _exit(): finalizing MPI or destroying static objects
+      // would end what belongs to the parent.
       setsid();
       if (chdir(request[directory].c_str()) != 0)
         _exit(127);
@@ -80,6 +87,11 @@ namespace Morula
     for (Words request = next_request(); !request.empty();
          request       = next_request())
       {
+        // The number of the process is printed and flushed at once, so that the
+        // run can be ended while it works. Its end is waited for here: runs
+        // come one after the other, and wait4() tells the peak memory of this
+        // one alone. Exit code and memory are printed last, which says that all
+        // files are complete.
         const auto begin = std::chrono::steady_clock::now();
         prepare();
         const pid_t child = fork();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/growth/relaxation.h>
 #include <morula/base/review.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/scene/applied.h>
 
 #include <optional>

@@ -21,6 +21,7 @@ namespace Morula
     double
     cell_length(const Founders<dim> &founders, const MPI_Comm comm)
     {
+      // The mean of all ranks' cells.
       double volume = 0.;
       for (const double V : founders.volumes)
         volume += V;
@@ -51,6 +52,7 @@ namespace Morula
                     const MPI_Comm             comm)
     {
       double smallest = std::numeric_limits<double>::infinity();
+      // The keys of a shape say how wide it is.
       if (tissue.has_radius())
         smallest = 2. * tissue.radius;
       if (tissue.shape == "sphere" && tissue.inner_radius > 0.)
@@ -61,7 +63,7 @@ namespace Morula
       if (!tissue.is_from_file())
         return smallest;
 
-      // from a file: as far as its points reach
+      // Tissue from a file is as wide as its points reach.
       const bool  has_surface = surface.n_global > 0;
       const auto &points = has_surface ? surface.positions : founders.positions;
       for (unsigned int d = 0; d < dim; ++d)
@@ -76,6 +78,8 @@ namespace Morula
                               Utilities::MPI::max(upper, comm) -
                                 Utilities::MPI::min(lower, comm));
         }
+      // Positions of cells end half a cell before the tissue does, on both
+      // sides.
       return smallest + (has_surface ? 0. : cell_length(founders, comm));
     }
   } // namespace
@@ -91,6 +95,10 @@ namespace Morula
               const MPI_Comm             comm,
               Review                    &review)
   {
+    // Each warning is a finding of doc/hard-cases.md or
+    // doc/accuracy-and-cost.md, with the numbers of this scene: too few cells
+    // for each grid spacing; tissue thinner than a grid cell; boundary points
+    // of slip walls too far apart; no extension.
     const double      h     = grid.spacing;
     const double      L     = cell_length(founders, comm);
     const std::string path  = grid.spacing.path();
@@ -121,7 +129,7 @@ namespace Morula
         "Lower Grid/Spacing to half the thickness if they matter, with " +
           tissue.cell_spacing.path() + " at most a third of that.");
 
-    // fixed points keep their distances
+    // Only slip walls are affected: fixed points keep their distances.
     const double patch = patch_length(surface, comm);
     if (slips && !tissue.refine_surface && patch > (0.5 - rounding) * h)
       review.warn(tissue.boundary_points.path(),

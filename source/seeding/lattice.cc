@@ -18,12 +18,17 @@ namespace Morula
              leading_components<dim>(parameters.lattice_offset))
     , spacing(parameters.cell_spacing)
   {
+    // In a box the lattice begins at its corner, so that whole cells fill it;
+    // in other shapes a corner of lattice boxes stands at the center.
     if (parameters.shape == "box")
       origin -= 0.5 * leading_components<dim>(parameters.size);
 
     double product = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // Sites lie at origin + (i + 1/2) spacing. A number beyond what ids or
+        // integers can count is refused here, before a loop over the sites
+        // begins.
         const double lower =
           std::floor((box.lower_bound(d) - origin[d]) / spacing - 0.5);
         const double upper =
@@ -56,6 +61,7 @@ namespace Morula
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // Sites are numbered with x fastest.
         const std::int64_t i =
           first[d] + static_cast<std::int64_t>(site % counts[d]);
         x[d] = origin[d] + (static_cast<double>(i) + 0.5) * spacing;
@@ -75,6 +81,7 @@ namespace Morula
   std::vector<std::uint64_t>
   Lattice<dim>::neighbors(const std::uint64_t site) const
   {
+    // All sites around, of which some have no number.
     const unsigned int         n = dim == 2 ? 9 : 27;
     std::vector<std::uint64_t> list;
     for (unsigned int k = 0; k < n; ++k)
@@ -84,8 +91,8 @@ namespace Morula
         unsigned int  offsets  = k;
         for (unsigned int d = 0; d < dim; ++d, offsets /= 3)
           {
-            // one below, equal, or one above; 0 - 1 wraps round to a number
-            // that is too large
+            // The neighbour is one below, equal, or one above. 0 - 1 wraps
+            // round to a number that is too large.
             const std::uint64_t i = rest % counts[d] + offsets % 3 - 1;
             numbered              = numbered && i < counts[d];
             other += i * stride;
@@ -103,6 +110,7 @@ namespace Morula
   Lattice<dim>::is_occupied(const Shape<dim> &shape,
                             const Point<dim> &position) const
   {
+    // Sites on the surface are outside, whatever rounding says.
     return shape.contains(position, 1e-9 * spacing);
   }
 

@@ -36,6 +36,7 @@ namespace Morula
       double n = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         {
+          // The padding is that of BackgroundGrid::enclose().
           const double of_tissue = std::floor(box.side_length(d) / h) + 1.;
           n *= of_tissue + 2. * (2. + std::floor(of_tissue / 8.));
         }
@@ -51,7 +52,9 @@ namespace Morula
                  const double            cells,
                  const double            volume)
     {
-      // Two spheroids with a gap of many diameters are far from this.
+      // A thousand grid cells for each one with tissue are much more than any
+      // real scene has: two spheroids with a gap of many diameters are far from
+      // that.
       constexpr double most_per_cell = 1000., few_cells = 1000.;
       const double     n = grid_cells(box, h);
       if (n <= most_per_cell *
@@ -78,6 +81,7 @@ namespace Morula
                 const double            h,
                 const unsigned int      dim)
   {
+    // Points have volumes of their own, which are tested as they are read.
     if (!tissue.is_points() && tissue.cell_spacing > longest_cell * h)
       tissue.cell_spacing.refuse(
         "a spacing of at most " + as_text(longest_cell) +
@@ -100,9 +104,11 @@ namespace Morula
                  const MemoryCheck      &check_memory)
   {
     SeedingLimits<dim> limits;
-    limits.farthest     = farthest_place * h;
-    limits.extent       = longest_tissue * h;
-    limits.cell_length  = longest_cell * h;
+    limits.farthest    = farthest_place * h;
+    limits.extent      = longest_tissue * h;
+    limits.cell_length = longest_cell * h;
+    // The parameters are copied, since the check is called later, while the
+    // cells are made or read.
     limits.check_memory = [tissue, h, check_memory](const BoundingBox<dim> &box,
                                                     const double cells,
                                                     const double volume) {

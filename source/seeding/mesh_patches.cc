@@ -32,7 +32,8 @@ namespace Morula
       double                area = 0.;
       Tensor<1, 3>          moment; // area times centroid
       Tensor<1, 3>          vector; // sum of the area vectors
-      // the pieces next to this one; see current() for merged ones
+      // The pieces next to this one. They may have been merged since: see
+      // current().
       std::vector<std::size_t> neighbors;
       std::size_t              merged_into;
 
@@ -64,6 +65,8 @@ namespace Morula
     count_pieces(const std::vector<SurfaceTriangle> &triangles,
                  const std::uint64_t                 n_wished)
     {
+      // The share of a triangle is its area in patches. Rounding the running
+      // sum rather than each share keeps the total near the wish.
       double total = 0.;
       for (const SurfaceTriangle &triangle : triangles)
         total += area_vector(triangle.vertices).norm();
@@ -93,6 +96,8 @@ namespace Morula
     {
       std::vector<Piece>       pieces;
       std::vector<std::size_t> first;
+      // The first piece of each triangle is remembered, so that neighbours can
+      // be found by triangle.
       for (std::size_t t = 0; t < triangles.size(); ++t)
         {
           std::vector<Triangle> parts;
@@ -106,7 +111,7 @@ namespace Morula
         if (counts[t] == 1)
           for (const unsigned int neighbor : triangles[t].neighbors)
             {
-              // a cut neighbour is represented by its nearest piece
+              // A neighbour that was cut is represented by its nearest piece.
               Piece     &own   = pieces[first[t]];
               const auto begin = pieces.begin() + first[neighbor];
               const auto nearest =
@@ -127,6 +132,8 @@ namespace Morula
     std::size_t
     current(std::vector<Piece> &pieces, std::size_t number)
     {
+      // On the way the path is shortened to half, so that later searches are
+      // short.
       while (pieces[number].merged_into != number)
         {
           pieces[number].merged_into =
@@ -143,9 +150,13 @@ namespace Morula
     std::size_t
     best_neighbor(std::vector<Piece> &pieces, const std::size_t number)
     {
+      // Triangles that meet at more than 30 degrees are sides of an edge of the
+      // body: a patch across it would have a normal that neither has.
       constexpr double cosine_of_sharp_edge = 0.86602540378443865; // 30 degrees
 
       std::vector<std::size_t> &neighbors = pieces[number].neighbors;
+      // Neighbours may have been merged since. Their list is brought up to date
+      // first.
       for (std::size_t &neighbor : neighbors)
         neighbor = current(pieces, neighbor);
       std::sort(neighbors.begin(), neighbors.end());
@@ -182,6 +193,8 @@ namespace Morula
       kept.area += gone.area;
       kept.moment += gone.moment;
       kept.vector += gone.vector;
+      // The smaller list is moved to the larger one, so that many merges stay
+      // cheap.
       const auto move_all = [](auto &into, auto &out_of) {
         if (into.size() < out_of.size())
           std::swap(into, out_of);
@@ -198,6 +211,8 @@ namespace Morula
     void
     merge_smallest(std::vector<Piece> &pieces, const std::uint64_t n_wished)
     {
+      // The queue has an entry for each state of a piece. Old entries are not
+      // removed but recognised: by a piece that is merged, or by another area.
       using Entry = std::pair<double, std::size_t>; // area, number
       std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
       for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -230,6 +245,8 @@ namespace Morula
       constexpr double   least  = 0.1; // of a barycentric coordinate
       const Tensor<1, 3> normal = area_vector(triangle);
       double             weights[3], sum = 0.;
+      // Barycentric coordinates of the projection of x, with a least value so
+      // that the point is inside and off the edges.
       for (unsigned int i = 0; i < 3; ++i)
         {
           const Tensor<1, 3> part =
@@ -250,6 +267,8 @@ namespace Morula
       patch.area = area == PatchArea::whole ? piece.area : piece.vector.norm();
       patch.normal   = piece.vector / piece.vector.norm();
       patch.position = piece.center();
+      // A centre of several triangles may lie off the surface, so it is moved
+      // into the triangle that it is nearest to.
       if (piece.triangles.size() == 1)
         return patch;
 
@@ -284,6 +303,8 @@ namespace Morula
         pieces.push_back(triangle);
         return;
       }
+    // The longest edge is cut, so that pieces stay compact; at the ratio of the
+    // numbers of pieces, so that their areas are equal.
     unsigned int longest = 0;
     for (unsigned int i = 1; i < 3; ++i)
       if (triangle[i].distance(triangle[(i + 1) % 3]) >
@@ -305,6 +326,9 @@ namespace Morula
                    const std::uint64_t                 n_wished,
                    const PatchArea                     area)
   {
+    // Large triangles are cut, small ones are merged, until the number of
+    // pieces is about the wish. What has not been merged into another piece is
+    // a patch.
     std::vector<Piece> pieces =
       cut(triangles, count_pieces(triangles, n_wished));
     merge_smallest(pieces, n_wished);

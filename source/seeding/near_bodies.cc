@@ -32,6 +32,8 @@ namespace Morula
              const double                   length,
              const MPI_Comm                 comm)
     {
+      // Sorted by coordinates, cubes along the last axis follow each other, and
+      // become one run where they touch. That makes far less to send.
       std::vector<std::array<int, dim>> places(points.size());
       for (std::size_t i = 0; i < points.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
@@ -65,6 +67,9 @@ namespace Morula
     unsigned int
     n_groups(const std::vector<Run<dim>> &runs, const int reach)
     {
+      // Each run is joined with those found before it in all rows within reach,
+      // where they overlap along the last axis or come as near as that. All
+      // pairs are looked at, as the later of two runs finds the earlier one.
       using Row = std::array<int, dim - 1>; // the other axes
       std::map<Row, std::vector<std::size_t>> rows;
       std::vector<std::size_t>                rank(runs.size()), parent(rank);
@@ -78,7 +83,7 @@ namespace Morula
           const Run<dim> &run = runs[r];
           Row             row;
           std::copy_n(run.begin(), dim - 1, row.begin());
-          // with those before it
+          // This joins it with runs that came before.
           for (int k = 0; k < Utilities::pow(2 * reach + 1, dim - 1); ++k)
             {
               Row other = row;
@@ -107,6 +112,10 @@ namespace Morula
                const SurfacePatches<dim> &surface,
                const MPI_Comm             comm)
   {
+    // Bodies are groups of cubes as long as the longest cell that stand at most
+    // two apart, pieces are groups of grid cells that touch. Both are counted
+    // on rank 0. The grid sticks bodies together that the cells keep apart
+    // where there are fewer pieces than bodies.
     double longest = 0.;
     for (const double V : founders.volumes)
       longest = std::max(longest, std::pow(V, 1. / dim));
@@ -140,6 +149,7 @@ namespace Morula
                 const MPI_Comm             comm,
                 Review                    &review)
   {
+    // A shape is one body.
     if (!tissue.is_from_file())
       return;
     const BodyCounts counts = count_bodies(grid, founders, surface, comm);

@@ -28,6 +28,7 @@ namespace Morula
     is_near(const Point<dim> &x, const double farthest)
     {
       for (unsigned int d = 0; d < dim; ++d)
+        // A NaN is not near either.
         if (!(std::abs(x[d]) <= farthest))
           return false;
       return true;
@@ -54,6 +55,7 @@ namespace Morula
   bounding_box(const PointsFileRows<dim> &rows, const MPI_Comm comm)
   {
     std::pair<Point<dim>, Point<dim>> corners;
+    // First each rank finds its own box, then all find that of all.
     for (unsigned int d = 0; d < dim; ++d)
       {
         double lower = std::numeric_limits<double>::max(), upper = -lower;
@@ -73,6 +75,8 @@ namespace Morula
   find_row_beyond_limits(const PointsFileRows<dim> &rows,
                          const SeedingLimits<dim>  &limits)
   {
+    // Each rank looks at its own rows; the first bad one of all ranks is found
+    // by the caller.
     for (std::size_t i = 0; i < rows.positions.size(); ++i)
       {
         if (!is_near(rows.positions[i], limits.farthest))
@@ -105,10 +109,15 @@ namespace Morula
   {
     if (n == 0)
       return {};
+    // Along each axis the extent of all cells is compared with the limit. If it
+    // is exceeded the cell farthest from the mean is named: of a file with one
+    // wrong number that is the wrong one. The rank that has it returns it; the
+    // others return nothing, and the caller throws on all of them.
     const BoundingBox<dim> box = bounding_box(rows, comm);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // of the halves, since the difference of large numbers may overflow
+        // Halves are compared, since the difference of large numbers may
+        // overflow.
         if (0.5 * box.upper_bound(d) - 0.5 * box.lower_bound(d) <= 0.5 * extent)
           continue;
         const double center   = mean(rows, d, n, comm);

@@ -32,6 +32,8 @@ namespace Morula
                 const std::string &file,
                 const MPI_Comm     comm)
     {
+      // All ranks throw the same error or none does. The lowest line wins, as
+      // one rank would have found it.
       const std::uint64_t first = Utilities::MPI::min(mine.line, comm);
       if (first == LineProblem::no_line)
         return;
@@ -65,6 +67,8 @@ namespace Morula
     char
     find_line_end(const std::string &beginning)
     {
+      // The first line end decides for the whole file: some old programs write
+      // a carriage return alone.
       const auto end = beginning.find_first_of("\r\n");
       return end == std::string::npos || end + 1 >= beginning.size() ||
                  beginning[end] == '\n' || beginning[end + 1] == '\n' ?
@@ -76,6 +80,8 @@ namespace Morula
     std::string
     why_no_text(const std::string &beginning)
     {
+      // The marks are the first bytes of UTF-16, and of ZIP, in which
+      // spreadsheets are packed.
       for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"})
         if (boost::starts_with(beginning, mark))
           return "It is written in UTF-16: save it as CSV in UTF-8.";
@@ -94,6 +100,7 @@ namespace Morula
     std::string
     beginning_of(std::ifstream &stream)
     {
+      // 64 kB show the kind of a file, whatever its length.
       std::string text(std::size_t(1) << 16, ' ');
       stream.seekg(0);
       stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -110,6 +117,12 @@ namespace Morula
     read_header(std::ifstream &stream)
     {
       Header header;
+      // Every rank reads the header, so that all know the columns without a
+      // message. The first line that is neither blank nor a comment names them.
+      // Lines of words below it, such as units, belong to the header, too,
+      // until one could be a cell. What is counted on the way is where the rows
+      // begin, in bytes and in lines, since ranks share the bytes and messages
+      // name lines.
       stream.seekg(0, std::ios::end);
       header.file_size =
         static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
@@ -125,12 +138,13 @@ namespace Morula
         {
           if (header.line == 0 && text.rfind("\xEF\xBB\xBF", 0) == 0)
             {
-              text.erase(0, 3); // the byte order mark that spreadsheets write
+              // Spreadsheets write a byte order mark before UTF-8.
+              text.erase(0, 3);
               header.data_begin += 3;
             }
           const bool skipped =
             is_blank_or_comment(text) ||
-            // by this line a spreadsheet is told the separator
+            // By this line a spreadsheet is told the separator.
             (!found && boost::istarts_with(text, "sep="));
           if (found && !skipped)
             {
@@ -174,6 +188,10 @@ namespace Morula
       const std::uint64_t ranks = Utilities::MPI::n_mpi_processes(comm);
       const std::uint64_t bytes =
         std::max(header.file_size, header.data_begin) - header.data_begin;
+      // Ranks share the bytes, not the lines, whose places nobody knows. A line
+      // belongs to the rank in whose share it begins. So each rank starts one
+      // byte before its share and skips what is left of the line there, which
+      // another rank reads to its end.
       std::uint64_t       at  = header.data_begin + bytes * rank / ranks;
       const std::uint64_t end = header.data_begin + bytes * (rank + 1) / ranks;
 
@@ -182,7 +200,7 @@ namespace Morula
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(at - 1));
       const char line_end = header.format.line_end;
-      // skips the rest of the line before, at least its end
+      // This skips the rest of the line before, at least its end.
       if (!std::getline(stream, text, line_end))
         return rows;
       at += text.size();
@@ -211,6 +229,7 @@ namespace Morula
       const int     error =
         MPI_Exscan(&mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
       AssertThrowMPI(error);
+      // MPI_Exscan() leaves it undefined on rank 0.
       return Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : below;
     }
 
@@ -264,6 +283,10 @@ namespace Morula
       double longest = 0.;
       for (const double volume : rows.volumes)
         longest = std::max(longest, std::pow(volume, 1. / dim));
+      // Cells nearer than `reach` may coincide. Bins are wider than that, so a
+      // cell has to be looked for in its own bin only if each cell also stands
+      // in all bins that its reach touches: at most one for each corner of the
+      // box around it.
       const double reach = contact * Utilities::MPI::max(longest, comm);
       const double width = 4. * reach;
 
@@ -290,6 +313,8 @@ namespace Morula
             {
               std::size_t hash = 0;
               for (const double index : bin)
+                // Any hash will do that spreads neighbouring bins over the
+                // ranks.
                 hash = hash * 1000003 + std::hash<double>()(index);
               entry.bin = bin;
               outgoing[(hash >> 8) % n_ranks].push_back(entry);
@@ -298,6 +323,8 @@ namespace Morula
       std::vector<BinEntry<dim>> mine;
       for (const auto &from : Utilities::MPI::some_to_some(comm, outgoing))
         mine.insert(mine.end(), from.second.begin(), from.second.end());
+      // Sorted by bin, cells that may coincide stand together; by line, the
+      // first of them comes first.
       std::sort(mine.begin(), mine.end(), [](const auto &a, const auto &b) {
         return std::tie(a.bin, a.line) < std::tie(b.bin, b.line);
       });
@@ -322,6 +349,8 @@ namespace Morula
       LineProblem problem;
       for (std::size_t begin = 0, i = 0; i < entries.size(); ++i)
         {
+          // One pass over the bins: each entry is compared with those before it
+          // in its bin.
           if (entries[i].bin != entries[begin].bin)
             begin = i;
           if (entries[i].line >= problem.line)
@@ -351,6 +380,12 @@ namespace Morula
               const MPI_Comm            comm,
               const SeedingLimits<dim> &limits)
   {
+    // Every rank opens the file and reads the header, then its own share of the
+    // rows. Numbers of lines are local at first, and become those of the file
+    // once all ranks know how many lines the others have. Then come the tests,
+    // the cheap ones first; each throws on all ranks together. What needs
+    // memory in proportion to the tissue comes behind the test of memory. At
+    // last the rows become founders, whose ids follow the order of the file.
     std::ifstream stream(file, std::ios::binary);
     if (Utilities::MPI::max(stream.good() ? 0 : 1, comm) != 0)
       throw InputError(TissueKeys::points_file,
@@ -360,6 +395,7 @@ namespace Morula
     const Header header = read_header<dim>(stream);
     throw_first(header.problem, file, comm);
 
+    // Problems of rows come before those of the file as a whole.
     PointsFileRows<dim> rows =
       read_share<dim>(stream, header, default_volume, limits.types, comm);
     const std::uint64_t lines_before =
@@ -402,6 +438,8 @@ namespace Morula
   {
     std::ifstream stream(file, std::ios::binary);
     const Header  header = read_header<dim>(stream);
+    // Names that are not known may be misspelt, and a line of words may be a
+    // cell with a fault: neither is an error, both are worth a warning.
     if (!header.format.skipped.empty())
       review.warn(TissueKeys::points_file,
                   file,

@@ -29,6 +29,8 @@ namespace Morula
     std::string
     trimmed(const std::string &text)
     {
+      // Quotes around an entry do not count, nor the carriage return of
+      // Windows.
       const char *const blanks = " \t\r\"";
       const auto        begin  = text.find_first_not_of(blanks);
       return begin == std::string::npos ?
@@ -44,6 +46,8 @@ namespace Morula
       bool                     quoted = false;
       for (const char c : separator == ' ' ? trimmed(line) : line)
         {
+          // Several blanks in a row are one separator, several commas are empty
+          // entries.
           quoted = quoted != (c == '"');
           if (quoted || c != separator)
             result.back() += c;
@@ -78,6 +82,8 @@ namespace Morula
         return {};
       double            value = 0.;
       const char *const end   = text.data() + text.size();
+      // std::from_chars() does not depend on the locale, but knows no plus
+      // sign.
       const auto [rest, error] =
         std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
       if (error != std::errc() || rest != end || !std::isfinite(value))
@@ -89,6 +95,7 @@ namespace Morula
     std::optional<double>
     type_number(const std::string &text, const std::vector<std::string> &types)
     {
+      // A name goes first, as a type may be called by a number.
       const auto place = std::find(types.begin(), types.end(), text);
       if (place != types.end())
         return place - types.begin();
@@ -102,6 +109,7 @@ namespace Morula
     bool
     is_phase(const double value)
     {
+      // G0, S, G2, G1 and "never divides"; see check_state().
       return value == 0. || value == 1. || value == 2. || value == 4. ||
              value == 9.;
     }
@@ -146,6 +154,7 @@ namespace Morula
     std::pair<std::string, std::string>
     split_unit(const std::string &name)
     {
+      // A unit stands in round or square brackets at the end.
       const auto open = name.find_first_of("([");
       if (open == std::string::npos ||
           name.find_last_of(")]") != name.size() - 1)
@@ -159,7 +168,7 @@ namespace Morula
     bool
     is_other_unit(const std::string &unit)
     {
-      // two signs of Unicode look like the Greek letter
+      // Two signs of Unicode look like the Greek letter.
       const std::array<std::string, 4> known = {
         {"um", "micro", "\xC2\xB5m", "\xCE\xBCm"}};
       return !unit.empty() &&
@@ -184,6 +193,8 @@ namespace Morula
     unsigned int
     meaning_of(const std::string &title)
     {
+      // Names are compared in small letters and without a unit. "Position X"
+      // and the like are the headers of common programs.
       std::string name =
         boost::algorithm::to_lower_copy(split_unit(title).first);
       if (boost::algorithm::starts_with(name, "position"))
@@ -218,6 +229,8 @@ namespace Morula
     char
     find_separator(const std::string &text)
     {
+      // A name may hold any of these signs, so the one that makes sense of the
+      // line is the separator.
       char                                 best = ',';
       std::pair<unsigned int, std::size_t> most = {0, 0};
       for (const char separator : {',', ';', '\t', ' '})
@@ -240,6 +253,7 @@ namespace Morula
     header_fault(const std::vector<std::string>  &titles,
                  const std::vector<unsigned int> &columns)
     {
+      // A file without a header is told from one with strange names.
       if (std::all_of(titles.begin(), titles.end(), [](const auto &title) {
             return number(title).has_value();
           }))
@@ -273,7 +287,11 @@ namespace Morula
   PointsFormat
   read_columns(const std::string &text, LineProblem &problem)
   {
-    PointsFormat      format;
+    PointsFormat format;
+    // Each step uses the one before: the separator gives the entries, their
+    // names give the columns, and only a header without a fault is asked for
+    // units. What is not recognised is skipped, and said in a warning by the
+    // caller.
     const std::string line = text.substr(0, longest_line);
     format.separator       = find_separator(line);
     format.columns         = columns_with(line, format.separator).first;
@@ -307,6 +325,9 @@ namespace Morula
                     const PointsFormat &format,
                     LineProblem        &problem)
   {
+    // A further line of the header has as many entries as there are columns,
+    // and words where coordinates stand. What could be a number, also an
+    // infinite one, is a row.
     if (text.size() > longest_line)
       return false;
     const auto entries = fields(text, format.separator);
@@ -334,10 +355,16 @@ namespace Morula
            const std::vector<std::string> &types,
            PointsFileRows<dim>            &rows)
   {
-    const auto              &columns = format.columns;
+    const auto &columns = format.columns;
+    // Each entry goes to the meaning of its column; what no column gives has a
+    // default. The first thing that is wrong becomes the problem of this rank,
+    // with the line's number in its share, and ends the reading: the caller
+    // finds the first of all ranks. A row that is right is appended to the
+    // lists, and to those of state only if there is such a column, since absent
+    // effects need no storage.
     std::vector<std::string> entries =
       fields(text.substr(0, longest_line), format.separator);
-    // spreadsheets fill rows up to the width of the sheet
+    // Spreadsheets fill rows up to the width of the sheet.
     while (entries.size() > columns.size() && entries.back().empty())
       entries.pop_back();
     if (text.size() > longest_line || entries.size() != columns.size())
@@ -352,6 +379,8 @@ namespace Morula
             "decimal points, not commas."};
         return;
       }
+    // The order is that of the meanings: x, y, z, volume, generation, phase,
+    // type, moment.
     std::array<double, n_meanings> values = {
       {0., 0., 0., default_volume, 0., 0., 0., 0.}};
     for (unsigned int i = 0; i < entries.size(); ++i)
@@ -361,6 +390,8 @@ namespace Morula
         const std::optional<double> value = columns[i] == type ?
                                               type_number(entries[i], types) :
                                               number(entries[i]);
+        // Rows of several moments are refused later, when the range over all
+        // ranks is known.
         if (columns[i] == moment)
           {
             if (value)
@@ -370,6 +401,7 @@ namespace Morula
               }
             continue;
           }
+        // A wrong type has a message of its own: it depends on the scene.
         if (!value && columns[i] == type)
           {
             rows.problem = {rows.n_lines,
@@ -398,6 +430,7 @@ namespace Morula
                       "a volume above 0 um^3 (2-D: um^2)",
                       "Correct the volume or drop the cell."};
     check_state(values[generation], values[phase], trimmed(text), rows);
+    // A third dimension is no cell's in 2-D, but z = 0 may stand there.
     if (dim == 2 && values[2] != 0.)
       rows.problem = {
         rows.n_lines,
@@ -406,7 +439,7 @@ namespace Morula
         "Project the cells into the plane, or set Dimension = 3."};
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)
-      x[d] = values[d] + 0.; // -0 becomes 0
+      x[d] = values[d] + 0.; // -0, which would print as such, becomes 0.
     rows.positions.push_back(x);
     rows.volumes.push_back(values[volume]);
     const auto keep = [&](const unsigned int meaning, auto &list) {

@@ -31,6 +31,8 @@ namespace Morula
     AllCells<dim>
     gather(const Founders<dim> &founders, const MPI_Comm comm)
     {
+      // Each list arrives in the order of the ranks, so that positions and
+      // volumes stay in step.
       std::vector<Point<dim>> positions;
       std::vector<double>     volumes;
       for (const auto &part : Utilities::MPI::gather(comm, founders.positions))
@@ -48,8 +50,15 @@ namespace Morula
     {
       const Filling<dim> filling(cells);
       const double       half = 0.5 * filling.inside();
+      // Newton's method along the gradient of the filling, doc/theory.md (1.9):
+      // each step goes to where the linearised filling is half, at most a
+      // quarter of a cell. A vertex that has gone 3/4 of a cell is cut off
+      // there, so that no vertex leaves the neighbourhood of its cells.
       for (Point<dim> &x : surface.vertices)
         {
+          // Newton's method needs a few steps; twenty end it where the filling
+          // is too flat to say a place. A slope of 1e-6 a cell's length means
+          // that no cell is near.
           const Point<dim> start = x;
           for (unsigned int i = 0; i < 20; ++i)
             {
@@ -64,6 +73,7 @@ namespace Morula
               x += step;
               if (x.distance(start) > 0.75 * cells.length)
                 {
+                  // The way is cut to its largest length, in its direction.
                   x = start +
                       (0.75 * cells.length / x.distance(start)) * (x - start);
                   break;
@@ -93,7 +103,8 @@ namespace Morula
     double
     enclosed_volume(const ClosedSurface<dim> &surface)
     {
-      // from a point of the surface, so that no digits are lost far away
+      // The volume is seen from a point of the surface, so that no digits are
+      // lost far from the origin.
       const Point<dim> apex   = surface.vertices.front();
       double           volume = 0.;
       for (std::size_t f = 0; f < surface.facets.size(); ++f)
@@ -118,6 +129,9 @@ namespace Morula
     void
     match_volume(const AllCells<dim> &cells, ClosedSurface<dim> &surface)
     {
+      // The surface moves by the missing volume over its area; curvature makes
+      // that inexact, so it is repeated five times. `so_far` bounds the whole
+      // way, not one step.
       double so_far = 0.;
       for (unsigned int i = 0; i < 5; ++i)
         {
@@ -128,6 +142,7 @@ namespace Morula
                        -limit,
                        limit) -
             so_far;
+          // A vertex moves along the sum of its facets' area vectors.
           std::vector<Tensor<1, dim>> normals(surface.vertices.size());
           for (std::size_t f = 0; f < surface.facets.size(); ++f)
             for (const unsigned int v : surface.facets[f])
@@ -143,6 +158,8 @@ namespace Morula
     void
     cut_segments(const double longest, ClosedSurface<2> &surface)
     {
+      // 2-D: patches are cut along the line, whose vertices should not be
+      // farther apart than half a cell.
       std::vector<std::array<unsigned int, 2>> cut;
       for (const auto &[from, to] : surface.facets)
         {
@@ -167,6 +184,8 @@ namespace Morula
     std::vector<std::vector<Point<2>>>
     loops(const ClosedSurface<2> &surface)
     {
+      // Each segment leads to the next one; where several begin in a vertex,
+      // any of them does.
       std::multimap<unsigned int, unsigned int> next;
       for (const auto &[from, to] : surface.facets)
         next.emplace(from, to);
@@ -192,6 +211,8 @@ namespace Morula
                 const std::vector<double>   &lengths,
                 const double                 way)
     {
+      // The vertex before the place, found by bisection, and the part of the
+      // segment behind it.
       const std::size_t n = line.size();
       const std::size_t i =
         std::min<std::size_t>(std::upper_bound(lengths.begin(),
@@ -212,11 +233,14 @@ namespace Morula
       std::vector<SurfacePatch<2>> all;
       for (const std::vector<Point<2>> &line : loops(surface))
         {
+          // Each closed line is divided into pieces of equal length, and a
+          // patch stands for the chord of a piece. Chords of a closed line add
+          // up to 0, so that the area vectors do as well.
           std::vector<double> lengths(1, 0.);
           for (std::size_t i = 0; i < line.size(); ++i)
             lengths.push_back(lengths.back() +
                               line[i].distance(line[(i + 1) % line.size()]));
-          // fewer would enclose nothing
+          // Two chords would enclose nothing.
           const double n  = std::max(3., std::round(lengths.back() / length));
           const auto   at = [&](const double i) {
             return place_along(line, lengths, i / n * lengths.back());
@@ -237,6 +261,8 @@ namespace Morula
     patches(const ClosedSurface<3> &surface, const std::uint64_t n_wished)
     {
       std::map<std::pair<unsigned int, unsigned int>, unsigned int> facet_of;
+      // A facet's neighbour along an edge is the one that has the same edge the
+      // other way round.
       for (std::size_t f = 0; f < surface.facets.size(); ++f)
         for (unsigned int i = 0; i < 3; ++i)
           facet_of[{surface.facets[f][i], surface.facets[f][(i + 1) % 3]}] =
@@ -277,6 +303,8 @@ namespace Morula
     std::size_t
     count_parts(const ClosedSurface<dim> &surface)
     {
+      // Vertices of one facet belong together; the number of sets is that of
+      // the parts.
       boost::disjoint_sets_with_storage<> bodies(surface.vertices.size());
       std::vector<std::size_t>            all(surface.vertices.size());
       std::iota(all.begin(), all.end(), 0);
@@ -290,6 +318,9 @@ namespace Morula
     Enclosure<dim>
     enclose(const AllCells<dim> &cells)
     {
+      // The steps of doc/theory.md, section 1.7: wrap, half of the filling,
+      // volume. Lines are cut before their vertices move, so that they can
+      // follow the cells.
       ClosedSurface<dim> surface = wrap_points(cells.positions, cells.length);
       if constexpr (dim == 2)
         cut_segments(0.5 * cells.length, surface);
@@ -310,6 +341,8 @@ namespace Morula
       const Enclosure<dim> enclosure = enclose(cells);
       if (enclosure.fits(cells.volumes.size()))
         return enclosure.surface;
+      // The message says what the surface would be: parts and volume tell
+      // overlapping cells from gaps, and a wrong unit shows in either.
       const std::size_t  n     = enclosure.n_parts;
       const double       ratio = enclosure.volume_ratio;
       std::ostringstream found;
@@ -351,6 +384,9 @@ namespace Morula
     void
     enclose_exactly(const double volume, SurfacePatches<dim> &patches)
     {
+      // The volume as in enclosed_volume(), from the patches. A shift by w
+      // along all normals changes it by w/dim times their area: positions move,
+      // areas and normals stay.
       const Point<dim> apex   = patches.positions.front();
       double           so_far = 0., area = 0.;
       for (std::size_t i = 0; i < patches.areas.size(); ++i)
@@ -369,6 +405,8 @@ namespace Morula
     SurfacePatches<dim>
     shares(const SurfacePatches<dim> &all, const MPI_Comm comm)
     {
+      // Rank 0 sends the whole list to all, and each takes its share. Surfaces
+      // are small beside the tissue.
       const auto take = [comm](const auto &list, auto &mine) {
         const auto everything   = Utilities::MPI::broadcast(comm, list, 0);
         const auto [begin, end] = share(everything.size(), comm);
@@ -392,6 +430,9 @@ namespace Morula
                       const Founders<dim>    &founders,
                       const MPI_Comm          comm)
   {
+    // Rank 0 has all cells and makes the surface; the shares go to all ranks.
+    // Without a number in the scene there is about one patch for the face of a
+    // cell.
     const AllCells<dim> cells = gather(founders, comm);
     SurfacePatches<dim> all;
     on_root(comm, [&]() {
@@ -414,6 +455,8 @@ namespace Morula
                  const SurfaceWish             &wish)
   {
     const Enclosure<dim> enclosure =
+      // Called on one rank, with all cells: so there is nothing to exchange,
+      // and the result is the same for any number of ranks.
       enclose(AllCells<dim>(positions, volumes, wish.length));
     if (!enclosure.fits(volumes.size()))
       return {};

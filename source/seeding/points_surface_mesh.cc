@@ -48,6 +48,8 @@ namespace Morula
     void
     restart_shuffling()
     {
+      // CGAL's generator is global, so the state before does not matter any
+      // more.
       CGAL::get_default_random() = CGAL::Random(0);
     }
 
@@ -56,6 +58,9 @@ namespace Morula
     std::vector<Kernel::Point_3>
     empty_balls(const std::vector<Kernel::Point_3> &points, const double radius)
     {
+      // The cells of the Delaunay triangulation are those whose circumscribed
+      // balls hold no point, so their centres are the places with the most
+      // room.
       const CGAL::Delaunay_triangulation_3<Kernel>    delaunay(points.begin(),
                                                             points.end());
       std::vector<std::pair<double, Kernel::Point_3>> balls;
@@ -79,6 +84,8 @@ namespace Morula
     void
     append(Mesh &mesh, ClosedSurface<3> &surface)
     {
+      // Loop's subdivision makes four triangles of each and smooths the
+      // surface.
       CGAL::Subdivision_method_3::Loop_subdivision(mesh);
       const auto first = static_cast<unsigned int>(surface.vertices.size());
       for (const Mesh::Vertex_index v : mesh.vertices())
@@ -136,6 +143,9 @@ namespace Morula
              Wrap                               &outer)
     {
       std::list<Wrap> found;
+      // A cavity has room for the wrap's ball. Each empty ball inside of the
+      // outer wrap that no cavity found so far contains is the seed of a wrap
+      // from within. The largest come first, so that one seed finds one cavity.
       for (const Kernel::Point_3 &center :
            empty_balls(points, (alpha + offset) * length))
         {
@@ -144,7 +154,7 @@ namespace Morula
                 return other.contains(center) == other.is_cavity;
               }))
             continue;
-          // CGAL 5.5 reads the last parameters, CGAL 6 those before
+          // CGAL 5.5 reads the last parameters, CGAL 6 those before.
           std::vector<Kernel::Point_3> seeds = {center};
           const auto                   from_seeds =
             CGAL::parameters::seed_points(std::ref(seeds));
@@ -155,7 +165,8 @@ namespace Morula
                              found.back().mesh,
                              from_seeds,
                              from_seeds);
-          // else it has leaked out, and is outer again
+          // A wrap that does not contain its seed has leaked out and is the
+          // outer surface again.
           found.back().is_cavity = found.back().contains(center);
         }
       found.remove_if([](const Wrap &wrap) { return !wrap.is_cavity; });
@@ -166,6 +177,9 @@ namespace Morula
   ClosedSurface<3>
   wrap_points(const std::vector<Point<3>> &points, const double length)
   {
+    // The outer wrap goes around all centres. With few cells the wrap is made
+    // around points around them. Cavities are wrapped from within, and turned
+    // so that their normals point out of the tissue.
     restart_shuffling();
     std::vector<Kernel::Point_3> centers;
     for (const Point<3> &x : points)
@@ -194,7 +208,13 @@ namespace Morula
       CGAL::Triangulation_data_structure_2<Vertex, Face>>;
     using Shape = CGAL::Alpha_shape_2<Delaunay>;
 
+    // In 2-D the alpha shape of points on circles around the cells takes the
+    // place of the wrap: its edges that bound the inside are the line. They are
+    // collected with the inside on their left, put into an order that is always
+    // the same, and numbered.
     restart_shuffling();
+    // A polygon of eight points is at most 8 % of the radius inside of its
+    // circle.
     constexpr unsigned int       n_around = 8;
     std::vector<Kernel::Point_2> around;
     for (const Point<2> &x : points)
@@ -205,11 +225,13 @@ namespace Morula
                               x[1] + offset * length * std::sin(angle));
         }
     Shape shape(around.begin(),
+                // The regularised shape has no loose edges and points.
                 around.end(),
                 alpha * alpha * length * length,
                 Shape::REGULARIZED);
 
-    // CGAL's order of edges depends on where they stand in memory
+    // CGAL's order of the edges depends on where they stand in memory; sorted,
+    // the same cells have the same line.
     std::vector<std::pair<Kernel::Point_2, Kernel::Point_2>> segments;
     for (auto edge = shape.alpha_shape_edges_begin();
          edge != shape.alpha_shape_edges_end();
@@ -218,6 +240,7 @@ namespace Morula
         const auto &[face, i] = *edge;
         segments.emplace_back(face->vertex(Shape::ccw(i))->point(),
                               face->vertex(Shape::cw(i))->point());
+        // The face of the edge lies outside, so the edge is turned round.
         if (shape.classify(face) != Shape::INTERIOR)
           std::swap(segments.back().first, segments.back().second);
       }

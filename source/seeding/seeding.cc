@@ -122,6 +122,8 @@ namespace Morula
                          std::abs(box.upper_bound(d))) <= limits.farthest))
             throw_far_away(parameters, box, limits.farthest);
         }
+      // A box around the surface with room for too many cells is refused before
+      // it is filled: its file most likely has another unit.
       double n = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         n *= box.side_length(d) / parameters.cell_spacing + 1.;
@@ -148,6 +150,7 @@ namespace Morula
         MPI_Exscan(&n_mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
       AssertThrowMPI(error);
       if (Utilities::MPI::this_mpi_process(comm) == 0)
+        // MPI_Exscan() leaves it undefined on rank 0.
         below = 0; // MPI_Exscan leaves it undefined
 
       const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
@@ -166,6 +169,12 @@ namespace Morula
                 const MPI_Comm            comm,
                 const SeedingLimits<dim> &limits)
   {
+    // Cells of a file need no lattice. Otherwise each rank looks at an equal
+    // share of the lattice's sites, in order, and keeps those inside of the
+    // shape. Trimming changes volumes and places, but not which sites are
+    // occupied; it looks at neighbouring sites itself, so nothing is exchanged.
+    // If it fails on any rank all ranks refuse the scene. At last the founders
+    // get ids over all ranks, in the order of the sites.
     const double volume = std::pow(parameters.cell_spacing.value(), dim);
     if (parameters.is_points())
       return read_points<dim>(parameters.points_file, volume, comm, limits);
@@ -188,6 +197,7 @@ namespace Morula
         sites.push_back(site);
       }
     founders.volumes.assign(founders.positions.size(), volume);
+    // trim() is called only where it is asked for.
     const bool seeded = parameters.surface_cells == "whole" ||
                         trim(lattice, *shape, sites, founders);
     if (Utilities::MPI::min(seeded ? 1 : 0, comm) == 0)
@@ -202,6 +212,9 @@ namespace Morula
   SurfacePatches<dim>
   seed_surface(const TissueParameters &parameters, const MPI_Comm comm)
   {
+    // The number of patches is the scene's, or that of cells' faces in the
+    // area. The tiling knows each patch by its number, so that each rank makes
+    // its own share alone, and no rank holds the surface as a whole.
     SurfacePatches<dim> patches;
     if (parameters.is_points())
       return patches;

@@ -107,6 +107,7 @@ namespace Morula
         "day.",
         {0.})
   {
+    // These keys name files, which are looked for beside the scene as well.
     for (Key<std::string> *key : {&surface_mesh, &points_file, &points_surface})
       key->of_file();
   }
@@ -149,6 +150,7 @@ namespace Morula
     check_vector(const Key<std::vector<double>> &numbers,
                  const unsigned int              dim)
     {
+      // A NaN fails as well, as it is not above 0.
       if (numbers.size() < dim || numbers.size() > 3)
         numbers.refuse(dim == 3 ?
                          "a list of 3 numbers in um" :
@@ -259,6 +261,7 @@ namespace Morula
     {
       const auto         shape = make_shape<dim>(parameters);
       const Lattice<dim> lattice(parameters, shape->bounding_box());
+      // Ends at the first cell: mostly it is among the first sites.
       for (std::uint64_t site = 0; site < lattice.n_sites(); ++site)
         if (lattice.is_occupied(*shape, lattice.position(site)))
           return;
@@ -313,6 +316,10 @@ namespace Morula
   void
   TissueParameters::check(const unsigned int dim) const
   {
+    // What any shape has is judged first, then what this shape needs, then what
+    // keys demand of each other. All of it is independent of cells and files:
+    // those that the scene names are opened here, but read later. So a bad
+    // scene is refused before any work.
     check_shape(shape, dim);
     check_vector(center, dim);
     check_vector(lattice_offset, dim);
@@ -325,7 +332,7 @@ namespace Morula
     if (shape == "sphere" && !(inner_radius >= 0. && inner_radius < radius))
       inner_radius.refuse("a length >= 0 um and less than " + radius.path(),
                           "The tissue is what lies between the two.");
-    // below, the volume of the cavity would be lost in rounding
+    // Below this length the volume of the cavity would be lost in rounding.
     if (shape == "sphere" && inner_radius > 0. &&
         inner_radius < 1e-3 * cell_spacing)
       inner_radius.refuse("0 for no cavity, or a length in um of at least 1e-3 "
@@ -357,6 +364,7 @@ namespace Morula
                            "Between two renewals patches are split and merged: "
                            "set Coarsen surface = true.");
 
+    // Their files are judged when they are read.
     if (is_from_file())
       return; // their files are judged when they are read
     if (dim == 2)

@@ -48,6 +48,9 @@ namespace Morula
   std::unique_ptr<Shape<dim>>
   make_shape(const TissueParameters &parameters)
   {
+    // Each shape takes the keys that belong to it. The parameters' own check
+    // has refused what does not exist in this dimension, so the last line is
+    // reached by points only, which have no inside.
     const std::string &shape  = parameters.shape;
     const Point<dim>   center = leading_components<dim>(parameters.center);
 

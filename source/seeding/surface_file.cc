@@ -18,6 +18,8 @@ namespace Morula
   {
     std::size_t        n = 0;
     std::ostringstream first;
+    // The message names the first of them and says how many there are: that
+    // tells a shift from a cell or two that stand astray.
     for (const Point<dim> &x : cells)
       if (!is_inside(x) && n++ == 0)
         first << x;
@@ -38,6 +40,8 @@ namespace Morula
     refuse_outside<3>(file, cells, [&mesh](const Point<3> &x) {
       return mesh.contains(x, 0.);
     });
+    // Triangles have points, the surface has numbers of vertices: equal
+    // coordinates are one vertex.
     ClosedSurface<3>                              surface;
     std::map<std::array<double, 3>, unsigned int> number_of;
     for (const SurfaceTriangle &triangle : mesh.triangles())

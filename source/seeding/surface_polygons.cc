@@ -20,7 +20,7 @@ namespace Morula
     namespace geometry = boost::geometry;
 
     using Place = geometry::model::d2::point_xy<double>;
-    // counter-clockwise; the last point is the first one again
+    // Rings go counter-clockwise, and their last point is the first one again.
     using Polygon = geometry::model::polygon<Place, false>;
     using Body    = geometry::model::multi_polygon<Polygon>;
 
@@ -28,9 +28,12 @@ namespace Morula
     Body
     read_polygons(const Key<std::string> &file)
     {
+      // The text is brought into the form that Boost reads, read as one polygon
+      // or as many, and then put right or refused. One polygon becomes a list
+      // of one, so that the rest knows a single kind.
       std::ifstream stream(file.value());
       std::string   text{std::istreambuf_iterator<char>(stream), {}};
-      // Boost takes blanks for the ends of words, and no other white space
+      // Boost takes blanks for the ends of words, and no other white space.
       std::replace_if(text.begin(), text.end(), boost::is_space(), ' ');
       boost::trim(text);
       const auto refuse = [&file](const std::string &why) {
@@ -51,10 +54,13 @@ namespace Morula
         }
       catch (const geometry::exception &error)
         {
+          // What Boost says of the text, without the text itself, which may be
+          // long.
           const std::string reason = error.what();
           refuse("It cannot be read as such: " +
                  reason.substr(0, reason.find(" in '")) + ".");
         }
+      // Rings are turned and closed as Boost wants them.
       geometry::correct(body);
       std::string reason;
       if (!geometry::is_valid(body, reason))
@@ -70,6 +76,7 @@ namespace Morula
     void
     append(const Ring &ring, ClosedSurface<2> &surface)
     {
+      // The last point repeats the first one, so it makes no vertex.
       const auto begin = static_cast<unsigned int>(surface.vertices.size());
       const auto n     = static_cast<unsigned int>(ring.size() - 1);
       for (unsigned int i = 0; i < n; ++i)

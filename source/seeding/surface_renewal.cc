@@ -32,6 +32,8 @@ namespace Morula
     class FormerPoints
     {
     public:
+      // The tree indexes the positions, as surfaces are renewed with many
+      // queries.
       FormerPoints(const PointList<dim>       &points,
                    const BoundaryColumns<dim> &columns)
         : points(points)
@@ -111,6 +113,9 @@ namespace Morula
               const Tensor<1, dim>       &area,
               PointList<dim>             &list)
     {
+      // The new point takes over the row of the nearest former one, with its
+      // condition, its X and its seed. Only its geometry begins anew: F = I,
+      // and a square patch of the new area.
       const auto          like = former.nearest(x, false);
       std::vector<double> row;
       if (like)
@@ -121,7 +126,7 @@ namespace Morula
                                            area / area.norm(),
                                            area.norm(),
                                            SurfaceCondition::free);
-      // doc/theory.md (4.12e)
+      // The patch begins anew: doc/theory.md (4.12e).
       former.columns.set_square_patch(make_array_view(row),
                                       Tensor<2, dim>(
                                         unit_symmetric_tensor<dim>()),
@@ -166,10 +171,18 @@ namespace Morula
                   types::particle_index      &next_id,
                   const MPI_Comm              comm)
   {
+    // All ranks give their cells and points to all, by id; rank 0 makes the
+    // surface around the cells, since CGAL works on one rank. Held points stay
+    // as they are. Patches beside one of these are left out, as the surface is
+    // there already; all others become free or loaded points like their nearest
+    // former one. Whether there is a surface, and how many ids it takes, is
+    // told to all ranks. The new points stand on rank 0; placing the tissue
+    // sends them to their owners.
     const PointList<dim> all         = volumes_of_all_ranks(cells, comm);
     const PointList<dim> all_former  = of_all_ranks(former, comm);
     const PointList<dim> all_present = of_all_ranks(present, comm);
     const bool           is_possible = all.size() > 0 && all_former.size() > 0;
+    // Without cells or without a surface there is nothing to make.
     if (!is_possible)
       return {};
     PointList<dim>        list(columns.n_numbers());
@@ -192,6 +205,7 @@ namespace Morula
           list.add(all_present.ids[i],
                    all_present.positions[i],
                    ArrayView<const double>(all_present.row(i)));
+      // New ids follow the order of the patches.
       for (std::size_t k = 0; k < patches->areas.size(); ++k)
         {
           const Point<dim>     x = patches->positions[k];
@@ -217,6 +231,9 @@ namespace Morula
                     const SurfacePatches<dim> &around,
                     const double               side)
     {
+      // Cut surfaces must close what the points that stay leave open: the areas
+      // of all add up to some vector, which is taken out of the cuts' in
+      // proportion to their areas. Normals turn a little by that.
       Tensor<1, dim> opening; // Σ a n
       for (std::size_t i = 0; i < present.points.size(); ++i)
         opening += present[i].area_vector();
@@ -254,6 +271,9 @@ namespace Morula
                  types::particle_index                          &next_id,
                  const MPI_Comm                                  comm)
   {
+    // As in renewed_surface(), with two differences. All present points stay,
+    // as their cells do. The patches of the cuts have no former point whose
+    // condition they could take; so each is decided about as at t = 0.
     const PointList<dim>  all         = volumes_of_all_ranks(cells, comm);
     const PointList<dim>  all_present = of_all_ranks(present, comm);
     PointList<dim>        list(columns.n_numbers());
@@ -266,6 +286,7 @@ namespace Morula
       double                  area = 0.;
       for (std::size_t i = 0; i < all_present.size(); ++i)
         area += kept[i].initial_area() / all_present.size();
+      // Where no point is left patches are as large as the cells.
       if (all_present.size() == 0)
         area = area_of_cells(all, std::numeric_limits<double>::infinity());
       const auto around =

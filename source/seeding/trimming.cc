@@ -35,7 +35,8 @@ namespace Morula
       }
     };
 
-    /** A sample of a box with n^dim of them. */
+    /** A sample of a box with n^dim of them: the middle of one of equal parts.
+     */
     template <int dim>
     Point<dim>
     sample_of(const Point<dim>                    &center,
@@ -151,7 +152,7 @@ namespace Morula
       Point<dim>    x;
     };
 
-    /** Those of @p sites that are occupied, ascending. */
+    /** The occupied ones of @p sites, ascending. */
     template <int dim>
     std::vector<Site<dim>>
     occupied(const Lattice<dim>               &lattice,
@@ -170,6 +171,7 @@ namespace Morula
     std::uint64_t
     nearest(const std::vector<Site<dim>> &sites, const Point<dim> &x)
     {
+      // Few sites are near, so a plain search will do.
       return std::min_element(sites.begin(),
                               sites.end(),
                               [&](const Site<dim> &a, const Site<dim> &b) {
@@ -187,6 +189,13 @@ namespace Morula
        const std::vector<std::uint64_t> &sites,
        Founders<dim>                    &founders)
   {
+    // Each site gets the samples of the shape that are nearest to it. First
+    // come the boxes of this rank's own sites: whole ones inside of the shape
+    // at once, others sample by sample. A sample in the box of an occupied site
+    // is nearest to that one. Samples in boxes without a cell belong to the
+    // nearest occupied site among the neighbours of the box, which may be
+    // another rank's: that rank finds them by itself, so nothing is exchanged.
+    // A site without any sample has no volume, and the scene is refused.
     const double side          = lattice.site_spacing();
     const double half_diagonal = 0.5 * side * std::sqrt(double(dim));
     const double sample        = std::pow(side / n_samples<dim>, dim);
@@ -220,7 +229,7 @@ namespace Morula
             const auto owner = nearest(owners, y);
             const auto mine =
               std::lower_bound(sites.begin(), sites.end(), owner);
-            // Else it is another rank's.
+            // Any other owner is another rank's.
             if (mine != sites.end() && *mine == owner)
               parts[mine - sites.begin()].add(y, sample);
           });

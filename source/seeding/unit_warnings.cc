@@ -35,6 +35,7 @@ namespace Morula
       const std::uint64_t     n     = founders.n_global;
       const std::uint64_t     every = std::max<std::uint64_t>(1, n / most);
       std::vector<double>     mine;
+      // Ids of a rank follow each other, so every n-th is known without asking.
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         if ((founders.first_id + i) % every == 0)
           {
@@ -65,8 +66,10 @@ namespace Morula
       std::vector<double> distances;
       for (const auto &[x, length] : chosen)
         {
-          // Of two neighbours on its own rank one is the founder itself; no
-          // other stands at its place.
+          // The nearest founder may be of any rank: each rank looks among its
+          // own, and the minimum over all is right.
+          // Of the two nearest on its own rank one may be the founder itself.
+          // No other one stands at its place.
           double                  shortest = std::numeric_limits<double>::max();
           std::vector<Point<dim>> found;
           tree.query(boost::geometry::index::nearest(x, 2),
@@ -95,6 +98,7 @@ namespace Morula
     {
       double enclosed = 0., cells = 0.;
       for (std::size_t i = 0; i < surface.areas.size(); ++i)
+        // By the divergence theorem the patches give the volume.
         enclosed +=
           surface.areas[i] / dim * (surface.normals[i] * surface.positions[i]);
       for (const double V : founders.volumes)
@@ -127,6 +131,7 @@ namespace Morula
       const double patch =
         std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global,
                  double(dim - 1) / dim);
+      // As many patches as faces of cells would cover the area.
       const double wished = Utilities::MPI::sum(area, comm) / patch;
       if (surface.n_global > too_many * wished)
         review.warn(tissue.points_surface.path(),
@@ -171,6 +176,10 @@ namespace Morula
                const MPI_Comm             comm,
                Review                    &review)
   {
+    // The units of a file are not known, but sizes that cannot be in µm show:
+    // distances of neighbours in lengths of cells, the volume in the surface,
+    // the number of cells along the tissue. Each is found over all ranks and
+    // gives a warning with what is usual.
     if (tissue.is_points())
       review_points_file<dim>(tissue.points_file, review);
     if (tissue.is_points() && founders.n_global > 1)
@@ -222,6 +231,8 @@ namespace Morula
   void
   review_unused(const TissueParameters &tissue, Review &review)
   {
+    // Keys of other shapes are no error, as one changes shapes to and fro; but
+    // what has been set and does nothing is worth saying.
     const std::vector<std::string> solid = {
       "sphere", "box", "ellipsoid", "cylinder", "mesh"};
     const std::vector<std::pair<const AnyKey *, std::vector<std::string>>>

@@ -11,7 +11,8 @@ namespace Morula
 {
   namespace
   {
-    /** Of a matrix with the diagonal 1: smaller ones are rounding. */
+    /** Pivots of a matrix whose diagonal is scaled to 1: below this, single
+     *  precision leaves only rounding of them. */
     constexpr float least_pivot = 1e-6f;
   } // namespace
 
@@ -28,6 +29,9 @@ namespace Morula
     Block &
     operator[](const int row)
     {
+      // The column stands as a full array of blocks, so that a block is found
+      // without a search. The list of rows in use keeps the price of clear() at
+      // the size of the column, not of the matrix.
       if (!used[row])
         {
           used[row]   = true;
@@ -65,7 +69,12 @@ namespace Morula
     , nexts(n_blocks, -1)
     , heads(n_blocks, -1)
   {
+    // Crout's form makes the factor column by column: read column k of the
+    // matrix, subtract what the finished columns contribute, factor the
+    // diagonal's block, and keep the largest of the other blocks. A pivot that
+    // is not positive ends it; the caller then asks for another factor.
     scale(rows, parameters);
+    // keep() only appends, so room for all columns is taken at once.
     numbers.reserve(n_blocks * n_most);
     blocks.reserve(n_blocks * n_most);
     Column column(n_blocks);
@@ -78,6 +87,7 @@ namespace Morula
         keep(k, column);
         column.clear();
       }
+    // The lists of waiting columns are of no use once the factor stands.
     firsts = {};
     nexts = heads = {};
   }
@@ -86,6 +96,10 @@ namespace Morula
   void
   BlockCholesky<n>::scale(const Rows &rows, const Parameters &parameters)
   {
+    // One pass over all rows finds the raised diagonal, whose inverse roots
+    // scale the matrix to a unit diagonal, and counts the entries of the upper
+    // blocks. Their mean per block column is what the fill counts in: it does
+    // not depend on how evenly the matrix is filled.
     Row         row;
     std::size_t n_entries = 0; // above the diagonal's blocks
     for (int r = 0; r < n * n_blocks; ++r)
@@ -97,6 +111,7 @@ namespace Morula
             entry = row.values[e];
           else
             n_entries += row.columns[e] / n > r / n;
+        // The diagonal is raised so that the incomplete factor stays positive.
         entry =
           parameters.relative_diagonal * entry + parameters.absolute_diagonal;
         positive_ = positive_ && entry > 0.;
@@ -118,6 +133,9 @@ namespace Morula
                          Row        &row,
                          Column     &column) const
   {
+    // The matrix is symmetric: row k from the diagonal on is column k below it.
+    // So entry j of row i goes to column i of block j. The factor works on the
+    // scaled matrix.
     for (int i = 0; i < n; ++i)
       {
         rows(n * k + i, row);
@@ -133,10 +151,14 @@ namespace Morula
   void
   BlockCholesky<n>::eliminate(const int k, Column &column)
   {
+    // The columns j < k that reach row k are in k's list, each with firsts[j]
+    // at its block in row k. Each subtracts its contribution; then it goes on
+    // to the list of its next row. So no column searches for its place.
     for (int j = heads[k], next; j >= 0; j = next)
       {
         next = nexts[j];
-        // Here is L_kj: all L_ij L_kjᵀ with i >= k.
+        // L_kj is the block at firsts[j]. All products L_ij L_kjᵀ with i >= k
+        // are subtracted.
         float factors[n][n];
         for (int c = 0; c < n; ++c)
           for (int m = 0; m < n; ++m)
@@ -158,6 +180,8 @@ namespace Morula
   bool
   BlockCholesky<n>::invert_diagonal(const int k, const Block &block)
   {
+    // A dense Cholesky factorisation of the block on the diagonal. solve()
+    // applies its inverse, so that is what is stored.
     float L[n][n] = {};
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j)
@@ -172,7 +196,8 @@ namespace Morula
           else
             return false;
         }
-    // Column c of the inverse solves L x = e_c.
+    // Column c of the inverse is the solution of L x = e_c, by forward
+    // substitution.
     diagonal[k] = Block();
     for (int c = 0; c < n; ++c)
       for (int i = c; i < n; ++i)
@@ -189,6 +214,12 @@ namespace Morula
   void
   BlockCholesky<n>::keep(const int k, Column &column)
   {
+    // The blocks are ranked by their Frobenius norm, and only the n_kept
+    // largest stay: that limits memory and time however the matrix fills in.
+    // What is left gets the diagonal's factor from the right, so that L_ik is
+    // finished. Last, the column joins the list of the first row that it will
+    // contribute to. Its blocks are in ascending order of rows: the lists in
+    // eliminate() rely on that.
     std::vector<std::pair<float, int>> sizes; // negative: the largest first
     sizes.reserve(column.rows.size());
     for (const int row : column.rows)
@@ -212,7 +243,7 @@ namespace Morula
       numbers.push_back(row);
     std::sort(numbers.begin() + begins[k], numbers.end());
 
-    // L_ik L_kkᵀ = A_ik
+    // L_ik L_kkᵀ = A_ik gives L_ik = A_ik L_kk⁻ᵀ.
     const Block inverse = diagonal[k];
     for (std::size_t e = begins[k]; e < numbers.size(); ++e)
       {
@@ -239,7 +270,13 @@ namespace Morula
   void
   BlockCholesky<n>::solve(double *x) const
   {
-    // Far from the limits of single precision.
+    // x is scaled by a power of two near its largest entry: entries of
+    // residuals may lie outside the range of single precision, and a power of
+    // two costs no digits. Then come x scaled as the matrix is, L⁻¹, the cut to
+    // rows that count (D_r of doc/theory.md (7.2)), L⁻ᵀ, and the scales again.
+    // L is stored by columns: the forward pass spreads each finished block over
+    // the rows below, the backward pass collects the rows below into each
+    // block.
     double largest = 0.;
     for (int r = 0; r < n * n_blocks; ++r)
       largest = std::max(largest, std::abs(scales[r] * x[r]));
@@ -264,9 +301,13 @@ namespace Morula
               sum -= blocks[e].column[m] * z[m];
           }
       }
+    // Rows of other ranks have served the own ones; their part of the result
+    // belongs to those ranks.
     std::fill_n(y.begin(), n_dropped, Part());
     for (int k = n_blocks - 1; k >= 0; --k)
       {
+        // The sums over rows stay in the lanes of a register until the loop
+        // ends.
         Lane sums[n] = {};
         for (std::size_t e = begins[k]; e < begins[k + 1]; ++e)
           for (int m = 0; m < n; ++m)

@@ -16,6 +16,7 @@ namespace Morula
     /** A view of a row. */
     struct RowView
     {
+      // The view is into Epetra's arrays, nothing is copied.
       int     length;
       double *entries;
       int    *columns;
@@ -69,6 +70,9 @@ namespace Morula
       int
       place(const int k) const
       {
+        // Columns of this rank come first, numbered as its rows. Those of other
+        // ranks stand in Epetra's order, and are given places by ascending
+        // number.
         return k < n * n_rows ? k : n * n_rows + order[k - n * n_rows];
       }
 
@@ -84,7 +88,7 @@ namespace Morula
       const int        n_rows; // of blocks
       std::vector<int> order;
 
-      // By row of blocks:
+      // These two go by row of blocks.
       std::vector<std::size_t> begins;
       std::vector<std::size_t> ends_of_own; // columns
 
@@ -115,6 +119,8 @@ namespace Morula
     int
     RowsOfBlocks<n>::first_of(const RowView &row, const int k) const
     {
+      // A symmetric matrix is read from the diagonal's block on; own columns
+      // are sorted.
       if (!symmetric)
         return 0;
       const int *const columns = row.columns;
@@ -125,10 +131,14 @@ namespace Morula
     void
     RowsOfBlocks<n>::append(const RowView &row, const int k)
     {
+      // A spline's unknowns are whole blocks, so the first unknown of each
+      // stands for the block.
       for (int e = first_of(row, k); e < row.length; ++e)
         if (place(row.columns[e]) % n == 0)
           numbers.push_back(place(row.columns[e]) / n);
       std::sort(numbers.begin() + begins[k], numbers.end());
+      // Own columns come before others' in x; the product treats them
+      // differently.
       ends_of_own.push_back(
         std::lower_bound(numbers.begin() + begins[k], numbers.end(), n_rows) -
         numbers.begin());
@@ -139,6 +149,10 @@ namespace Morula
     void
     RowsOfBlocks<n>::read(const Epetra_CrsMatrix &K)
     {
+      // Own columns of a row stand in ascending order, so their entries follow
+      // each other, block by block. Those of other ranks need their place in
+      // the row of blocks, for which of_others is a table. It is written anew
+      // for each row and only read where the row has a block.
       std::vector<std::size_t> of_others((order.size() + n - 1) / n);
       for (int k = 0; k < n_rows; ++k)
         {
@@ -165,6 +179,10 @@ namespace Morula
     void
     RowsOfBlocks<n>::vmult(double *y, const double *x) const
     {
+      // Each block above the diagonal is read once, and used for its row and,
+      // transposed, for its column: the product is bound by memory. Blocks with
+      // columns of other ranks are used once, since those ranks have their
+      // transposes in rows of their own.
       std::fill_n(y, n * n_rows, 0.);
       for (int k = 0; k < n_rows; ++k)
         {
@@ -194,6 +212,8 @@ namespace Morula
                   const unsigned int      n_components,
                   const bool              symmetric)
   {
+    // The number of components is a template parameter, so that the loops over
+    // a block are unrolled.
     switch (n_components)
       {
         case 2:

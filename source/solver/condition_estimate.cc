@@ -47,12 +47,17 @@ namespace Morula
         , x(layout)
         , part(layout)
       {
+        // A diagonal without stiffness is left as it is; the estimate then
+        // shows an eigenvalue of 0.
         for (const auto row : scale.locally_owned_elements())
           {
             const double diagonal = std::abs(K.diag_element(row));
             scale(row) = diagonal > 0. ? 1. / std::sqrt(diagonal) : 1.;
           }
         scale.compress(VectorOperation::insert);
+        // What the tangent does not feel are motions n; of the scaled tangent
+        // they are D^(1/2) n. They are made orthonormal, as remove_parts() asks
+        // for it.
         for (const Vector &direction : problem.null_space)
           {
             // D^(1/2) n, orthonormal
@@ -64,6 +69,8 @@ namespace Morula
             scaled /= scaled.l2_norm();
             null_space.push_back(scaled);
           }
+        // The trace of a matrix with a unit diagonal is n; the null space,
+        // where K is zero, adds nothing to it.
         const double n = layout.size();
         mean           = n / std::max(1., n - null_space.size());
       }
@@ -71,6 +78,8 @@ namespace Morula
       void
       vmult(Vector &y, const Vector &in) const
       {
+        // Symmetric by construction: P S K S P with S = D^(-1/2). The last
+        // lines add the mean eigenvalue along the null space.
         x = in;
         remove_parts(x, null_space);
         x.scale(scale);
@@ -107,6 +116,9 @@ namespace Morula
       void
       add(const double alpha, const double beta)
       {
+        // The relation of the coefficients of conjugate gradients to Lanczos'
+        // matrix: diagonal 1/alpha_i + beta_(i-1)/alpha_(i-1), off-diagonal
+        // sqrt(beta_i)/alpha_i.
         const double next = 1. / alpha + carried;
         const double off  = std::sqrt(beta) / alpha;
         if (!std::isfinite(next) || !std::isfinite(off))
@@ -143,8 +155,10 @@ namespace Morula
     Vector
     random_vector(const Vector &layout)
     {
-      Vector          result(layout);
-      const auto      owned = result.locally_owned_elements();
+      Vector     result(layout);
+      const auto owned = result.locally_owned_elements();
+      // Each rank's seed follows from its first row, so a run finds the same
+      // estimate again.
       std::mt19937_64 generator(
         owned.n_elements() > 0 ? 1 + owned.nth_index_in_set(0) : 0);
       std::normal_distribution<double> normal;
@@ -169,11 +183,18 @@ namespace Morula
                      const LinearProblem &linear_problem,
                      const Vector        &rest)
   {
+    // The tangent is that of Newton's first iteration, assembled once more.
+    // SolverCG runs on its scaled form until the residual has fallen far beyond
+    // what a solution needs, or until the iterations run out. Its coefficients
+    // make Lanczos' matrix, whose extreme eigenvalues tend to those of the
+    // tangent, doc/theory.md (5.5). A breakdown tells of a direction without
+    // stiffness.
     const Matrix       &K = problem.tangent(rest, GrowthAt::previous);
     const ScaledTangent A(linear_problem, K, rest);
     Vector              x(rest), b = random_vector(rest);
 
-    // Only the coefficients are used; convergence is irrelevant.
+    // Only the coefficients of the iteration count: it does not matter whether
+    // it converges.
     LanczosMatrix    lanczos;
     bool             breakdown = false;
     ReductionControl control(std::min<unsigned int>(max_estimate_iterations,
@@ -195,13 +216,14 @@ namespace Morula
       }
     catch (const StandardExceptions::ExcDivideByZero &)
       {
+        // deal.II tests for this in a debug build only.
         breakdown = true; // in Debug
       }
 
     ConditionEstimate estimate;
     estimate.unknowns                             = rest.size();
     std::tie(estimate.smallest, estimate.largest) = lanczos.extremes();
-    // A direction without any stiffness.
+    // The iteration has met a direction without any stiffness.
     if (breakdown)
       estimate.smallest = std::min(estimate.smallest, 0.);
     return estimate;

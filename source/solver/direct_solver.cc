@@ -30,8 +30,9 @@ namespace Morula
     }
   } // namespace
 
-  // With unsupported rigid motions K is singular. So small a shift costs
-  // Newton's method nothing.
+  // With unsupported rigid motions K is singular, and a factorisation breaks
+  // down. The least shift, 1e-9 of the diagonal, prevents that, and is so small
+  // that Newton's method converges as before.
   DirectSolver::DirectSolver(const LinearProblem &problem)
     : problem(problem)
     , least_shift(problem.null_space.empty() ? 0. : 1e-9)
@@ -54,6 +55,10 @@ namespace Morula
   void
   DirectSolver::factorize(const Matrix &K)
   {
+    // One factor serves all solves until the next tangent. A shift goes into a
+    // copy, since residuals need K itself. The old factor is freed before the
+    // new one is made, as both together would take twice the memory. MUMPS
+    // works on all ranks; KLU gathers the matrix on one of them.
     const std::string method =
       Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
     if (shift > 0.)
@@ -63,6 +68,8 @@ namespace Morula
       control, TrilinosWrappers::SolverDirect::AdditionalData(false, method));
     made->initialize(shift > 0. ? shifted : K);
 
+    // The bordered system (see solve_bordered()) needs A⁻¹ N and the small
+    // matrix Nᵀ A⁻¹ N, once for each factor.
     const std::vector<Vector> &N = problem.null_space;
     solutions_of_null_space.clear();
     if (!N.empty())
@@ -95,12 +102,15 @@ namespace Morula
         factor->solve(x, b);
         return;
       }
-    // The parts along the unsupported motions are huge and cancel: refine.
+    // The parts along the unsupported motions are huge and cancel in the
+    // difference, so digits are lost. Three passes of iterative refinement,
+    // with residuals of A itself, bring them back.
     const Matrix &A = shift > 0. ? shifted : K;
     x               = 0.;
     Vector r(b), y(b);
     for (unsigned int i = 0; i < 3; ++i)
       {
+        // The multipliers μ follow from Nᵀ x = 0: (Nᵀ A⁻¹ N) μ = Nᵀ A⁻¹ r.
         factor->solve(y, r);
         dealii::Vector<double> multipliers(N.size());
         for (unsigned int k = 0; k < N.size(); ++k)
@@ -115,7 +125,8 @@ namespace Morula
       }
   }
 
-  // With K + σ b bᵀ: the formula of Sherman and Morrison.
+  // The system has the matrix K + σ b bᵀ. The formula of Sherman and Morrison
+  // corrects x = K⁻¹ r by one more solution, w = K⁻¹ b.
   void
   DirectSolver::add_correction(const Matrix               &K,
                                const Equilibrium::RankOne &part,
@@ -135,6 +146,12 @@ namespace Morula
                       double                     &largest_shift,
                       const Equilibrium::RankOne *rank_one)
   {
+    // What acts along unsupported motions is left out, as inertia balances it:
+    // doc/theory.md (4.10). A direct solver sees no curvature, so the diagonal
+    // is raised, doc/theory.md (5.4), until x is a direction of descent; each
+    // trial is a factorisation. An exception of the library means a singular
+    // matrix, and is a trial that failed. The factor that worked is kept, with
+    // its shift, for later calls.
     Vector balanced(b);
     remove_parts(balanced, problem.null_space);
     while (shift < Shifts::last)
@@ -155,7 +172,9 @@ namespace Morula
           {
             singular = true;
           }
-        // Not a direction of descent: the tangent is indefinite there.
+        // An unsymmetric system has no energy, so any finite solution will do.
+        // Of a symmetric one a direction along which the energy rises shows
+        // that the tangent is indefinite.
         if (!singular && std::isfinite(x.l2_norm()) &&
             (!problem.symmetric || x * b > 0.))
           return;

@@ -18,6 +18,8 @@ namespace Morula
     using Vector = LinearSolver::Vector;
     using Matrix = LinearSolver::Matrix;
 
+    // A system that takes more iterations than these goes to a fuller
+    // factorisation, to the direct solver, or to a shorter step.
     constexpr unsigned int max_iterations = 2000;
 
     /** A matrix and what it lacks. */
@@ -82,6 +84,12 @@ namespace Morula
                       const bool                  as_before,
                       const Equilibrium::RankOne *rank_one)
   {
+    // The preconditioner is made from the first matrix of the attempt, and
+    // kept: making it costs as much as many iterations. A new matrix makes new
+    // tables for products only if its pattern is new; else they take over its
+    // entries. Where the iterative method fails, an automatic solver turns to a
+    // factorisation, unless the system is so large that half the step is the
+    // better answer.
     curvature_ = 0.;
     if (!as_before)
       direct.forget();
@@ -107,6 +115,8 @@ namespace Morula
       }
     catch (const StepFailed &failure)
       {
+        // The user has asked for an iterative solver, or the direct one has
+        // failed itself.
         if (!automatic)
           throw;
         if (b.size() > problem.most_to_factorise)
@@ -125,6 +135,7 @@ namespace Morula
                                unsigned int               &iterations,
                                const Equilibrium::RankOne *rank_one)
   {
+    // A direct solver's shift stands for the curvature that it has met.
     double shift = 0.;
     direct.solve(K, x, b, iterations, shift, rank_one);
     if (direct.has_shifted())
@@ -140,6 +151,12 @@ namespace Morula
                                 unsigned int               &iterations,
                                 const Equilibrium::RankOne *rank_one)
   {
+    // Each pass solves with one shift and one preconditioner. Negative
+    // curvature asks for a larger shift, doc/theory.md (5.4); that the
+    // iteration stalls asks for the next, fuller factorisation, and for Jacobi
+    // after the last. From a shift of 1 on Jacobi, which contains the shift, is
+    // the better preconditioner. It ends where even Jacobi stalls, or where the
+    // shift has no sensible size any more.
     double shift = 0., needed = 0.;
     while (shift < Shifts::last)
       {
@@ -182,13 +199,20 @@ namespace Morula
                                   unsigned int               &iterations,
                                   const Equilibrium::RankOne *rank_one)
   {
+    // The system is solved in the space orthogonal to the unsupported motions:
+    // right-hand side, matrix and preconditioner are projected, and the
+    // solution in the end. The preconditioner is that of the symmetric part,
+    // doc/theory.md, section 5.4. NoConvergence is that of deal.II's control;
+    // its iterations count as well.
     Vector balanced(b);
     remove_parts(balanced, problem.null_space);
     SolverControl control(max_iterations, tolerance * balanced.l2_norm());
-    // Preconditioned from the right: else the tolerance would be one for the
-    // preconditioned residual, which can be far from the residual. It adds up
-    // the preconditioned vectors themselves, as single precision makes these
-    // differ from a linear map's by more than a tight tolerance.
+    // The preconditioner acts from the right, so that the tolerance is one for
+    // the residual. From the left it would be one for the preconditioned
+    // residual, which can be far from it. The flexible form adds up the
+    // preconditioned vectors themselves: in single precision these differ from
+    // a linear map's by more than a tight tolerance allows.
+    // Restarting after 100 vectors bounds the memory.
     SolverFGMRES<Vector> gmres(control,
                                SolverFGMRES<Vector>::AdditionalData(100));
     x = 0.;

@@ -50,8 +50,8 @@ namespace Morula
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
-      // StepFailed says what has failed; NOX prints failed line searches even
-      // where no output information is wanted.
+      // The message of StepFailed says what has failed. NOX would print failed
+      // line searches even where no output information is wanted.
       const Teuchos::RCP<std::ostream> nowhere =
         Teuchos::rcp(new Teuchos::oblackholestream);
       parameters->sublist("Printing")
@@ -62,6 +62,11 @@ namespace Morula
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");
       parameters->sublist("Direction").set("Method", "Newton");
+      // Type 2 is Eisenstat and Walker's second choice: doc/theory.md, section
+      // 5.4. Early solves need few digits, as the next tangent differs anyway;
+      // the first tolerance is 1e-2, and none is looser than 1e-1. Later ones
+      // follow the fall of the residual down to 1e-6. Without the last set()
+      // NOX would not tell the linear solver.
       newton.set("Forcing Term Method",
                  linear_tolerance > 0. ? "Constant" : "Type 2");
       newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);
@@ -69,6 +74,8 @@ namespace Morula
       newton.set("Forcing Term Maximum Tolerance", 1e-1);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
       newton.set("Set Tolerance in Parameter List", true);
+      // A linear solve that fails throws StepFailed: there is no direction to
+      // rescue.
       newton.set("Rescue Bad Newton Solve", false);
 
       Teuchos::ParameterList &search = parameters->sublist("Line Search");
@@ -89,6 +96,14 @@ namespace Morula
         Equilibrium::Vector    &u,
         NewtonReport           &report)
   {
+    // The state u, which is where the solve starts, is evaluated first,
+    // together with the rounding error of its residual. From both follows the
+    // bound of doc/theory.md (5.3): a start that is below it is the solution
+    // already, and NOX never runs. Else NOX iterates with our group, line
+    // search and convergence test. Whatever ends it, u and the report have its
+    // last state, from which a caller may go on. A state within the bound is
+    // accepted even after a failure: then rounding, not the equilibrium, has
+    // stopped the search.
     Tangents     tangents(problem, linear_problem.costly);
     LinearSolver linear_solver(parameters, linear_problem, timer);
     const auto   group    = Teuchos::rcp(new NoxGroup(
@@ -100,6 +115,7 @@ namespace Morula
     const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, scales.small_force),
                                   rounding);
+    // Several solves of an attempt compare with the first one's residual.
     if (report.first_residual == 0.)
       report.first_residual = first;
     const auto relative = [&](const double norm) {
@@ -137,13 +153,15 @@ namespace Morula
       }
     catch (const std::runtime_error &error) // and since
       {
+        // Errors that are not NOX's own are passed on.
         if (std::string(error.what()).find("NOX") == std::string::npos)
           throw;
         reason += error.what();
       }
     u               = values_of(group->getX());
     report.residual = relative(group->getNormF());
-    // Converged already: a failed line search does not matter.
+    // The residual is below its bound already, so a failed line search does not
+    // matter.
     if (group->isF() && std::isfinite(group->evaluation().energy) &&
         group->getNormF() <= bound)
       return group->evaluation();

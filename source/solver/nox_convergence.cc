@@ -53,6 +53,11 @@ namespace Morula
   ConvergenceTest::checkStatus(const NOX::Solver::Generic &solver,
                                NOX::StatusTest::CheckType)
   {
+    // The conditions of doc/theory.md (5.3), the cheapest one first. A state
+    // within rounding has converged, whatever is left to move: no iteration can
+    // do better. At the start nothing has moved yet, so there is no motion to
+    // judge. Then come the signs of failure. The norm is the same on all ranks,
+    // and so is the outcome.
     look(solver);
     const double norm      = last_norm;
     const int    iteration = solver.getNumIterations();
@@ -87,7 +92,10 @@ namespace Morula
     const double norm      = group.getNormF();
     const double energy    = group.evaluation().energy;
     const int    iteration = solver.getNumIterations();
-    // Many small falls add up: the lowest residual stays until it is beaten.
+    // Here is noted what the test above asks of this iteration, whether it was
+    // progress, and what the report tells of it. The lowest residual stays
+    // until it is beaten by a hundredth, so that many small falls add up to
+    // progress.
     const bool falls = norm < (1. - least_fall) * lowest_norm;
     if (falls || (has_energy && energy < lowest_energy))
       progress_at = iteration;
@@ -137,6 +145,8 @@ namespace Morula
   double
   ConvergenceTest::left_over(const NOX::Solver::Generic &solver) const
   {
+    // The next change is about the last one times the rate of convergence,
+    // doc/theory.md (5.3). Once the residual has risen that rate says nothing.
     const double size = last_motion(solver);
     if (!(size > 0.))
       return std::numeric_limits<double>::infinity();

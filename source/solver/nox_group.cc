@@ -48,6 +48,8 @@ namespace Morula
   NOX::Abstract::Group &
   NoxGroup::operator=(const NOX::Abstract::Group &source)
   {
+    // NOX copies groups from iteration to iteration. The matrix belongs to the
+    // problem and is shared.
     const auto &other = dynamic_cast<const NoxGroup &>(source);
     u.values          = other.u.values;
     R.values          = other.R.values;
@@ -80,12 +82,13 @@ namespace Morula
   NOX::Abstract::Group::ReturnType
   NoxGroup::computeF()
   {
-    // Inversion is no failure: NOX would stop. It shows as infinite energy.
+    // An inverted state is no failure here, as NOX would stop then. It shows as
+    // infinite energy, and the line search rejects it.
     if (!has_residual)
       {
         evaluation_ = problem.residual(u.values, R.values);
         // Nothing balances a force along an unsupported motion, and nothing
-        // moves along it: what counts is the rest.
+        // moves along it. So only the rest of the residual counts.
         remove_parts(R.values, linear_problem.null_space);
       }
     has_residual = true;
@@ -107,6 +110,8 @@ namespace Morula
   {
     computeF();
     if (K == nullptr)
+      // A tangent may serve again only if the last step was taken as a whole
+      // and no tangent has been indefinite.
       K = &tangents.at(u.values,
                        getNormF(),
                        part == 1. && !linear_solver.has_shifted());
@@ -126,6 +131,7 @@ namespace Morula
       return Ok;
     computeF();
     computeJacobian();
+    // NOX hands over the tolerance that its forcing term asks for.
     Equilibrium::Vector b(R.values);
     b *= -1.;
     ++report.newton_iterations;
@@ -149,6 +155,7 @@ namespace Morula
       return BadDependency;
     auto &values = dynamic_cast<NoxVector &>(result).values;
     K->vmult(values, values_of(input));
+    // Where a lumen has a content, the matrix alone is not the whole tangent.
     add_rank_one(values, problem.rank_one(), values_of(input));
     return Ok;
   }

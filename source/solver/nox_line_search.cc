@@ -13,8 +13,8 @@ namespace Morula
 {
   namespace
   {
-    /** Energies of which the largest counts. With three, folding rings took
-     *  half as many iterations again as with ten. */
+    /** The number of energies of which the largest counts. With three instead
+     *  of ten, folding rings took half as many iterations again. */
     constexpr unsigned int memory = 10;
   } // namespace
 
@@ -29,6 +29,9 @@ namespace Morula
   double
   EnergyLineSearch::reference(const double present)
   {
+    // The state where a solve starts has the growth of the whole step, and so
+    // an energy that would admit anything: it is compared with, once, but not
+    // remembered.
     if (!has_begun)
       {
         has_begun = true;
@@ -41,16 +44,20 @@ namespace Morula
   }
 
 
-  // Tries the whole direction, then halves of it. A part is accepted if the
-  // energy there is low enough (5.2), or, without an energy, if |R| is. What
-  // the linear solver found with a kept tangent may be no direction of descent:
-  // it is not worth halving.
+  // The whole direction is tried, then halves of it. A part is accepted if the
+  // energy there is low enough, doc/theory.md (5.2), or, without an energy, if
+  // |R| is. An inverted state has an infinite energy, so it is halved away like
+  // any other. The direction of a kept tangent may be none of descent, so it is
+  // not worth halving: it is taken as a whole, or refused by a step of length
+  // 0, after which the next iteration has a tangent of its own.
   bool
   EnergyLineSearch::compute(NOX::Abstract::Group        &group,
                             double                      &step,
                             const NOX::Abstract::Vector &direction,
                             const NOX::Solver::Generic  &solver)
   {
+    // Armijo's constant has its usual value. After 30 halvings a step is 10⁻⁹
+    // of the direction.
     constexpr double       armijo         = 1e-4;
     constexpr unsigned int max_reductions = 30;
     const auto            &old_group =
@@ -78,6 +85,8 @@ namespace Morula
                  norm <=
                    rounding_of_residual(problem, values_of(new_group.getX()))))
           return true;
+        // A step of length 0 counts as a success for NOX, which goes on from
+        // the old state.
         if (is_kept)
           {
             step = 0.;

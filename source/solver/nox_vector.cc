@@ -67,6 +67,7 @@ namespace Morula
   }
 
   NOX::Abstract::Vector &
+  // NOX's update is gamma x + alpha a.
   NoxVector::update(const double                 alpha,
                     const NOX::Abstract::Vector &a,
                     const double                 gamma)

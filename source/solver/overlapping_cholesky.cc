@@ -10,12 +10,14 @@ namespace Morula
 {
   namespace
   {
-    /** Those of lower ranks that the own rows couple with. */
+    /** The columns of lower ranks that this rank's rows couple with, as
+     *  unknowns. */
     IndexSet
     lower_columns(const Epetra_CrsMatrix &K, const IndexSet &own)
     {
       std::vector<types::global_dof_index> columns;
       for (int k = 0; k < K.NumMyCols(); ++k)
+        // A rank without rows has no lower columns.
         if (const types::global_dof_index column = K.GCID(k);
             own.n_elements() > 0 && column < own.nth_index_in_set(0))
           columns.push_back(column);
@@ -34,8 +36,9 @@ namespace Morula
       float value;
     };
 
-    /** Blocks of columns of lower ranks, of those of own columns: with fewer
-     *  iterations increase (doc/performance.md, The linear solver). */
+    /** A column of a lower rank keeps this part of the blocks of an own column.
+     *  With fewer the iterations increase (doc/performance.md, The linear
+     *  solver). */
     constexpr double fill_of_others = 0.5;
 
     std::unique_ptr<IncompleteCholesky>
@@ -62,6 +65,9 @@ namespace Morula
                                            const unsigned int n_components,
                                            const Parameters  &parameters)
     : own(K.locally_owned_range_indices())
+    // The block consists of the own rows and those of lower ranks in front of
+    // them. The latter come by one exchange; then every rank factorises its
+    // block alone.
     , others(lower_columns(K.trilinos_matrix(), own))
     , gathered(own.n_elements() + others.n_elements())
   {
@@ -76,6 +82,7 @@ namespace Morula
   int
   OverlappingCholesky::number_of(const types::global_dof_index row) const
   {
+    // Own rows come last in the block.
     if (own.is_element(row))
       return others.n_elements() + own.index_within_set(row);
     return others.is_element(row) ? others.index_within_set(row) : -1;
@@ -85,6 +92,12 @@ namespace Morula
   OverlappingCholesky::receive(const Epetra_CrsMatrix &K,
                                const unsigned int      n_components) const
   {
+    // Lower ranks send the rows that this rank's block begins with, and this
+    // rank sends its own to higher ones; both happen in fetch_lists(). A row
+    // travels from its diagonal on, as global columns and single precision
+    // values, behind an entry with its length. What arrives is translated into
+    // numbers of the block at once, and columns outside of the block are left
+    // out: so no rank holds other ranks' rows in full.
     ReceivedRows received;
     received.begins.push_back(0);
     if (!halo)
@@ -112,7 +125,9 @@ namespace Morula
           int        last = -1, column = -1; // the same one, in the block
           for (++entry; entry != end; last = (entry++)->column)
             {
-              // A spline's unknowns are in the block together.
+              // All unknowns of a spline are in the block, or none of them is.
+              // So the search is made for the first one, and the others follow
+              // it.
               if (entry->column != last + 1 ||
                   entry->column % n_components == 0)
                 column = number_of(entry->column);
@@ -136,6 +151,10 @@ namespace Morula
                                  const unsigned int      n_components,
                                  const Parameters       &parameters)
   {
+    // The factorisation reads rows through a function. Rows of lower ranks were
+    // received, own ones are in the matrix. Both are symmetric, and are given
+    // from the diagonal's block on. The rows in front are those to be dropped
+    // in the solution: D_r of doc/theory.md (7.2).
     const int        n_others = others.n_elements();
     std::vector<int> numbers(K.NumMyCols()); // of the matrix's columns
     for (int k = 0; k < K.NumMyCols(); ++k)
@@ -165,8 +184,10 @@ namespace Morula
             result.values.push_back(entries[k]);
           }
     };
-    // The first rows of a block lack what lies outside of it: with as few
-    // blocks as that leaves the factor of own rows is barely positive.
+    // The first rows of a block lack what lies outside of it. Counted from
+    // these the factor of own rows would have so few blocks that it is barely
+    // positive. So the fill counts in the mean of the own rows of the whole
+    // matrix: half of the blocks beside the diagonal's.
     Parameters of_block      = parameters;
     of_block.n_dropped       = n_others;
     of_block.fill_of_dropped = fill_of_others;
@@ -191,6 +212,9 @@ namespace Morula
         factor->solve(y.trilinos_vector()[0]);
         return;
       }
+    // An exchange before brings the entries of lower ranks, one after it adds
+    // to them what this rank's part of the inverse has for them: R_rᵀ L_r⁻ᵀ D_r
+    // L_r⁻¹ R_r of doc/theory.md (7.2).
     const std::size_t n_own    = own.n_elements();
     const std::size_t n_others = others.n_elements();
     double *const     of_own   = gathered.data() + n_others;

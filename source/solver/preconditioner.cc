@@ -65,6 +65,7 @@ namespace Morula
       symmetrize(K, symmetric_part);
     const Matrix &A = problem.symmetric ? K : symmetric_part;
     factorisation_.reset();
+    // Free bodies leave the last factorisation out (see attempts).
     const std::size_t n_usable =
       problem.null_space.empty() ? std::size(attempts) : n_of_free_bodies;
     for (; !factorisation_ && n_tried < n_usable; ++n_tried)
@@ -74,9 +75,11 @@ namespace Morula
         parameters.relative_diagonal = attempts[n_tried].relative_diagonal;
         parameters.absolute_diagonal =
           absolute_diagonal * problem.typical_entry;
-        auto       made   = std::make_unique<OverlappingCholesky>(A,
+        auto made = std::make_unique<OverlappingCholesky>(A,
                                                           problem.n_components,
                                                           parameters);
+        // Each rank knows of its own block only. All of them use the
+        // factorisation, or none does.
         const bool failed = !made->is_positive(); // on this rank
         if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
           factorisation_ = std::move(made);
@@ -106,6 +109,7 @@ namespace Morula
   void
   Jacobi::vmult(Vector &y, const Vector &x) const
   {
+    // An entrywise product; it does not communicate.
     y.trilinos_vector().Multiply(1.,
                                  inverse.trilinos_vector(),
                                  x.trilinos_vector(),

@@ -52,13 +52,15 @@ namespace Morula
   ProximalEquilibrium::residual(const Vector &u, Vector &R) const
   {
     Evaluation evaluation = problem.residual(u, R);
-    // Before the first tangent nothing has moved from the centre.
+    // The diagonal D comes with the first tangent. Before that nothing has
+    // moved from the centre, so the friction has no force.
     if (!std::isfinite(evaluation.energy) || diagonal.size() == 0)
       return evaluation;
     Vector moved(u), force(u);
     moved -= centre;
     force = moved;
     force.scale(diagonal);
+    // These are the force c D (u - u_k) and its energy, doc/theory.md (5.7).
     force *= proximity;
     const double energy = 0.5 * (moved * force);
     evaluation.energy += energy;
@@ -79,6 +81,8 @@ namespace Morula
   ProximalEquilibrium::tangent(const Vector &u, const GrowthAt growth)
   {
     const Matrix &K = problem.tangent(u, growth);
+    // D is that of the first tangent, and stays: else the friction would change
+    // within the path, and its energy with it.
     if (diagonal.size() == 0)
       diagonal = diagonal_magnitude(K, u);
     if (proximity == 0.)
@@ -106,13 +110,14 @@ namespace Morula
 
 
   // Each part starts where the last one has ended, and is as long as Newton's
-  // method can do it at ease: c falls after a part of few iterations, and rises
-  // where one fails, which is then tried again, and stays for some parts. A
-  // part that moves further than a grid spacing has failed, too: it may have
-  // left the way on which the tissue glides, for one that rounding decides.
-  // Once c is so small that it no longer counts, the equilibrium itself is
-  // solved for; where that fails, parts go on from there. The parts need not be
-  // solved more accurately than the step itself.
+  // method can do it at ease: c falls after a part of few iterations, rises
+  // where one fails, which is then tried again, and stays for some parts after
+  // that. A part that moves further than a grid spacing has failed, too: it may
+  // have left the way on which the tissue glides, for one that rounding
+  // decides. Once c is so small that it no longer counts, the equilibrium
+  // itself, c = 0, is solved for; where that fails, parts go on from there. The
+  // equations are those of doc/theory.md (5.7). The parts need not be solved
+  // more accurately than the step itself.
   Equilibrium::Evaluation
   follow_proximal_path(Equilibrium            &problem,
                        const LinearProblem    &linear_problem,
@@ -126,6 +131,8 @@ namespace Morula
     Equilibrium::Vector R(u);
     if (!std::isfinite(problem.residual(u, R).energy))
       throw StepFailed("there is no state to start a proximal path from");
+    // The residual at the start is the force that the path has to work off: a
+    // part counts as solved relative to it.
     remove_parts(R, linear_problem.null_space);
     NewtonScales of_parts    = scales;
     of_parts.small_force     = std::max(scales.small_force, R.l2_norm());
@@ -157,6 +164,8 @@ namespace Morula
             throw StepFailed("the tissue moves too far at once");
           centre                 = u;
           report.place.proximity = 0.;
+          // One part has been solved, so all later tangents are at the new
+          // growth.
           nearby.use_growth_at_end();
           if (c == 0.)
             return evaluation;
@@ -171,9 +180,11 @@ namespace Morula
         {
           reason                 = failure.what();
           report.place.proximity = 0.;
-          c                      = c == 0. ? 4. * least_proximity : 4. * c;
-          wait                   = parts_after_failure;
-          u                      = centre;
+          // A failed end of the path has c = 0, from which c cannot rise
+          // fourfold.
+          c    = c == 0. ? 4. * least_proximity : 4. * c;
+          wait = parts_after_failure;
+          u    = centre;
         }
     throw StepFailed(reason + "; this was on a proximal path");
   }

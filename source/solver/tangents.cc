@@ -7,9 +7,12 @@ namespace Morula
 {
   namespace
   {
-    /** Of the residual, with which a tangent still serves. */
+    /** A tangent is kept as long as each iteration reduces the residual to this
+     *  part or less. In 3-D a tangent costs as much as many residuals, so a few
+     *  iterations more pay: doc/theory.md, section 5.1. */
     constexpr double sufficient_reduction = 0.2;
-    /** Later ones are a sign of trouble. */
+    /** A solve that takes more iterations than these is in trouble, and gets a
+     *  tangent in each. */
     constexpr unsigned int last_kept_iteration = 10;
   } // namespace
 
@@ -21,6 +24,8 @@ namespace Morula
   const Equilibrium::Matrix &
   Tangents::at(const Vector &u, const double norm, const bool undisturbed)
   {
+    // A tangent is kept only if all signs are good. The first one has the
+    // growth of the step's beginning, doc/theory.md (5.1).
     ++n_iterations;
     kept_ = keep && last != nullptr && undisturbed &&
             n_iterations <= last_kept_iteration &&

@@ -20,6 +20,11 @@ namespace Morula
                    const Equilibrium::Vector                      &u,
                    NewtonReport                                   &report)
   {
+    // Each turn finds an equilibrium with what the participants hold fixed, and
+    // then has all of them renew it, doc/theory.md (5.6). All are asked, also
+    // after one has said that it needs another turn: their quantities belong to
+    // the same u. After the first turn the tissue has the new growth, and so
+    // have all further tangents.
     for (report.place.turn = 1;; ++report.place.turn)
       {
         ++report.turns;

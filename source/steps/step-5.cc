@@ -157,6 +157,10 @@ namespace Step5
   void
   divide_at_random(const Scene &scene, const double p, std::ostream &out)
   {
+    // The same tissue three times, with random seeds that follow each other.
+    // The number of divisions is compared with its expectation in units of the
+    // standard deviation, the axes with the mean 1/3; the volume shows whether
+    // divisions leave stress behind.
     TableHandler table;
     for (unsigned int i = 0; i < 3; ++i)
       {

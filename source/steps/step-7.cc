@@ -103,7 +103,8 @@ namespace Step7
       return std::exp(k * room * (t1 - t0)) * cell.growth;
     }
 
-    // For the estimate of memory: as much as without pressure at most.
+    // The estimate of memory takes this: with pressure cells grow no more than
+    // without.
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override
     {

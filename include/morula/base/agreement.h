@@ -20,7 +20,7 @@ namespace Morula
   void
   everywhere(const MPI_Comm comm, const std::function<void()> &action);
 
-  /** The same for an @p action that only rank 0 runs. */
+  /** As everywhere(), for an @p action that only rank 0 runs. */
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action);
 } // namespace Morula

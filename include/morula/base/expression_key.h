@@ -121,7 +121,7 @@ namespace Morula
     const std::vector<std::string> &
     field_names() const;
 
-    /** The same key in the section of a type of cells. It is empty if the type
+    /** As this key, in the section of a type of cells. It is empty if the type
      *  has no value of its own. */
     ExpressionKey
     in_section_of_type(const std::string &section) const;

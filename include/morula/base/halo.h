@@ -56,7 +56,7 @@ namespace Morula
                 const Take       &take) const;
 
   private:
-    /** By rank that needs them: numbers of own entries. */
+    /** The numbers of own entries that others need, by their rank. */
     std::vector<std::pair<unsigned int, std::vector<unsigned int>>>
     needed_elsewhere() const;
 

@@ -23,7 +23,8 @@ namespace Morula
     std::string path;  // full path of the key or section, separated by '/'
     std::string value; // of the key
     std::string place; // of the statement, "file:line: "
-    // the beginnings of the subsections around it, "file:line", outermost first
+    // The beginnings of the subsections around it, "file:line", outermost
+    // first.
     std::vector<std::string> around = {};
   };
 
@@ -40,7 +41,7 @@ namespace Morula
   std::vector<Statement>
   read_statements(const std::string &file);
 
-  /** The same from a stream. Messages call it @p name. */
+  /** Reads statements from a stream. Messages call it @p name. */
   std::vector<Statement>
   read_statements(std::istream &input, const std::string &name);
 

@@ -27,7 +27,7 @@ namespace Morula
       return end - begin;
     }
 
-    /** Its middle, day: the time for which rates are evaluated. */
+    /** The middle of the step, day: the time for which rates are evaluated. */
     double
     middle() const
     {

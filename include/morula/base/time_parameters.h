@@ -29,7 +29,8 @@ namespace Morula
     double
     slack() const;
 
-    /** Also refuses times that contradict each other. @throws InputError */
+    /** Checks each key, and refuses times that contradict each other. @throws
+     *  InputError */
     void
     check() const;
 

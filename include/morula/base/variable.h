@@ -31,7 +31,8 @@ namespace Morula
     age,
     /** Time since the cell took its type, day. */
     type_age,
-    /** As the column `phase` of cells-NNNN.csv. */
+    /** The phase of the cell's cycle, as in the column `phase` of
+     *  cells-NNNN.csv. */
     cycle_phase,
     /** Number of the cell's type, from 0. */
     type,

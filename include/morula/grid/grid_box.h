@@ -185,7 +185,7 @@ namespace Morula
       for_range(lower, upper, visit);
     }
 
-    /** The same for a range that lies in the box. */
+    /** As for_overlap(), for a range that lies in the box. */
     template <typename Visitor>
     void
     for_range(const GridIndex<dim> &lower,

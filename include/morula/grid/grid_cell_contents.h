@@ -58,7 +58,7 @@ namespace Morula
     void
     widen(const BackgroundGrid<dim> &grid, const bool here);
 
-    /** Of particles, in units of h^dim / resolution. */
+    /** The volume of particles, in units of h^dim / resolution. */
     std::int64_t
     volume(const unsigned int number) const
     {
@@ -102,7 +102,7 @@ namespace Morula
       return reaches[number][2 * direction];
     }
 
-    /** How far it reaches down from the upper end. */
+    /** How far the tissue reaches down from the upper end, in units of h. */
     float
     down(const unsigned int number, const unsigned int direction) const
     {

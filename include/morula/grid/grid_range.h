@@ -29,7 +29,8 @@ namespace Morula
     void
     unite(const GridRange &other);
 
-    /** With @p rings more grid cells on all sides, but inside of @p box. */
+    /** The range, with @p rings more grid cells on all sides but inside of @p
+     *  box. */
     GridRange
     grown(const int rings, const GridBox<dim> &box) const;
 

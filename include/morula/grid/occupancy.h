@@ -44,7 +44,7 @@ namespace Morula
                        const unsigned int     points_per_cell = 1,
                        const bool             share_points    = false);
 
-    /** On one rank. */
+    /** The occupancy of a box on one rank. */
     explicit Occupancy(const GridBox<dim> &box);
 
     /** Adds a particle. */
@@ -167,7 +167,7 @@ namespace Morula
     bool
     active(const unsigned int number) const;
 
-    /** Of this rank's window. */
+    /** The grid cells of this rank's window. */
     const GridBoxes<dim> &
     boxes() const;
 

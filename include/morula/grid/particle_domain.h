@@ -228,7 +228,7 @@ namespace Morula
   template <int dim>
   struct DeformedCube
   {
-    /** Of the cube, µm^dim. */
+    /** The volume of the cube, µm^dim. */
     double         volume;
     Tensor<2, dim> deformation;
 

@@ -119,7 +119,7 @@ namespace Morula
                const BackgroundGrid<dim> &grid);
 
     GridBoxes<dim> boxes; // the window's
-    /** By grid cell of the window, whether this rank owns it; only of those
+    /** Whether this rank owns it, by grid cell of the window; only of those
      *  near active ones. */
     std::vector<char>         own;
     std::vector<unsigned int> own_active;

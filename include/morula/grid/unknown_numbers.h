@@ -54,11 +54,11 @@ namespace Morula
     unsigned int
     operator[](const unsigned int copy) const;
 
-    /** Of all ranks. */
+    /** The number of unknowns of all ranks. */
     unsigned int
     n() const;
 
-    /** Those of this rank. */
+    /** The unknowns of this rank. */
     const IndexSet &
     owned() const;
 

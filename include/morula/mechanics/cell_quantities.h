@@ -38,14 +38,14 @@ namespace Morula
     SymmetricTensor<2, 3> stress;
   };
 
-  /** Those of one cell without the stress, at half the cost. */
+  /** The scalars of a cell, without the stress, at half the cost. */
   template <int dim>
   CellScalars
   cell_scalars(const CellView<dim, const double> &cell,
                const Material                    &material,
                const Lame                        &lame);
 
-  /** Those of one cell. */
+  /** All quantities of a cell. */
   template <int dim>
   CellQuantities
   cell_quantities(const CellView<dim, const double> &cell,

@@ -46,10 +46,10 @@ namespace Morula
       /** Σ|contributions| to the energy, for its rounding error. */
       double energy_magnitude = 0.;
 
-      /** Of this rank's points: the smallest J_e, or det f where the step
+      /** The smallest J_e of this rank's points, or det f where the step
        *  inverts the tissue. */
       Extreme smallest_J = {0., {}};
-      /** Of this rank's held points: the largest distance from where one is
+      /** The largest distance of this rank's held points from where they are
        *  held, µm; negative: none is held. */
       Extreme largest_gap = {-1., {}};
     };

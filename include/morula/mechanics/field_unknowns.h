@@ -31,11 +31,12 @@ namespace Morula
     /** Collective. */
     FieldUnknowns(const SplineSpace<dim> &space, const MPI_Comm comm);
 
-    /** Those of the splines that this rank owns. */
+    /** The degrees of freedom of the splines that this rank owns. */
     const IndexSet &
     owned() const;
 
-    /** Those of the splines that this rank's active grid cells use. */
+    /** The degrees of freedom of the splines that this rank's active grid cells
+     *  use. */
     const IndexSet &
     relevant() const;
 

@@ -197,9 +197,10 @@ namespace Morula
         largest_gap = {gap, xi};
     }
 
-    /** In: that of the last tangent of the step on this grid cell, if any. */
+    /** In: the linearisation of the last tangent of the step on this grid cell,
+     *  if there was one. */
     const VolumeLinearisation<dim> *last = nullptr;
-    /** Out: that of this tangent, if a term has one. */
+    /** Out: the linearisation of this tangent, if a term has one. */
     std::optional<VolumeLinearisation<dim>> linearisation;
 
     /** In: whether single precision is enough for the tangent. */

@@ -61,7 +61,7 @@ namespace Morula
     double mu;
   };
 
-  /** From Young's modulus (kPa) and Poisson's ratio. */
+  /** Lamé's constants from Young's modulus (kPa) and Poisson's ratio. */
   inline Lame
   lame(const double E, const double nu)
   {

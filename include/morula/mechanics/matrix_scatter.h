@@ -56,21 +56,23 @@ namespace Morula
     finish();
 
   private:
-    /** By relevant unknown: those that it couples with on this rank. */
+    /** The unknowns that a relevant unknown couples with on this rank, by
+     *  relevant unknown. */
     using Couplings = std::vector<std::vector<unsigned int>>;
 
     Couplings
     couplings() const;
 
-    /** By owned unknown: the global unknowns in its rows. */
+    /** The global unknowns in the rows of an owned unknown, by owned unknown.
+     */
     using Unknowns = std::vector<std::vector<types::global_dof_index>>;
 
     /** Ranks, by relevant unknown. */
     std::vector<unsigned int>
     owners_of_relevant() const;
 
-    /** By rank: an unknown's number, that of its columns, the columns; then the
-     *  next unknown's. */
+    /** Messages by rank: an unknown's number, that of its columns, the columns;
+     *  then the next unknown's. */
     using Messages =
       std::map<unsigned int, std::vector<types::global_dof_index>>;
 
@@ -132,7 +134,7 @@ namespace Morula
     std::vector<int>                       owned_number; // by relevant unknown
     std::vector<std::vector<unsigned int>> positions;    // by grid cell: m x m
 
-    /** By owner: values of its rows, one after the other. */
+    /** The values of an owner's rows, one after the other, by owner. */
     std::map<unsigned int, std::vector<double>>   sent;
     std::map<unsigned int, std::vector<Received>> received; // by sender
   };

@@ -120,12 +120,12 @@ namespace Morula
     scales(const double youngs_modulus) const;
 
   private:
-    /** Of the functions below those with @p magnitudes also find the magnitudes
-     *  of what is added up, if that is not null. */
+    /** The functions below that get @p magnitudes also find the magnitudes of
+     *  what is added up, if the pointer is not null. */
     Evaluation
     evaluate(const Vector &u, Vector &R, Vector *magnitudes) const;
 
-    /** The terms' part of it. */
+    /** The terms' part of evaluate(). */
     Evaluation
     sum_up(const Vector &u, Vector &R, Vector *magnitudes) const;
 
@@ -165,7 +165,8 @@ namespace Morula
     bool                    goes_on = false;
     std::optional<RankOne>  of_content; // of the last tangent
 
-    // The last tangent's, by active grid cell; empty if no term has any.
+    // Linearisations at the last tangent, by active grid cell; empty if no term
+    // has any.
     std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;
   };
 } // namespace Morula

@@ -106,7 +106,7 @@ namespace Morula
     void
     find_centers(const std::vector<Mass> &masses);
 
-    /** Those that the supports do not hold: doc/theory.md (4.9). */
+    /** Finds the motions that the supports do not hold: doc/theory.md (4.9). */
     void
     find_free_modes(const std::vector<Support> &supports);
 

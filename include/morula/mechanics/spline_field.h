@@ -30,7 +30,8 @@ namespace Morula
                 const FieldUnknowns<dim, n_components> &unknowns,
                 const TrilinosWrappers::MPI::Vector    &u);
 
-    /** The same where the unknowns are not known. Collective. */
+    /** Does as the one above, for a caller that has no FieldUnknowns.
+     *  Collective. */
     SplineField(const SplineSpace<dim>              &space,
                 const TrilinosWrappers::MPI::Vector &u,
                 const MPI_Comm                       comm);

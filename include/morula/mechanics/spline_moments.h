@@ -25,7 +25,7 @@ namespace Morula
       Utilities::pow(n_powers, dim - 1);
     static constexpr unsigned int n = n_powers * n_of_first;
 
-    /** By weight. */
+    /** The sums of all powers, by weight. */
     std::array<std::array<double, n>, n_weights> sums{};
 
     /** Adds a point at @p xi. */
@@ -57,16 +57,16 @@ namespace Morula
     }
   };
 
-  /** Of points with the weights D V and k V, in this order: their sums give the
-   *  matrix of a field. */
+  /** Moments of points with the weights D V and k V, in this order: these sums
+   *  give the matrix of a field. */
   template <int dim>
   using MatrixMoments = SplineMoments<dim, 4, 2>;
 
-  /** Of points with one weight: products of two splines. */
+  /** Moments of points with one weight, for products of two splines. */
   template <int dim>
   using MassMoments = SplineMoments<dim, 4, 1>;
 
-  /** Of points with one weight: single splines. */
+  /** Moments of points with one weight, for single splines. */
   template <int dim>
   using LoadMoments = SplineMoments<dim, 2, 1>;
 

@@ -103,21 +103,21 @@ namespace Morula
                             const StrainOfGridCell *strain,
                             double                 *matrix);
 
-    /** The same with products and their sums in single precision: to 10⁻⁶ of
-     *  the largest entry, in less time. */
+    /** As tangent(), with products and their sums in single precision: to 10⁻⁶
+     *  of the largest entry, in less time. */
     KernelResult (*tangent_in_single)(const KernelInput      &input,
                                       const StrainOfGridCell *strain,
                                       double                 *matrix);
 
-    /** For other terms' tangents. */
+    /** Adds products of splines, for other terms' tangents. */
     AddProducts<dim> add_products;
 
-    /** For what moves with the tissue. */
+    /** Finds motions of points, for what moves with the tissue. */
     FindMotions find_motions;
   };
 
-  /** Those for law number @p law of the library's list that this processor can
-   *  run, the fastest first. */
+  /** The kernels for law number @p law of the library's list that this
+   *  processor can run, the fastest first. */
   template <int dim>
   std::vector<VectorKernels<dim>>
   available_vector_kernels(const unsigned int law);

@@ -20,7 +20,7 @@ namespace Morula
   {
     static constexpr unsigned int n = BSpline<dim>::n;
 
-    /** Not pointwise. */
+    /** The form, which is any but pointwise: that needs no mean. */
     const VolumetricStrain form = VolumetricStrain::projected;
 
     /** Λ = Σ W k. */
@@ -72,7 +72,7 @@ namespace Morula
         }
     }
 
-    /** For the tangent at the points. @param U at @p theta */
+    /** What the tangent at the points needs. @param U at @p theta */
     StrainOfGridCell
     at_points(const Volumetric<double> &U, const double theta) const
     {

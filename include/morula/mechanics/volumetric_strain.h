@@ -17,8 +17,8 @@ namespace Morula
     pointwise,
     /** Its mean over the points of the grid cell. */
     projected,
-    /** That of the grid cell: the logarithm of the sum of its points' volumes
-     *  over that of their grown volumes. */
+    /** The logarithm of the sum of the volumes of the grid cell's points over
+     *  the sum of their grown volumes. */
     pooled
   };
 
@@ -26,7 +26,7 @@ namespace Morula
    *  doc/theory.md (2.7), (2.9). */
   struct StrainOfGridCell
   {
-    /** Not pointwise. */
+    /** The form, which is any but pointwise: that needs no mean. */
     VolumetricStrain form;
     /** ϑ. */
     double theta;

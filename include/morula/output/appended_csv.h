@@ -71,8 +71,9 @@ namespace Morula
     append(const std::string &rows);
 
     /**
-     * The same for all ranks' @p rows, rank by rank. Many are written by all
-     * ranks, each its part, where the file system allows that; else by rank 0.
+     * As append(), for all ranks' @p rows, rank by rank. Many are written by
+     * all ranks, each its part, where the file system allows that; else by rank
+     * 0.
      * @param shared_from size of the rows, bytes, that are many
      */
     void

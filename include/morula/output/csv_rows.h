@@ -45,8 +45,9 @@ namespace Morula
     n_bytes() const;
 
     /**
-     * Of all ranks' rows, in order, those that this rank is to write: each rank
-     * has about as many as the others, rank 0 the first ones. Collective.
+     * Puts all ranks' rows in order and returns those that this rank is to
+     * write: each rank has about as many as the others, rank 0 the first ones.
+     * Collective.
      * @param order of the rows, over all ranks. Rows of equal places are of one
      *   rank, and stay in their order.
      */
@@ -58,7 +59,7 @@ namespace Morula
     row(const std::size_t i) const;
 
     std::string text;
-    /** For each row the position in the text behind its newline. */
+    /** The position in the text behind its newline, for each row. */
     std::vector<std::size_t> ends;
   };
 } // namespace Morula

@@ -16,7 +16,7 @@ namespace Morula
   /** What events.csv records. */
   struct EventsContents
   {
-    /** By the types' numbers; empty: there are no types. */
+    /** The names of the types, by their numbers; empty: there are no types. */
     std::vector<std::string> type_names;
     /** Whether deaths have causes. */
     bool with_causes = false;

@@ -26,7 +26,7 @@ namespace Morula
   template <int dim>
   struct SnapshotData
   {
-    /** Of the program that wrote the file, for information. */
+    /** The version of the program that wrote the file, for information. */
     std::string program_version;
     /** The scene, a .prm file with all keys. */
     std::string parameters;

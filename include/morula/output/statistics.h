@@ -40,7 +40,7 @@ namespace Morula
     CellLengths   lengths;
     /** Columns of the scene's effects, by name: Tables::columns(). */
     std::vector<std::pair<std::string, double>> of_effects = {};
-    /** Only with boundary points. */
+    /** How the surface fits the cells; empty without boundary points. */
     std::optional<SurfaceFit> surface = {};
     /** What the step before missed of growth and flow, relative to the volume;
      *  only where they follow the state. */

@@ -46,7 +46,7 @@ namespace Morula
       return table;
     }
 
-    /** Of a table that is no longer needed. */
+    /** The fields of a table that is no longer needed. */
     PointFields<dim>
     fields() &&
     {

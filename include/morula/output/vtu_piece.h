@@ -34,11 +34,11 @@ namespace Morula
     std::string
     tag() const;
 
-    /** Of its values, with the size in front. */
+    /** The number of bytes of its values, with the size in front. */
     std::uint64_t
     n_bytes(const std::uint64_t n_points) const;
 
-    /** Of its element, in base64. */
+    /** The number of bytes of its element, in base64. */
     std::uint64_t
     n_bytes_in_file(const std::uint64_t n_points) const;
   };

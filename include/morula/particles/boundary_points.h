@@ -59,7 +59,7 @@ namespace Morula
       return (*this)[p].condition();
     }
 
-    /** a n, µm^(dim-1). */
+    /** The present area vector a n, µm^(dim-1). */
     Tensor<1, dim>
     area_vector(const unsigned int p) const
     {

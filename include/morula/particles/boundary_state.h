@@ -76,11 +76,11 @@ namespace Morula
     Column<SurfaceCondition> condition;
     /** F. */
     Column<Tensor<2, dim>> deformation;
-    /** With patch: initial position of the point at t = 0 of which this one is
-     *  a part, µm. */
+    /** The initial position of the point at t = 0 of which this one is a part,
+     *  µm; only with patch. */
     Column<Point<dim>> seed_position;
-    /** With patch: its tangential edges in the initial configuration, µm. They
-     *  span a⁰. */
+    /** The tangential edges of the patch in the initial configuration, µm; only
+     *  with patch. They span a⁰. */
     std::array<Column<Tensor<1, dim>>, dim - 1> edges;
     /** If the surface is coarsened: the area that a patch shall have, that of
      *  the point at t = 0, µm^(dim-1). */
@@ -176,8 +176,8 @@ namespace Morula
       set(columns.deformation, f * F());
     }
 
-    /** a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2), equation (11) of the paper.
-     */
+    /** The present area vector a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2),
+     *  equation (11) of the paper. */
     Tensor<1, dim>
     area_vector() const
     {

@@ -25,7 +25,7 @@ namespace Morula
             cell.elastic_deformation()};
   }
 
-  /** The same around @p x, µm. */
+  /** As cell_shape(), around @p x, µm. */
   template <int dim>
   ParticleDomain<dim>
   cell_domain(const Point<dim> &x, const CellView<dim, const double> &cell)

@@ -103,7 +103,7 @@ namespace Morula
     /** A column without its type. */
     struct Entry
     {
-      /** As declared. */
+      /** The texts with which the column was declared. */
       std::string name, unit, meaning;
       /** The numbers [first, first + n) of a row. */
       unsigned int first, n;

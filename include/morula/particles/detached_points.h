@@ -12,10 +12,10 @@
 namespace Morula
 {
   /**
-   * Numbers of those of these points of this rank that have no cell of this
-   * rank within @p near (µm), which is at most a grid spacing. Other ranks may
-   * have one. Most boundary points have a cell near in their own grid cell, so
-   * that this is far cheaper than to find the nearest ones.
+   * The numbers of those points that have no cell of this rank within @p near
+   * (µm), which is at most a grid spacing. Other ranks may have one. The points
+   * are on this rank. Most boundary points have a cell near in their own grid
+   * cell, so that this is far cheaper than to find the nearest ones.
    */
   template <int dim>
   std::vector<unsigned int>

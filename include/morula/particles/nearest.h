@@ -57,7 +57,7 @@ namespace Morula
                   const NearestQuery            &wanted,
                   const BackgroundGrid<dim>     &grid);
 
-  /** The same for the values value(p) of a type that is Flat. */
+  /** As nearest_numbers(), for the values value(p) of a type that is Flat. */
   template <int dim, typename Value>
   auto
   nearest_values(const std::vector<Point<dim>> &queries,

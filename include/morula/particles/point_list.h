@@ -57,7 +57,7 @@ namespace Morula
       return {numbers.data() + i * n_numbers, n_numbers};
     }
 
-    /** The same, to be written. */
+    /** Row number @p i, to be written. */
     ArrayView<double>
     row(const std::size_t i)
     {

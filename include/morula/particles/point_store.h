@@ -129,7 +129,7 @@ namespace Morula
       return column.get(row(p));
     }
 
-    /** Writes it. */
+    /** Writes the value in a column. */
     template <typename T>
     void
     set(const Column<T>                &column,
@@ -140,7 +140,7 @@ namespace Morula
     }
 
   protected:
-    /** Its row of numbers. */
+    /** The point's row of numbers. */
     ArrayView<const double>
     row(const unsigned int p) const
     {
@@ -148,7 +148,7 @@ namespace Morula
       return point.get_properties();
     }
 
-    /** The same, to be written. */
+    /** The point's row of numbers, to be written. */
     ArrayView<double>
     row(const unsigned int p)
     {

@@ -23,7 +23,8 @@ namespace Morula
     bool                     replace    = false;
     bool                     explain    = false;
     bool                     parameters = false;
-    /** Only keys that have all of these words, for @ref parameters. */
+    /** With @ref parameters only those keys are printed that have all of these
+     *  words. */
     std::vector<std::string> words;
     /** Whether @ref explain or @ref parameters print JSON. */
     bool json    = false;

@@ -46,11 +46,12 @@ namespace Morula
     /** @param cells must outlive this */
     explicit Filling(const AllCells<dim> &cells);
 
-    /** Its value and gradient (1/µm) at @p x (µm). */
+    /** The value of the filling and its gradient (1/µm) at @p x (µm). */
     std::pair<double, Tensor<1, dim>>
     value_and_gradient(const Point<dim> &x) const;
 
-    /** Its value inside the tissue: the upper quartile over some cells. */
+    /** The value of the filling inside the tissue: the upper quartile over some
+     *  cells. */
     double
     inside() const;
 

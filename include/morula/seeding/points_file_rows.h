@@ -18,7 +18,8 @@ namespace Morula
   /** What is wrong with a line of a points file. */
   struct LineProblem
   {
-    // below 2^63: Open MPI 4.1 takes the minimum of MPI_UNSIGNED_LONG as signed
+    // This is below 2^63, as Open MPI 4.1 takes the minimum of
+    // MPI_UNSIGNED_LONG as if they were signed.
     static constexpr std::uint64_t no_line =
       std::numeric_limits<std::int64_t>::max();
 

@@ -42,13 +42,14 @@ namespace Morula
     double patch_area = 0.;
     /** ℓ, over which it is smooth, µm; 0: the length of the mean cell. */
     double length = 0.;
-    /** What it shall enclose exactly, µm^dim; 0: about the cells' volume. */
+    /** The volume that the surface shall enclose exactly, µm^dim; 0: about the
+     *  cells' volume. */
     double volume = 0.;
   };
 
   /**
-   * The same surface around cells at these positions (µm) with these volumes
-   * (µm^dim).
+   * The surface that seed_points_surface() makes, around cells at these
+   * positions (µm) with these volumes (µm^dim).
    * @return nothing if the cells have no common surface: it would enclose less
    * than half or more than twice their volume, or have more parts than half the
    * cells

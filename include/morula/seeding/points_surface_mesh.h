@@ -35,7 +35,7 @@ namespace Morula
   ClosedSurface<3>
   wrap_points(const std::vector<Point<3>> &points, const double length);
 
-  /** The same in 2-D. */
+  /** Wraps points in 2-D, by lines. */
   ClosedSurface<2>
   wrap_points(const std::vector<Point<2>> &points, const double length);
 } // namespace Morula

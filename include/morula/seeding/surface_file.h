@@ -25,8 +25,8 @@ namespace Morula
   read_surface(const Key<std::string>      &file,
                const std::vector<Point<3>> &cells);
 
-  /** The same in 2-D: a POLYGON or MULTIPOLYGON of well-known text (WKT), which
-   *  Boost.Geometry reads. */
+  /** Reads the surface of 2-D tissue: a POLYGON or MULTIPOLYGON of well-known
+   *  text (WKT), which Boost.Geometry reads. */
   ClosedSurface<2>
   read_surface(const Key<std::string>      &file,
                const std::vector<Point<2>> &cells);

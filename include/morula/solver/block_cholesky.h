@@ -120,7 +120,7 @@ namespace Morula
       Lane values;
     };
 
-    /** By columns. */
+    /** A block of the factor, by columns. */
     struct Block
     {
       Lane column[n];

@@ -61,7 +61,7 @@ namespace Morula
           const Equilibrium::RankOne *rank_one  = nullptr);
 
     /** The most negative p·Kp / p·|diag K|p that the last solve met; 0: it met
-     *  none. Of a direct solver, which sees no curvature, minus σ. */
+     *  none. A direct solver sees no curvature: then it is minus σ. */
     double
     curvature() const;
 

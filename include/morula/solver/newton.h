@@ -54,7 +54,7 @@ namespace Morula
     /** Where an attempt has failed, with the extremes of all ranks. */
     Equilibrium::Evaluation failed_at;
 
-    /** Of the present solve. */
+    /** The place of the present solve. */
     NewtonPlace place;
 
     /** Whether states are to be noted down, and those of all solves. */

@@ -29,6 +29,8 @@ namespace Morula
     Tensor<1, dim>
     surface_normal(const PresentCell<dim> &cell)
     {
+      // What is stored is N of the point that was nearest to the founder at t =
+      // 0; F carries it to now.
       return Directions::carried_normal(cell.cell().F(), cell.surface_normal());
     }
   } // namespace
@@ -60,6 +62,8 @@ namespace Morula
                             const EffectSetting<dim> &setting)
     : direction(setting.state.use(parameters.axis))
   {
+    // A vector that is zero for every cell is refused as the keys are read. One
+    // that is zero for some cells is found as they enter S.
     if (direction.is_always(0., dim))
       parameters.axis.refuse(zero_is_refused<dim>(), remedy_of_zero);
   }
@@ -75,6 +79,8 @@ namespace Morula
   Tensor<1, dim>
   FixedAxis<dim>::axis(const CellAtOnset<dim> &cell) const
   {
+    // Before the cells are placed no rule can look at one. The random axis then
+    // stands in, so that the checks before the run go through.
     if (cell.present == nullptr)
       return cell.random;
     const Tensor<1, dim> vector = cell.present->vector(direction, cell.time);
@@ -95,6 +101,8 @@ namespace Morula
   Tensor<1, dim>
   StretchAxis<dim>::axis(const CellAtOnset<dim> &cell) const
   {
+    // A cell that is stretched equally has no long axis and takes the random
+    // one, as with Division axis = random.
     return Directions::of_largest_stretch(cell.elastic,
                                           cell.least_anisotropy,
                                           cell.random)
@@ -108,6 +116,8 @@ namespace Morula
   {
     if (cell.present == nullptr)
       return cell.random;
+    // The stress is that at the beginning of the step, since the present step
+    // is still to be solved.
     return Directions::of_largest_stress(cell.present->quantities().stress,
                                          cell.present->lame().mu,
                                          cell.least_anisotropy,
@@ -149,6 +159,7 @@ namespace Morula
     const Tensor<1, dim> away =
       cell.present->position() -
       Point<dim>(cell.present->vector(center, cell.time));
+    // A cell exactly at the center has no way out from it.
     return away.norm() > 0. ? away : cell.random;
   }
 
@@ -157,6 +168,7 @@ namespace Morula
   SurfaceNormalAxis<dim>::SurfaceNormalAxis(const NoAxisKeys &,
                                             const EffectSetting<dim> &setting)
   {
+    // The columns for the normal exist only where an effect asks for them.
     setting.state.need_surface_normal();
   }
 

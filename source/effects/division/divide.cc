@@ -37,6 +37,9 @@ namespace Morula
     PointList<dim>
     neighborhood(const Tissue<dim> &tissue, const double reach)
     {
+      // The halo holds the cells of other ranks that may be within reach of
+      // this rank's grid cells. A rank with no dividing cell takes part, too,
+      // since the exchange is collective.
       PointList<dim> points;
       for (unsigned int p = 0; p < tissue.cells().size(); ++p)
         points.add(tissue.cells().id(p), tissue.cells().position(p), {});
@@ -53,8 +56,11 @@ namespace Morula
           const double       longest,
           const bool         whole_surface)
     {
-      // present normal and spacing
-      using Patch                      = std::tuple<Tensor<1, dim>, double>;
+      // A patch is its present normal and its spacing.
+      using Patch = std::tuple<Tensor<1, dim>, double>;
+      // This rank's walls come first, then the halo with those of other ranks.
+      // A wall counts where the ray hits it within its own spacing, so the
+      // reach is the longest ray plus the largest spacing of all ranks.
       const BoundaryPoints<dim> &store = tissue.boundary_points();
       PointList<dim>             points(Flat<Patch>::n);
       double                     largest_spacing = 0.;
@@ -108,6 +114,12 @@ namespace Morula
          const double                     t1,
          types::particle_index           &next_id)
   {
+    // First come the places of daughters, which need neighbours and walls of
+    // other ranks, then the numbers of daughters, which need the divisions of
+    // all ranks. Both are collective, so every rank comes here if one has a
+    // dividing cell. Only then are rows made, all from the configuration before
+    // the divisions. The mothers go and the daughters come in a single last
+    // pass, since that one renumbers the cells of the rank.
     const MPI_Comm          comm     = tissue.communicator();
     const Cells<dim>       &cells    = tissue.cells();
     const CellColumns<dim> &columns  = cells.columns();
@@ -118,6 +130,9 @@ namespace Morula
       longest = std::max(longest, cell.length);
     longest = Utilities::MPI::max(longest, comm);
 
+    // A wall farther than a cell's length counts as absent, and the wall
+    // against a neighbour is at least at half its distance. So neighbours
+    // within two lengths make all walls: doc/theory.md (6.5).
     const PointList<dim> neighbors = neighborhood(tissue, 2. * longest);
     const auto           distances =
       daughter_distances(dividing,
@@ -131,6 +146,8 @@ namespace Morula
       events.push_back({cycle.division_time(development.clock(cells[p]),
                                             cells.founder_position(p)),
                         cells.id(p)});
+    // Ids follow the exact times on all ranks, not the ranks or the order of
+    // cells on them, so that any number of ranks gives the same cells.
     const auto first_ids = number_daughters(events, next_id, comm);
 
     PointList<dim> daughters(columns.n_numbers());
@@ -139,9 +156,14 @@ namespace Morula
       {
         const auto         mother     = cells[due[k]];
         const unsigned int generation = mother.generation() + 1;
+        // Both daughters go on with the mother's cycle, but each gets a random
+        // key of its own from hers.
         const auto [minus, plus] = cycle.daughters(development.clock(mother));
         for (unsigned int which = 0; which < 2; ++which)
           {
+            // The columns' rules make the row: most values are copied, V⁰ is
+            // halved. What they cannot know, as clock, parent and generation,
+            // is set after them.
             std::vector<double>         row = columns.daughter(mother.row());
             const CellView<dim, double> daughter(make_array_view(row), columns);
             development.set_clock(daughter, which == 0 ? minus : plus);
@@ -151,7 +173,10 @@ namespace Morula
             const Point<dim> position =
               dividing[k].position +
               (which == 0 ? -1. : 1.) * distances[k][which] * dividing[k].axis;
-            const auto         id   = first_ids[k] + which;
+            const auto id = first_ids[k] + which;
+            // The division lies before the end of the step, by up to a whole
+            // step. She lives that time here, so that an onset or a change of
+            // type in it is not lost.
             const unsigned int type = development.make_daughter(
               daughter, id, position, which, events[k].time, t1, result.events);
             daughters.add(id, position, make_array_view(row));

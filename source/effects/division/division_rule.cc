@@ -20,6 +20,9 @@ namespace Morula
   void
   DivisionRule<dim>::check(const Preview<dim> &scene) const
   {
+    // There are no cells yet. A direction stands for the random one, and the
+    // undeformed state for theirs; only an error of the rule matters, and the
+    // axis is dropped.
     Tensor<1, dim> direction;
     direction[0] = 1.;
     for (const Point<dim> &X : scene.founders)

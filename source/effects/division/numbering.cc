@@ -11,6 +11,8 @@ namespace Morula
                    types::particle_index            &next_id,
                    const MPI_Comm                    comm)
   {
+    // The places of this rank's events among those of all ranks say which pairs
+    // of ids they get. All ranks advance the next free id alike.
     const GlobalOrder order = global_order(events, comm);
 
     std::vector<types::particle_index> first_daughters;

@@ -45,7 +45,13 @@ namespace Morula
                         const WallPoint<dim>    &wall,
                         WallDistances           &distances)
     {
+      // The half-space is behind the plane through the point with the outward
+      // normal. The ray that goes outward meets it at depth/|axis·normal|, and
+      // only that one of the two. The hit counts near the point alone, since
+      // the plane stands for the surface only there.
       const double depth = (wall.position - cell.position) * wall.normal;
+      // A cell far behind the plane belongs to another part of the body, which
+      // this plane does not bound.
       if (depth < -deepest_overlap * cell.length)
         return;
 
@@ -77,6 +83,9 @@ namespace Morula
                       const Point<dim>        &neighbor,
                       WallDistances           &distances)
     {
+      // The wall is the plane half way to the neighbour, and a ray meets it at
+      // |r|²/(2 |r·n|): doc/theory.md (6.5). The sign of r·n says which ray
+      // does.
       const Tensor<1, dim> r     = neighbor - cell.position;
       const double         along = r * cell.axis;
       if (r.norm() >= contact * cell.length && along != 0.)
@@ -90,6 +99,10 @@ namespace Morula
     std::array<double, 2>
     place_daughters(const WallDistances &distances, const double length)
     {
+      // A side without a wall takes the distance of the other one, equation
+      // (19) of the paper. A cell without walls has its daughters a quarter of
+      // its length away, (20), which is what walls at half a length on both
+      // sides would give.
       const double nearer = std::min(distances[0], distances[1]);
       const double instead =
         std::isfinite(nearer) ? 0.5 * nearer : 0.25 * length;
@@ -116,6 +129,11 @@ namespace Morula
       return result;
     result.reserve(dividing.size());
 
+    // Cells and walls are sorted into bins first, so that each dividing cell
+    // looks only at those near it. The search for walls must reach as far as
+    // the largest spacing beyond the cell's length, because a hit may be that
+    // far from its point. Each visit takes the minimum over what it finds, so
+    // the order of points and the copies from other ranks do not matter.
     double                  largest_spacing = 0.;
     std::vector<Point<dim>> wall_positions;
     for (const WallPoint<dim> &wall : walls)

@@ -193,7 +193,7 @@ namespace Morula
                            const Stretch               &stretch) const
   {
     const CycleState<dim> state = run_clock(cell, row, stretch);
-    const CellAt<dim> at(cell, stretch.begin);
+    const CellAt<dim>     at(cell, stretch.begin);
     if (!cycle_.divides(state, at, stretch.end))
       return {};
     return std::min(stretch.end, cycle_.division_time(state, at));

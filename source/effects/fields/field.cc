@@ -9,9 +9,9 @@ namespace Morula
 {
   namespace
   {
-    /** Differences of c by which k c is differentiated, relative to c and to
-     *  the field's scale: k is not to change its kind, but to be told from
-     *  rounding. */
+    /** k c is differentiated by such differences of c, relative to c and to the
+     *  field's scale. They are so small that k does not change its kind, as at
+     *  a threshold, and so large that k is told from rounding. */
     constexpr double difference = 1e-6, smallest_difference = 1e-9;
 
     /** The value at a place, as the expression's rule wants it. */
@@ -19,6 +19,7 @@ namespace Morula
     double
     at_place(const Expression &expression, const Point<dim> &X, const double t)
     {
+      // In 2-D Z is 0.
       VariableValues values;
       for (unsigned int d = 0; d < 3; ++d)
         values[d] = d < dim ? X[d] : 0.;
@@ -92,6 +93,8 @@ namespace Morula
   bool
   Field<dim>::has_nonlinear_source() const
   {
+    // Whether the field reads itself decides how it is solved, so it is asked
+    // of the expressions rather than of a key.
     const Variable own = field_variable(number);
     return diffusion_.uses(own) || production_.uses(own);
   }
@@ -157,11 +160,15 @@ namespace Morula
                      const double      c,
                      const double      scale) const
   {
+    // A rate that does not read the field has itself as its slope.
     if (!consumption.uses(field_variable(number)))
       {
         const double k = cell.value(consumption, t);
         return {k * c, k};
       }
+    // The difference goes upwards, so that c stays in the range that the
+    // expression was written for. A negative slope would make the matrix
+    // indefinite, so it counts as 0: doc/theory.md (11.4).
     const double more =
       c + std::max(difference * c, smallest_difference * scale);
     const double used_more = used(cell, t, more), used_now = used(cell, t, c);
@@ -205,6 +212,7 @@ namespace Morula
   bool
   Field<dim>::takes_flux(const Point<dim> &X) const
   {
+    // A point that has the Value takes no flux.
     return flux_where && at_place(*flux_where, X, 0.) > 0. && !is_fixed(X);
   }
 

@@ -27,7 +27,8 @@ namespace Morula
       return result;
     }
 
-    /** Of a boundary point: w N_a N_b - a D (∂N_a/∂n N_b + N_a ∂N_b/∂n). */
+    /** What a boundary point adds: w N_a N_b - a D (∂N_a/∂n N_b + N_a ∂N_b/∂n),
+     *  doc/theory.md (11.3). */
     template <int dim>
     void
     add_matrix(const FieldAtSurface<dim> &point,
@@ -35,9 +36,10 @@ namespace Morula
                const SplineValues<dim>   &splines,
                std::vector<double>       &matrix)
     {
-      constexpr unsigned int n     = BSpline<dim>::n;
-      const auto            &N     = splines.value;
-      const auto             slope = along(point.flux, splines);
+      constexpr unsigned int n = BSpline<dim>::n;
+      // Only a fixed point has a flux; for a transfer `slope` is zero.
+      const auto &N     = splines.value;
+      const auto  slope = along(point.flux, splines);
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int b = 0; b < n; ++b)
           matrix[a * n + b] +=
@@ -52,6 +54,7 @@ namespace Morula
                   const LocalField<dim, 1> &known,
                   LocalEquations<dim, 1>   &local)
     {
+      // This is -V D ∇N_a · ∇c* of doc/theory.md (11.2).
       const Tensor<1, dim> gradient = known.gradients(splines)[0];
       const auto flux = along(cell.volume * cell.diffusion * gradient, splines);
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
@@ -66,6 +69,8 @@ namespace Morula
              const LocalField<dim, 1>  &known,
              LocalEquations<dim, 1>    &local)
     {
+      // The known field is moved to the right: what is sought makes up for the
+      // gap between the prescribed value and the known one.
       const auto   slope = along(point.flux, splines);
       const double gap   = point.value - known.value(splines)[0];
       const double flux  = point.flux * known.gradients(splines)[0];
@@ -84,6 +89,9 @@ namespace Morula
                                  const Known       &known,
                                  Local             &local) const
   {
+    // One functor makes both sides of doc/theory.md (11.2): the matrix if the
+    // assembly asks for a tangent, else the load. First come the cells of the
+    // grid cell, then its boundary points.
     const bool is_matrix = local.wanted == Local::tangent;
     if (is_matrix)
       add_cells_matrix(c, local);
@@ -110,6 +118,8 @@ namespace Morula
   double
   FieldEquation<dim>::sink() const
   {
+    // Without anything that takes from the field, any constant could be added
+    // to it.
     double sum = 0.;
     for (const FieldAtCell &cell : cells)
       sum += cell.volume * cell.rate;
@@ -134,6 +144,9 @@ namespace Morula
   FieldEquation<dim>::weight(const unsigned int         c,
                              const FieldAtSurface<dim> &point) const
   {
+    // The penalty w of doc/theory.md (11.3): the larger of what the grid asks
+    // for and what the layer in which the field falls off does, as a root of
+    // squares.
     const double of_grid = raised * penalty / surface_places.h;
     return point.weight +
            point.fixed *
@@ -145,6 +158,8 @@ namespace Morula
   void
   FieldEquation<dim>::add_cells_matrix(const unsigned int c, Local &local) const
   {
+    // All products of splines follow from the moments of the cells,
+    // doc/theory.md (11.6).
     MatrixMoments<dim> moments;
     for (unsigned int p = cell_places.offsets[c];
          p < cell_places.offsets[c + 1];
@@ -165,6 +180,8 @@ namespace Morula
                                      const Known       &known,
                                      Local             &local) const
   {
+    // A field that is sought as a whole has no known part, and its gradients
+    // need not be evaluated.
     const auto      &coefficients = known.coefficient[0];
     const bool       is_zero      = std::all_of(std::begin(coefficients),
                                      std::end(coefficients),
@@ -191,6 +208,7 @@ namespace Morula
   void
   find_steepness(FieldEquation<dim> &equation)
   {
+    // This is κ of doc/theory.md (11.3), from the means of each grid cell.
     const GroupedPoints<dim> &places = equation.cell_places;
     equation.steepness.assign(places.offsets.size() - 1, 0.);
     for (unsigned int c = 0; c + 1 < places.offsets.size(); ++c)
@@ -202,7 +220,8 @@ namespace Morula
             rate += cell.volume * cell.rate;
             diffusion += cell.volume * cell.diffusion;
           }
-        // Without diffusion nothing comes from the surface.
+        // Without diffusion nothing comes from the surface, so there is no
+        // layer.
         if (diffusion > 0.)
           equation.steepness[c] = std::sqrt(rate / diffusion);
       }
@@ -213,6 +232,8 @@ namespace Morula
   void
   mark_lumped(FieldEquation<dim> &equation)
   {
+    // The rule is k h² > 6 D, doc/theory.md, section 11.3, here by the
+    // steepness sqrt(k/D). Grid cells with a fixed value are left as they are.
     const double n_lengths = equation.cell_places.h / std::sqrt(6.);
     for (unsigned int c = 0; c < equation.lumped.size(); ++c)
       {

@@ -16,6 +16,8 @@ namespace Morula
     std::string
     reason_against_field(const std::string &name)
     {
+      // Small letters are told from others here; what else a name may not be,
+      // the variables know.
       const bool small =
         std::none_of(name.begin(), name.end(), [](const char c) {
           return std::isupper(static_cast<unsigned char>(c));
@@ -95,6 +97,7 @@ namespace Morula
                "Whether a transient field becomes less where cells grow, so "
                "that its amount stays. The steady state knows no dilution.")
   {
+    // The keys stand in the section of the field's name.
     place_in(list(), "Fields/" + name);
     diffusion.positive("um^2/day", "Oxygen has about 1.7e8.");
     production.not_negative("a day", "What a cell uses up is Consumption.");
@@ -131,10 +134,12 @@ namespace Morula
   void
   FieldKeys::check(const unsigned int dim) const
   {
+    // Diffusion has no default that would fit any field, so it must be said.
     if (diffusion.empty())
       diffusion.refuse("an expression > 0 um^2/day",
                        "Each field needs one; oxygen has about 1.7e8.");
     check_each(dim);
+    // A flux and its place belong together.
     if (flux.empty() != flux_where.empty())
       {
         const ExpressionKey &lone = flux.empty() ? flux_where : flux;
@@ -146,6 +151,8 @@ namespace Morula
       value.refuse("its default, as neither " + fixed_where.path() + " nor " +
                      transfer.path() + " is set",
                    "Set one of them, or remove this key.");
+    // A steady field needs a sink. Only a plain number can be judged here; of
+    // other rates, the solver finds that out.
     if (is_steady() && !has_value() &&
         consumption.largest_number(dim).value_or(1.) == 0.)
       consumption.refuse(
@@ -211,6 +218,8 @@ namespace Morula
   void
   FieldsParameters::declare_fields(const std::string &text)
   {
+    // Names become variables of expressions and columns of tables, so they must
+    // be free for both.
     for (const std::string &name :
          declared_names(names, text, reason_against_field))
       fields.emplace_back(name);

@@ -20,7 +20,7 @@ namespace Morula
   namespace
   {
     /** Differences within a grid cell level out at this rate, in units of D/h²:
-     *  about that of a wave of two grid cells. */
+     *  about that of a wave of two grid cells, doc/theory.md (11.8). */
     constexpr double levelling = 10.;
 
     /** What depends on the field itself is solved again until the field's
@@ -29,7 +29,7 @@ namespace Morula
     constexpr unsigned int most_iterations = 25;
 
     /** Slopes and the matrix are kept while each change is so much smaller than
-     *  the one before. */
+     *  the one before: an iteration more is cheaper than a matrix. */
     constexpr double fast = 0.2;
 
     /** After a change of the field that is so large the next matrix gets a
@@ -40,16 +40,16 @@ namespace Morula
      *  solution. */
     constexpr double far_off = 0.1;
 
-    /** Where a solution serves the next iteration: as little is left as that
-     *  will leave, which is more with slopes that are kept. The last one is far
-     *  more exact. */
+    /** The accuracy of solutions that serve the next iteration: as little is
+     *  left as that one will leave, which is more with slopes that are kept.
+     *  The last one is far more exact. */
     constexpr LinearAccuracy accuracy_of_iterations{1e-12, 1e-4},
       accuracy_of_kept{1e-12, 1e-2};
 
     /** The penalty of fixed values is raised no further beyond this. */
     constexpr double most_raised = 1000.;
 
-    /** Amounts are kept as well as this says. */
+    /** Amounts are kept to this accuracy. */
     constexpr LinearAccuracy accuracy_of_steady{1e-10, 0.},
       accuracy_of_amounts{1e-13, 0.};
 
@@ -62,7 +62,6 @@ namespace Morula
       return result;
     }
   } // namespace
-
 
   template <int dim>
   FieldSolver<dim>::FieldSolver(const Tissue<dim>      &tissue,
@@ -85,7 +84,6 @@ namespace Morula
                      }));
   }
 
-
   template <int dim>
   double
   FieldSolver<dim>::value(const unsigned int field, const unsigned int p) const
@@ -94,7 +92,6 @@ namespace Morula
              tissue.cells()[p].get(reader.columns.fields[field]) :
              values[field][p];
   }
-
 
   template <int dim>
   PresentCell<dim>
@@ -107,7 +104,6 @@ namespace Morula
         cell.set_field(k, values[k][p]);
     return cell;
   }
-
 
   template <int dim>
   void
@@ -126,7 +122,6 @@ namespace Morula
         }
     });
   }
-
 
   template <int dim>
   void
@@ -154,7 +149,6 @@ namespace Morula
     mark_lumped(equation);
   }
 
-
   template <int dim>
   void
   FieldSolver<dim>::renew_loads(const Field<dim>  &field,
@@ -172,13 +166,17 @@ namespace Morula
     });
   }
 
-
   template <int dim>
   void
   FieldSolver<dim>::evaluate_surface(const Field<dim> &field,
                                      const double      t,
                                      const double      t1)
   {
+    // The points at which something is done are found first, by the places that
+    // they had at t = 0, as conditions are decided there. They need to know how
+    // far they belong to the tissue, and D, which is that of the nearest cell
+    // where it differs between cells; both ask other ranks. Then each point
+    // gets its coefficients of doc/theory.md (11.2), (11.3), at the time t1.
     equation.surface.clear();
     equation.raised = 1.;
     if (!field.has_surface())
@@ -196,7 +194,7 @@ namespace Morula
     for (const unsigned int p : at_surface.points)
       places.push_back(points.position(p));
     const std::vector<double> attached = attachment(places, tissue);
-    // Expressions of cells: those of the nearest one count.
+    // The nearest cell tells D.
     std::vector<double> of_cells, diffusion;
     if (!field.uniform_diffusion())
       {
@@ -226,8 +224,9 @@ namespace Morula
                                    area.norm() * field.flux(X, t1)};
           if (field.is_fixed(X))
             {
-              // doc/theory.md (11.3). Off the tissue the flux would be
-              // extrapolated.
+              // These are Nitsche's terms, doc/theory.md (11.3). Off the tissue
+              // the flux would be extrapolated, so it counts only as far as the
+              // point is attached.
               here.flux   = attached[k] * D * area;
               here.weight = 0.;
               here.fixed  = area.norm() * D;
@@ -236,7 +235,6 @@ namespace Morula
         }
     });
   }
-
 
   template <int dim>
   void
@@ -252,12 +250,11 @@ namespace Morula
         "added to it.");
   }
 
-
   template <int dim>
   typename FieldSolver<dim>::Vector
   FieldSolver<dim>::projection()
   {
-    // The same mass as in the equation, so that constants stay constants.
+    // The mass is that of the equation, so that constants stay constants.
     const std::vector<FieldAtCell>   cells   = equation.cells;
     std::vector<FieldAtSurface<dim>> surface = std::move(equation.surface);
     equation.surface.clear();
@@ -271,7 +268,6 @@ namespace Morula
     equation.surface    = std::move(surface);
     return result;
   }
-
 
   template <int dim>
   void
@@ -288,7 +284,6 @@ namespace Morula
     });
   }
 
-
   template <int dim>
   typename FieldSolver<dim>::Vector
   FieldSolver<dim>::solve_equation(const Vector         &known,
@@ -296,6 +291,10 @@ namespace Morula
                                    const LinearAccuracy &accuracy,
                                    const bool            same_matrix)
   {
+    // What is sought is the correction to `start`, so that a good start saves
+    // iterations. The residual is made relative to the load, so that the
+    // accuracy means the same for any start. A matrix that is not positive has
+    // too small a penalty: that is raised, and the matrix made anew.
     using Local = LocalEquations<dim, 1>;
     Local matrix(Local::tangent), load(Local::energy_and_residual);
     for (bool keep = same_matrix;; keep = false)
@@ -325,11 +324,12 @@ namespace Morula
       }
   }
 
-
   template <int dim>
   void
   FieldSolver<dim>::raise_penalty()
   {
+    // Only a fixed value can make the matrix indefinite, so without any there
+    // is nothing to raise.
     const int has_fixed = equation.has_fixed_value() ? 1 : 0;
     if (Utilities::MPI::max(has_fixed, tissue.communicator()) == 0 ||
         equation.raised > most_raised)
@@ -337,7 +337,6 @@ namespace Morula
     equation.raised *= 4.;
     linear = nullptr;
   }
-
 
   template <int dim>
   FieldSolution<dim>
@@ -354,13 +353,13 @@ namespace Morula
     FieldSolution<dim> result;
     result.number     = number;
     const double step = iterate(field, t, t1 - t, result);
-    // Where the first values were far off, so was what they had lumped.
+    // Where the first values were far off, so was what they had lumped: the
+    // iterations begin again at the solution.
     if (!(t1 > t) && field.is_nonlinear() && result.converged && step > far_off)
       iterate(field, t, t1 - t, result);
     result.raised = equation.raised;
     return result;
   }
-
 
   template <int dim>
   double
@@ -369,20 +368,25 @@ namespace Morula
                             const double        dt,
                             FieldSolution<dim> &result)
   {
+    // The uptake is linearised at the values of now and the equation solved,
+    // until the values no longer change: doc/theory.md (11.4). A transient
+    // field gets its known part first, (11.7), (11.8); a field that does not
+    // read itself is done after one pass. While changes fall fast, slopes,
+    // matrix and preconditioner are kept, and only the loads are renewed.
     const bool           steady    = !(dt > 0.);
     const bool           nonlinear = field.is_nonlinear();
     std::vector<double> &now       = values[result.number];
     std::vector<double>  before    = now; // in turns from the same start
     for (unsigned int p = 0; !steady && p < before.size(); ++p)
       before[p] = tissue.cells()[p].get(reader.columns.fields[result.number]);
-    // Of a steady field all is sought.
+    // All of a steady field is sought.
     std::vector<double> known(now.size(), 0.);
     Vector known_field = assembly.unknowns().zero(), sought = known_field;
     double first_step = 0.;
     bool   kept       = false; // slopes and matrix of the iteration before
     linear            = nullptr;
     result.converged  = false;
-    // Only an uptake that saturates makes a field end.
+    // Only an uptake that saturates makes a field end inside of the tissue.
     equation.lumped.assign(steady && nonlinear ? space.grid_cells().size() : 0,
                            false);
     for (unsigned int i = 0; i < most_iterations && !result.converged; ++i)
@@ -423,7 +427,6 @@ namespace Morula
     return first_step;
   }
 
-
   template <int dim>
   double
   FieldSolver<dim>::relative_change(const std::vector<double> &before,
@@ -437,7 +440,6 @@ namespace Morula
     change = Utilities::MPI::max(change, tissue.communicator());
     return most > 0. ? change / most : 0.;
   }
-
 
   template <int dim>
   template <typename Action>
@@ -456,7 +458,6 @@ namespace Morula
       }
   }
 
-
   template <int dim>
   void
   FieldSolver<dim>::take(const Vector              &sought,
@@ -464,6 +465,7 @@ namespace Morula
                          const bool                 balanced,
                          FieldSolution<dim>        &result) const
   {
+    // Weights are what a cell has at the end of a step and uses up in it.
     std::vector<double> weights(known.size(), 0.);
     result.values.resize(known.size());
     at_cells(sought, [&](const unsigned int p, const double added) {
@@ -477,7 +479,6 @@ namespace Morula
                                    space,
                                    tissue.communicator());
   }
-
 
   template <int dim>
   std::vector<Tensor<1, dim>>
@@ -493,7 +494,6 @@ namespace Morula
                   });
     return result;
   }
-
 
   template class FieldSolver<2>;
   template class FieldSolver<3>;

@@ -28,6 +28,7 @@ namespace Morula
     /** Refuses a condition that holds at @p n boundary points of this rank, and
      *  at none of others. Collective. */
     void
+    // A condition that holds nowhere is most likely a mistake.
     check_holds(const ExpressionKey         &where,
                 const types::particle_index &n,
                 const MPI_Comm               comm)
@@ -45,6 +46,8 @@ namespace Morula
   Fields<dim>::Fields(const FieldsParameters   &parameters,
                       const EffectSetting<dim> &setting)
   {
+    // Numbers follow the order of the names; the order in which fields are
+    // found is another one.
     for (const FieldKeys &keys : parameters.fields)
       fields.emplace_back(keys, fields.size(), setting);
     order();
@@ -107,6 +110,9 @@ namespace Morula
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
+        // Each expression is evaluated once, so that a bad one is refused
+        // before the run begins. The uptake sets the field, so it gets a cell
+        // of its own.
         PresentCell<dim> cell(founder);
         fields[k].diffusion(cell, 0.);
         fields[k].production(cell, 0.);
@@ -123,6 +129,8 @@ namespace Morula
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
+        // Values are evaluated for their rules; that a point is fixed or takes
+        // a flux is counted over all ranks.
         types::particle_index n_fixed = 0, n_of_flux = 0;
         everywhere(comm, [&]() {
           for (const Point<dim> &place : X)
@@ -148,6 +156,8 @@ namespace Morula
                     const double      t0,
                     const double      t1) const
   {
+    // Groups come in an order in which each finds what it depends on. All
+    // fields of a group are of one kind.
     FieldsOfStep<dim> found;
     for (const auto &group : groups)
       if (fields[group.front()].kind() == kind)
@@ -161,8 +171,9 @@ namespace Morula
   void
   Fields<dim>::order()
   {
-    // Fields of other kinds have their values already. The components come in
-    // the order that is wanted: what others depend on first.
+    // Boost's strong components are sets of fields that depend on each other,
+    // in the order that is wanted: what others depend on first. Fields of the
+    // other kind have their values already.
     boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> uses(
       fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
@@ -187,6 +198,10 @@ namespace Morula
                           const double                     t0,
                           const double                     t1) const
   {
+    // A field that depends on none of its group is solved once. Fields that
+    // depend on each other are solved in turns, each with the latest values of
+    // the others, until none changes any more. If they do not agree after many
+    // turns all are marked, and the caller says so.
     const auto solve = [&]() {
       FieldsOfStep<dim> found;
       for (const unsigned int k : group)
@@ -196,7 +211,7 @@ namespace Morula
     FieldsOfStep<dim> found = solve();
     if (group.size() == 1)
       return found;
-    // Each sees the latest values of the others, until none changes any more.
+    // Each sees the latest values of the others.
     for (unsigned int turn = 0; turn < most_turns; ++turn)
       {
         const FieldsOfStep<dim> before = std::move(found);
@@ -239,6 +254,7 @@ namespace Morula
                       const double                 ratio) const
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
+      // The amount c V stays, doc/theory.md, section 11.4.
       if (fields[k].is_diluted())
         cell.set(columns[k], cell.get(columns[k]) / ratio);
   }
@@ -274,6 +290,8 @@ namespace Morula
     std::vector<FieldTotals> list;
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
+        // One pass over the cells of this rank for each field; the mean is over
+        // the volume, as that of an amount.
         double least = std::numeric_limits<double>::infinity(), most = -least;
         double amount = 0., volume = 0.;
         for (unsigned int p = 0; p < cells.size(); ++p)
@@ -289,7 +307,7 @@ namespace Morula
         most                = Utilities::MPI::max(most, comm);
         amount              = Utilities::MPI::sum(amount, comm);
         volume              = Utilities::MPI::sum(volume, comm);
-        // As of all quantities of no cells.
+        // Without cells all quantities are 0.
         if (volume > 0.)
           list.push_back({fields[k].name(), least, amount / volume, most});
         else

@@ -15,9 +15,9 @@ namespace Morula
     /** What the cells of one grid cell have: weights times values. */
     struct Content
     {
-      /** Of its positive values. */
+      /** The content of its positive values. */
       double positive = 0.;
-      /** Of its negative ones that others must give. */
+      /** What its negative values lack and others must give. */
       double missing = 0.;
 
       /** Takes as much of the positive ones as there is. */
@@ -29,7 +29,8 @@ namespace Morula
       }
     };
 
-    /** By grid cell, after each has made up for its own negative values. */
+    /** The contents by grid cell, after each has made up for its own negative
+     *  values. */
     template <int dim>
     std::vector<Content>
     contents(const std::vector<double> &values,
@@ -40,6 +41,8 @@ namespace Morula
       std::vector<Content> result(places.offsets.size() - 1);
       for (unsigned int c = 0; c < result.size(); ++c)
         {
+          // Negative values are made up for from the positive ones of the same
+          // grid cell first: that is what keeps the correction local.
           double negative = 0.;
           for (unsigned int p = places.offsets[c]; p < places.offsets[c + 1];
                ++p)
@@ -66,6 +69,10 @@ namespace Morula
                       const SplineSpace<dim> &space,
                       const MPI_Comm          comm)
     {
+      // Each grid cell asks its splines for what it lacks, and offers what it
+      // has, in equal shares. A spline adds up both over all grid cells that
+      // use it, on all ranks, and takes that part of what is there. Every grid
+      // cell then gives the mean of its splines' parts.
       const FieldUnknowns<dim, 1> unknowns(space, comm);
       const unsigned int          n = unknowns.relevant().n_elements();
       std::vector<double>         wanted(n, 0.), there(n, 0.);
@@ -76,12 +83,14 @@ namespace Morula
             wanted[s] += contents[c].missing / n_splines;
             there[s] += contents[c].positive / n_splines;
           }
-      // The part of what is there that is taken, by spline.
+      // First what is wanted by each spline, then the part of what is there
+      // that is taken.
       auto       taken     = unknowns.sum(wanted);
       const auto of_spline = unknowns.sum(there);
       double     missing   = 0.;
       for (const auto s : unknowns.owned())
         {
+          // A spline with too little gives all of it, and the rest is missing.
           const double wants = taken[s], has = of_spline[s];
           missing += std::max(0., wants - has);
           taken[s] = wants >= has ? (has > 0. ? 1. : 0.) : wants / has;
@@ -105,6 +114,8 @@ namespace Morula
                 const double          missing,
                 const MPI_Comm        comm)
     {
+      // What is still missing after that is shared by all grid cells in
+      // proportion to what they have.
       double positive = 0.;
       for (const Content &content : contents)
         positive += content.positive;
@@ -125,6 +136,11 @@ namespace Morula
                 const SplineSpace<dim>    &space,
                 const MPI_Comm             comm)
   {
+    // The balance goes grid cell by grid cell, then by splines, then over all
+    // of the tissue: doc/theory.md, section 11.3. `after` holds what each grid
+    // cell is to have; only in the end values change, by one factor in each
+    // grid cell, which keeps their proportions. In most steps nothing is
+    // negative, and one reduction shows it.
     std::uint64_t        n_negative = 0;
     std::vector<Content> after = contents(values, weights, places, n_negative);
     n_negative                 = Utilities::MPI::sum(n_negative, comm);
@@ -144,6 +160,8 @@ namespace Morula
         double before = 0.;
         for (unsigned int p = places.offsets[c]; p < places.offsets[c + 1]; ++p)
           {
+            // Cells with a weight of 0, as in a field that still iterates, are
+            // only set to zero.
             values[p] = std::max(0., values[p]);
             before += weights[p] * values[p];
           }

@@ -57,6 +57,10 @@ namespace Morula
                        const double,
                        const double t1) const
   {
+    // The force on cell p is V⁰ b, doc/theory.md (4.7). The state of the cell
+    // is that of the beginning of the step, but the time is that of its end, as
+    // the equilibrium is sought there. A force that depends on the place acts
+    // where the cell comes to stand; all others are dead loads.
     const Cells<dim> &cells = tissue.cells();
     if (PlacedForce<dim>::depends_on_place(density))
       {
@@ -82,9 +86,13 @@ namespace Morula
   void
   BodyForce<dim>::check(const Preview<dim> &scene) const
   {
+    // An expression of the cells' state has no value before there are cells;
+    // check_cell() evaluates it for each founder.
     if (density.depends_on_state())
       return;
     for (const Point<dim> &X : scene.founders)
+      // An expression of place and time has a value at both ends of the run, or
+      // throws here.
       for (const double t : {0., scene.end_time})
         density.vector(X, t);
   }

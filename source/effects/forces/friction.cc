@@ -27,6 +27,8 @@ namespace Morula
   bool
   FrictionParameters::is_on() const
   {
+    // A type of cells may set the key in its own section and leave the scene's
+    // at its default.
     return !coefficient.is_default() || coefficient.differs_by_type();
   }
 
@@ -60,6 +62,9 @@ namespace Morula
                       const double              t0,
                       const double              t1) const
   {
+    // The velocity of backward Euler's method is u/Δt, so that friction acts as
+    // a spring of stiffness V⁰ ζ/Δt from where the cell is at the beginning of
+    // the step: doc/theory.md (4.7a).
     std::vector<double> stiffnesses = friction(tissue, reader, t0);
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
@@ -73,6 +78,8 @@ namespace Morula
                           const CellReader<dim> &reader,
                           const double           t0) const
   {
+    // These values also tell the equilibrium which pieces friction holds: a
+    // rigid motion against it is not taken out of the step.
     std::vector<double> list;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       list.push_back(present_cell(tissue, p, reader).value(coefficient, t0));
@@ -86,6 +93,9 @@ namespace Morula
   {
     if (coefficient.depends_on_state())
       return;
+    // A value of an expression is not tested against the rule of its key, so
+    // the sign is tested here. The end time is one sample: a coefficient that
+    // falls with time is smallest there.
     for (const Point<dim> &X : scene.founders)
       if (const double value = coefficient.value(X, scene.end_time); value < 0.)
         {

@@ -30,6 +30,8 @@ namespace Morula
       Distance<dim>
       distance(const Point<dim> &x) const override
       {
+        // A plane does not curve, so the second term of the tangent (4.8e) is
+        // zero.
         return {normal * (x - point), normal, Tensor<2, dim>()};
       }
 
@@ -54,10 +56,16 @@ namespace Morula
       Distance<dim>
       distance(const Point<dim> &x) const override
       {
+        // The distance of a sphere is |x - c| - r, and its second derivative is
+        // (P - n⊗n)/|x - c|. P is the identity for a sphere. For a cylinder P
+        // removes the part along its axis, so that the same formulas give the
+        // distance to the axis.
         const Tensor<1, dim> arm    = across * (x - center);
         const double         length = arm.norm();
         Distance<dim>        result;
         result.value = length - radius;
+        // At the center no direction is nearest: gradient and curvature stay
+        // zero, and the force there vanishes.
         if (length > 0.)
           {
             result.gradient = arm / length;
@@ -86,6 +94,11 @@ namespace Morula
       Distance<dim>
       distance(const Point<dim> &x) const override
       {
+        // One pass over the directions finds both distances that the place may
+        // need. q is how far x is beyond the pair of faces across direction d,
+        // and negative between them. The largest q belongs to the nearest face
+        // if x is inside of the box; the positive ones together lead from the
+        // box to x if it is outside.
         Distance<dim>  inside; // to the nearest face
         Tensor<1, dim> beyond; // from the nearest point of the box
         inside.value = -std::numeric_limits<double>::infinity();
@@ -104,6 +117,11 @@ namespace Morula
           }
         if (!(inside.value > 0.))
           return inside;
+        // Outside, the distance has the form of a sphere's around the nearest
+        // point of the box: (P - n⊗n)/|b|, where P projects onto the directions
+        // in which x is beyond a face. Beside a face that is one direction, and
+        // the curvature is zero; beside an edge it is that of a cylinder,
+        // beside a corner that of a sphere.
         Distance<dim> result;
         result.value     = beyond.norm();
         result.gradient  = beyond / result.value;
@@ -131,6 +149,8 @@ namespace Morula
       Distance<3>
       distance(const Point<3> &x) const override
       {
+        // The tree of triangles is in the file's coordinates, so the place
+        // moves instead of the mesh.
         const NearestPoint nearest = mesh.nearest(Point<3>(x - origin));
         return {nearest.distance, nearest.direction, nearest.curvature};
       }
@@ -189,6 +209,10 @@ namespace Morula
   std::unique_ptr<const Body<dim>>
   make_body(const ObstacleKeys &keys)
   {
+    // Each shape reads the keys that describe it, and refuses a value only if
+    // it needs the key: a radius of zero is no error for a box. What is left at
+    // the end is the cylinder, which has no meaning in 2-D. A file of triangles
+    // is read only in 3-D, where such a surface encloses a volume.
     const Point<dim>  center = place<dim>(keys.center);
     const std::string shape  = keys.shape;
     if (shape == "plane")
@@ -214,6 +238,8 @@ namespace Morula
     if (dim == 2)
       keys.shape.refuse("plane, sphere or box in 2-D",
                         "There a sphere is a disc.");
+    // A cylinder is a sphere for which the way along the axis does not count.
+    // The tensor I - a⊗a projects onto the rest.
     const Tensor<1, dim> axis = direction<dim>(keys.axis, shape);
     return std::make_unique<Round<dim>>(center,
                                         positive_radius(keys),

@@ -19,6 +19,8 @@ namespace Morula
     Expression
     velocity_of(const ObstacleKeys &keys, const unsigned int dim)
     {
+      // A velocity that varies in space would deform the body, and its distance
+      // would not be known.
       const Expression velocity = keys.velocity.expression(dim);
       for (const Variable place : {Variable::X, Variable::Y, Variable::Z})
         if (velocity.uses(place))
@@ -35,6 +37,8 @@ namespace Morula
             const Points                          &points,
             const Position                        &position)
     {
+      // These are the points of this rank alone. Only points that are in the
+      // obstacle count, so the depth is 0 if there are none.
       std::pair<double, Point<dim>> best(0., Point<dim>());
       for (const auto &point : points)
         {
@@ -75,6 +79,12 @@ namespace Morula
   Tensor<1, dim>
   Obstacles<dim>::Obstacle::way(const double t) const
   {
+    // The velocity depends on the time alone, so its integral needs no steps of
+    // the simulation and is the same after a resumed start. A constant velocity
+    // needs no quadrature. Otherwise each component is integrated with the 15
+    // points of Gauss and Kronrod, and intervals are halved up to 12 times
+    // until the estimated error is below 1e-10 of the integral, so that also a
+    // velocity with jumps gives the way to much less than a grid spacing.
     const Point<dim> nowhere;
     if (velocity.is_constant())
       return t * velocity.vector(nowhere, t);
@@ -130,6 +140,13 @@ namespace Morula
   std::unique_ptr<Term<dim>>
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {
+    // Each obstacle is put where it is at the end of the step, with κ = α E/h
+    // of doc/theory.md (4.8d). Two things would break the contact, and both ask
+    // for a shorter step. A body that moves by more than a grid spacing may
+    // pass thin tissue before any point notices. A surface that begins deeper
+    // than that may be pushed out on the wrong side of a thin body. The depth
+    // is that of this rank's points, so the caller makes a failure known to all
+    // ranks.
     const double                                 h = points.h;
     std::vector<typename Contact<dim>::Obstacle> obstacles;
     for (const Obstacle &obstacle : list)
@@ -185,11 +202,16 @@ namespace Morula
   {
     for (const Obstacle &obstacle : list)
       {
+        // The integral up to the end finds a velocity that has no value at some
+        // time, before any work is done.
         obstacle.way(scene.end_time);
         const auto [depth, place] = deepest<dim>(
           {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
           scene.boundary_points,
           [](const Point<dim> &X) { return X; });
+        // The surface may begin a little inside, and the contact pushes it out
+        // in the first step. Half a spacing leaves room below the whole one
+        // that term() refuses.
         if (depth <= 0.5 * scene.grid_spacing)
           continue;
         std::ostringstream text;

@@ -18,6 +18,7 @@ namespace Morula
   Tensor<1, dim>
   AreaTerm<dim>::Deformed::gradient(const unsigned int a) const
   {
+    // This is g_a = f⁻ᵀ ∇N_a, in the trial configuration.
     Tensor<1, dim> g;
     for (unsigned int k = 0; k < dim; ++k)
       for (unsigned int j = 0; j < dim; ++j)
@@ -33,6 +34,8 @@ namespace Morula
                            const LocalField<dim>   &field,
                            LocalSystem<dim>        &system) const
   {
+    // A point whose step turns it inside out has no area, so the state has no
+    // energy.
     const Tensor<2, dim> f = field.step_deformation(splines);
     const double         J = determinant(f);
     if (J <= 0.)

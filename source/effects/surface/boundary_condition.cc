@@ -47,6 +47,8 @@ namespace Morula
   bool
   BoundaryCondition<dim>::moves() const
   {
+    // A load moves tissue from rest; what holds points does so only if it is
+    // prescribed to move.
     return kind() == SurfaceCondition::loaded;
   }
 

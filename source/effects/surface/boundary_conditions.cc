@@ -16,7 +16,9 @@ namespace Morula
     : list_(std::move(list))
     , nitsche_(parameters)
   {
-    // The kinds are numbered in the order in which they win.
+    // The kinds are numbered in the order in which they win, so sorting by kind
+    // puts the winner first. Conditions of one kind stay in the order in which
+    // they were added.
     static_assert(SurfaceCondition::fixed < SurfaceCondition::slip &&
                   SurfaceCondition::slip < SurfaceCondition::loaded);
     std::stable_sort(list_.begin(),
@@ -57,6 +59,7 @@ namespace Morula
                                         const Point<dim>     &X,
                                         const double          t) const
   {
+    // With one condition that fixes it is clear which one moves the point.
     const bool only_one =
       list_.size() < 2 || list_[1].condition->kind() != SurfaceCondition::fixed;
     const unsigned int k = only_one ? 0 : winner(X_seed, N);
@@ -70,6 +73,8 @@ namespace Morula
   BoundaryConditions<dim>::alike(const BoundaryView<dim> &a,
                                  const BoundaryView<dim> &b) const
   {
+    // Points may merge if each condition acts on both or on neither:
+    // doc/theory.md, section 4.5.
     return std::all_of(list_.begin(), list_.end(), [&](const Named &named) {
       const auto acts_on = [&named](const BoundaryView<dim> &point) {
         return named.condition->acts_on(point.seed_position(),

@@ -31,14 +31,15 @@ namespace Morula
     using CellState =
       std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
 
-    /** Of the cells that carry boundary points. Cells that do not grow, or have
-     * a stiffness by their place, need not tell. */
+    /** The states of the cells that carry boundary points. Cells that do not
+     *  grow, or have a stiffness by their place, need not tell. */
     template <int dim>
     std::vector<CellState<dim>>
     states_of_carriers(const std::vector<unsigned int> &points,
                        const Tissue<dim>               &tissue,
                        const DevelopmentOfStep<dim>    &growth)
     {
+      // One exchange brings all that is asked of a carrier.
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
       return carrier_values(points, tissue, [&](const unsigned int p) {
         const Lame lame = growth.lame.empty() ? Lame{0., 0.} : growth.lame[p];
@@ -56,7 +57,8 @@ namespace Morula
       return {std::get<2>(state), std::get<3>(state)};
     }
 
-    /** The held points of this rank, without their penalty. */
+    /** The held points of this rank, as far as they are the same for all forms:
+     *  without their penalty. */
     template <int dim>
     struct HeldPoints
     {
@@ -76,6 +78,11 @@ namespace Morula
                    const DevelopmentOfStep<dim>  &growth,
                    const double                   t)
     {
+      // Where the points are and how far they belong to the tissue, and the
+      // state of the cells that carry them, may need other ranks; so both are
+      // asked for all points at once. Then each point gets its gap to where it
+      // is held at the end of the step, doc/theory.md (4.1), and its stiffness,
+      // by its place or as its cell has it.
       const BoundaryPoints<dim> &store = tissue.boundary_points();
       HeldPoints<dim>            held;
       held.groups = held_groups(tissue, space);
@@ -89,7 +96,8 @@ namespace Morula
         {
           const BoundaryView<dim> point = store[held.groups.points[k]];
           const Point<dim>        x = places[k], X = point.initial_position();
-          Point<dim>              target = X;
+          // A slip point is held in its initial plane.
+          Point<dim> target = X;
           if (point.condition() == SurfaceCondition::fixed)
             target += displacement(conditions, point, t);
           const Tensor<1, dim>             area = point.area_vector();
@@ -117,11 +125,13 @@ namespace Morula
           const Tensor<2, dim> &F_g,
           const bool            per_grown_volume)
     {
+      // These are A = F F_g⁻¹ and W/V_t of doc/theory.md (4.2).
       return {F * invert(F_g),
               (per_grown_volume ? determinant(F_g) : 1.) / determinant(F)};
     }
 
-    /** Of a stretch along the normal of a point, per area at t, kPa. */
+    /** The stiffness of a stretch along the normal of a point, per area at t,
+     *  kPa: k in doc/theory.md (4.6). */
     template <int dim>
     double
     stiffness(const ElasticState<dim>                &state,
@@ -143,6 +153,12 @@ namespace Morula
                const double                   t,
                const std::string             &kernel)
   {
+    // For each held point the elastic state follows from its own F and its
+    // carrier's growth, at the end of the step and, if anything grows, at its
+    // beginning, since the first tangent has that. The state decides about the
+    // penalty of doc/theory.md (4.6) as well. What the term needs is then moved
+    // into it, by active grid cell; the order of points and states must be the
+    // same.
     HeldPoints<dim> held =
       points_of_term(conditions, material, tissue, space, growth, t);
     const BoundaryPoints<dim> &store = tissue.boundary_points();
@@ -150,6 +166,8 @@ namespace Morula
     const bool                 grown = material.per_grown_volume();
 
     std::vector<ElasticState<dim>> current, previous;
+    // The list is in the order of the groups: by active grid cell, then by the
+    // store's order.
     for (std::size_t k = 0; k < held.list.size(); ++k)
       {
         const Tensor<2, dim> F = store.F(held.groups.points[k]);
@@ -172,7 +190,7 @@ namespace Morula
           space.box().spacing());
       }
     // Where the pressure is the grid cell's, ln J_e of the point itself says
-    // nothing about it.
+    // nothing about it: only the distortional part enters T.
     const PartOfLaw part =
       material.volumetric_form() == VolumetricStrain::pointwise ?
         PartOfLaw::all :
@@ -199,6 +217,8 @@ namespace Morula
                        const std::vector<double>         &stiffnesses,
                        const std::vector<Tensor<1, dim>> &tractions)
   {
+    // The stiffness comes from the cells around, so no state of the point
+    // itself is needed.
     HeldPoints<dim> held =
       points_of_term(conditions, material, tissue, space, growth, t);
     for (std::size_t k = 0; k < held.list.size(); ++k)
@@ -224,6 +244,8 @@ namespace Morula
         return store.condition(p) == SurfaceCondition::loaded;
       });
     LoadedPoints<dim> loaded;
+    // The base class has the places, by grid cell; the other values follow in
+    // the same order.
     static_cast<GroupedPoints<dim> &>(loaded) =
       grouped_places(store, space, groups);
     for (const unsigned int p : groups.points)
@@ -247,7 +269,9 @@ namespace Morula
             const MPI_Comm          comm)
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
-    const PointGroups          groups =
+    // Held points are around the lumen as well: they do not move freely, but
+    // they enclose it.
+    const PointGroups groups =
       group_points(store, space, [&](const unsigned int p) {
         return lumen.acts_on(store[p].seed_position(),
                              store[p].initial_normal());
@@ -267,6 +291,9 @@ namespace Morula
                 const Tissue<dim>            &tissue,
                 const DisplacementField<dim> *displacement)
   {
+    // The same function serves the beginning of the step, with u = 0 and f = I,
+    // and a displacement. Areas change by Nanson's formula, doc/theory.md
+    // (1.2).
     const BoundaryPoints<dim>   &store = tissue.boundary_points();
     std::vector<LumenPatch<dim>> list;
     const auto                   add = [&](const unsigned int    p,
@@ -274,6 +301,7 @@ namespace Morula
                          const Tensor<2, dim> &f) {
       const BoundaryView<dim> point = store[p];
       if (lumen.acts_on(point.seed_position(), point.initial_normal()))
+        // The patch after the step stands at x_t + u with Nanson's area.
         list.push_back({store.position(p) + u,
                         determinant(f) * (point.area_vector() * invert(f))});
     };
@@ -302,6 +330,7 @@ namespace Morula
     if (!conditions.has_dirichlet())
       return list;
     const BoundaryPoints<dim> &points = tissue.boundary_points();
+    // Held areas are initial ones, as in doc/theory.md (4.9).
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const BoundaryView<dim> point = points[p];
@@ -326,6 +355,8 @@ namespace Morula
     std::vector<HeldPoint<dim>> list;
     if (!conditions.has_dirichlet())
       return list;
+    // Where a point is held follows from its own X; a slip point, and one that
+    // nothing moves, is where it is. At t = 0 nothing has moved yet.
     const BoundaryPoints<dim> &points = tissue.boundary_points();
     for (unsigned int p = 0; p < points.size(); ++p)
       {

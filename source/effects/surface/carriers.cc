@@ -15,6 +15,7 @@ namespace Morula
     Column<int>
     column(const Tissue<dim> &tissue)
     {
+      // Only scenes with held points and growth have the column.
       return tissue.boundary_points().columns().template find<int>(name);
     }
   } // namespace
@@ -44,6 +45,7 @@ namespace Morula
     const Column<int>                  ids = column(tissue);
     std::vector<types::particle_index> list;
     for (const unsigned int p : points)
+      // -1 is the id of no cell.
       list.push_back(ids.exists() ? tissue.boundary_points().get(ids, p) : -1);
     return list;
   }
@@ -53,6 +55,12 @@ namespace Morula
   void
   renew_carriers(Tissue<dim> &tissue)
   {
+    // The carriers that are still there are looked for by their ids around the
+    // points. Those that were not found are replaced by the nearest cell, over
+    // all ranks. If several are equally near none of them becomes the carrier,
+    // and the mean counts until one is nearer. The exchanges are collective, so
+    // ranks without lost points take part, and all leave together where no rank
+    // has any.
     const Column<int> ids = column(tissue);
     if (!ids.exists())
       return;
@@ -82,7 +90,8 @@ namespace Morula
     if (!Utilities::MPI::logical_or(!lost.empty(), comm) ||
         Utilities::MPI::sum(1. * tissue.cells().size(), comm) == 0.)
       return;
-    // The mean of several ids is larger than the lowest of them.
+    // Among several nearest cells the mean of the ids is larger than the lowest
+    // of them.
     const auto lowest = nearest_values(
       queries, tissue.cells(), id, Ties::lowest_id, tissue.grid());
     const auto mean =

@@ -15,6 +15,8 @@ namespace Morula
   bool
   ConditionKeys::is_on() const
   {
+    // A condition without a place acts nowhere, so it does not exist in this
+    // scene.
     return !where.empty();
   }
 

@@ -22,6 +22,7 @@ namespace Morula
                      const GrowthAt         growth,
                      LocalSystem<dim>      &system) const
   {
+    // A force that does not depend on u has no tangent.
     if (system.wanted != LocalSystem<dim>::tangent)
       PointTerm<dim>::add(grid_cell, field, growth, system);
   }
@@ -34,6 +35,7 @@ namespace Morula
                            const LocalField<dim>   &field,
                            LocalSystem<dim>        &system) const
   {
+    // This is the force of doc/theory.md (4.7).
     system.add_energy(-(forces[p] * field.value(splines)));
     add_force_at(splines, -forces[p], system);
   }

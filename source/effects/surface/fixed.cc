@@ -59,6 +59,7 @@ namespace Morula
   bool
   Fixed<dim>::moves() const
   {
+    // A clamp at rest does not move the tissue; one that is prescribed may.
     return !displacement_.is_always(0., dim);
   }
 
@@ -67,6 +68,7 @@ namespace Morula
   void
   Fixed<dim>::check_at(const Point<dim> &X, const double t) const
   {
+    // To evaluate it is the check: an expression without a value throws.
     displacement_.vector(X, t);
   }
 

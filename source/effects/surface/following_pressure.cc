@@ -14,13 +14,16 @@ namespace Morula
   {
     constexpr unsigned int n      = BSpline<dim>::n;
     constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-    const Tensor<1, dim>   force =
+    // This is q of doc/theory.md (4.8), by Nanson's formula. There is no
+    // energy. The tangent is the change of q by each gradient, times N_a.
+    const Tensor<1, dim> force =
       load.value * point.J * (load.area * point.f_inverse);
     if (system.wanted != LocalSystem<dim>::tangent)
       {
         add_force_at(point.splines, force, system);
         return;
       }
+    // force[i] g[j] - force[j] g[i] is the derivative of det f f⁻ᵀ.
     for (unsigned int b = 0; b < n; ++b)
       {
         const Tensor<1, dim> g = point.gradient(b);

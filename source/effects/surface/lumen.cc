@@ -51,6 +51,7 @@ namespace Morula
     SurfaceSums<dim>
     sums_of(const std::vector<LumenPatch<dim>> &patches, const MPI_Comm comm)
     {
+      // All sums take one reduction.
       std::vector<double> mine(2 * dim + 1, 0.);
       for (const LumenPatch<dim> &patch : patches)
         {
@@ -119,6 +120,9 @@ namespace Morula
   enclosed_volume(const std::vector<LumenPatch<dim>> &patches,
                   const MPI_Comm                      comm)
   {
+    // This is doc/theory.md (4.8g): seen from its middle, the volume does not
+    // change where the lumen moves as a whole, though patches may leave small
+    // gaps.
     const Point<dim> center = sums_of(patches, comm).center;
     double           volume = 0.;
     for (const LumenPatch<dim> &patch : patches)
@@ -134,6 +138,7 @@ namespace Morula
     , volume_(of_time(parameters.volume, dim))
     , pressure_(of_time(parameters.pressure, dim))
   {
+    // A gas has a pressure and finds its volume, or the other way round.
     if (volume_ && pressure_)
       parameters.pressure.refuse("nothing where " + parameters.volume.path() +
                                    " is set",
@@ -159,6 +164,9 @@ namespace Morula
   double
   Lumen<dim>::volume(const double t, const double at_start) const
   {
+    // The expression at the time of the step; the rule of the key is applied
+    // here, with the time in the message.
+    // The place does not matter, as of_time() has refused expressions of it.
     const double factor = volume_->value(Point<dim>(), t);
     if (factor > 0.)
       return factor * at_start;
@@ -184,6 +192,9 @@ namespace Morula
   Lumen<dim>::check_surface(const std::vector<LumenPatch<dim>> &patches,
                             const MPI_Comm                      comm) const
   {
+    // A surface that is closed has areas that add up to nothing, as vectors;
+    // one whose normals point into the lumen has a positive volume. The sums
+    // are over all ranks, so all of them refuse the scene.
     const SurfaceSums<dim> sums = sums_of(patches, comm);
     if (sums.area == 0.)
       return; // which is refused for all conditions
@@ -212,6 +223,8 @@ namespace Morula
   std::unique_ptr<Term<dim>>
   Lumen<dim>::term(const LoadedPoints<dim> &, const double) const
   {
+    // The momentum balance has the content of the lumen as a whole, as it
+    // depends on all points.
     return nullptr;
   }
 
@@ -220,6 +233,7 @@ namespace Morula
   void
   Lumen<dim>::check(const Preview<dim> &scene) const
   {
+    // Both ends of the run are tried, so that most mistakes show before it.
     for (const double t : {0., scene.end_time})
       if (keeps_volume())
         volume(t, 1.);
@@ -232,6 +246,7 @@ namespace Morula
   void
   Lumen<dim>::review(const Preview<dim> &scene, Review &review) const
   {
+    // The width is the smallest extent along an axis, over all ranks.
     double width = std::numeric_limits<double>::infinity();
     for (unsigned int d = 0; d < dim; ++d)
       {

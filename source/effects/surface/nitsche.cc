@@ -26,7 +26,8 @@ namespace Morula
     };
 
     /** T and what its derivatives are made of at one boundary point:
-     *  doc/theory.md (4.2), (4.3). */
+     *  doc/theory.md (4.2), (4.3). It is made once for each point, and all
+     *  blocks of the tangent read it. */
     template <int dim>
     struct NominalTraction
     {
@@ -48,12 +49,14 @@ namespace Morula
                       const bool                              coupled,
                       const double                            weight,
                       const typename Nitsche<dim>::HeldPoint &held)
+        // n_t f⁻¹ is f⁻ᵀ n_t.
         : m(held.normal * f_inverse)
         , bm(state.b() * m)
         , weight(weight)
         , of(state.response(), part)
         , coupled(coupled)
       {
+        // This is τ m by doc/theory.md (1.8), without making τ.
         const auto tau_m = of.alpha * (bm - m) + of.gamma * m;
         value            = weight * (held.projection * tau_m);
         for (unsigned int j = 0; j < dim; ++j)
@@ -88,6 +91,9 @@ namespace Morula
       Row
       change(const Tensor<1, dim> &q, const unsigned int j) const
       {
+        // This is doc/theory.md (4.3) for the vector q. Its products with m and
+        // b_e m do not depend on the spline. Coupled laws have the terms with
+        // b_e g as well.
         const double of_along = weight * (of.alpha - of.gamma) * m[j],
                      qm = weight * (q * m), qbm = weight * (q * bm),
                      of_along_bm = weight * of.alpha * q[j];
@@ -103,7 +109,7 @@ namespace Morula
 
       /** W / V_t. */
       const double weight;
-      /** Those of τ. */
+      /** The coefficients of τ. */
       const Coefficients of;
       const bool         coupled;
     };
@@ -119,6 +125,8 @@ namespace Morula
       void
       add(const Left &left, const Row &right)
       {
+        // Rows are as wide as the kernel wants them, with zeros behind the last
+        // spline.
         list.emplace_back();
         auto &[of_left, of_right] = list.back().factors;
         for (unsigned int a = 0; a < SplineProduct<dim>::width; ++a)
@@ -169,6 +177,10 @@ namespace Morula
           const double       factor,
           Products<dim>     &products) const
       {
+        // In doc/theory.md (4.5b) each product of a row by a and a row by b is
+        // collected by its right factor: g_b^i, g_b^j, g · g_b, and for coupled
+        // laws b_e g_b and b_e m · g_b. So a block takes a few products instead
+        // of one for each term.
         const auto  &of = T.of;
         const auto  &g = T.gradient, &bg = T.b_g;
         const auto  &m = T.m;
@@ -222,6 +234,7 @@ namespace Morula
             return w * (of.C * bg[i][a] + of.B * g[i][a]) * gap[j];
           },
           T.along_bm);
+        // The term with δ^ij stands on the diagonal blocks alone.
         if (i == j)
           for (unsigned int k = 0; k < dim; ++k)
             products.add(
@@ -254,6 +267,10 @@ namespace Morula
                const double                            sign,
                LocalSystem<dim>                       &system)
     {
+      // These are the energy and the residual of doc/theory.md (4.2), (4.4).
+      // `consistency` is the variation of T with the sign of the form. The
+      // magnitudes know that the gap is a difference of positions, whose
+      // rounding is larger than the gap.
       const double a_t = held.area, beta = held.penalty;
       system.add_energy(0.5 * a_t * beta * (gap * gap));
       system.add_energy(-a_t * (T.value * gap));
@@ -290,6 +307,8 @@ namespace Morula
         , sign(sign)
       {
         std::copy_n(splines.value, N.size(), N.begin());
+        // M DT by component: rows of the tangent use it with N_a, columns
+        // transposed.
         for (unsigned int k = 0; k < dim; ++k)
           for (unsigned int j = 0; j < dim; ++j)
             derivative[k][j] = T.change(held.projection[k], j);
@@ -301,6 +320,8 @@ namespace Morula
           const unsigned int j,
           Products<dim>     &products) const
       {
+        // This is doc/theory.md (4.5), collected by the right factor: N_b, D_b
+        // T, and the second derivative.
         const double a_t     = held.area;
         const double penalty = held.penalty * held.projection[i][j];
         products.add(
@@ -350,6 +371,12 @@ namespace Morula
                     const GrowthAt         growth,
                     LocalSystem<dim>      &system) const
   {
+    // Points are visited once for energy and residual. For the tangent their
+    // parts are kept until all are there, since the blocks are then added one
+    // after the other: one block at a time is small enough for the kernel, and
+    // all points of the grid cell add to it together. A point far from all
+    // cells has no traction, and its deformation, which is extrapolated, is not
+    // looked at; only the penalty holds it.
     const auto &states =
       growth == GrowthAt::previous && !previous.empty() ? previous : current;
     std::vector<TangentOfPoint<dim>> tangents;

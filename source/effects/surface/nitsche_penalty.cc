@@ -63,6 +63,8 @@ namespace Morula
                             const bool                all_is_fixed,
                             Review                   &review) const
   {
+    // The warnings concern values that do nothing, or that hold tissue too
+    // softly.
     const double least = NitschePenalty::least(
       material.poissons_ratio.largest_number(3).value_or(0.));
     if (material.volumetric_form() == VolumetricStrain::pointwise &&
@@ -75,7 +77,8 @@ namespace Morula
                     " E/h, so that this value has no effect "
                     "(doc/theory.md, section 4.2).",
                   "Raise it, or set " + form.path() + " = unsymmetric.");
-    // A small penalty under pressure: tissue that grows between its clamps.
+    // A small penalty gives way under pressure, as where tissue grows between
+    // its clamps.
     if (all_is_fixed && form == "unsymmetric" && penalty < 100.)
       review.warn(
         penalty.path(),
@@ -101,6 +104,8 @@ namespace Morula
                           const VolumetricStrain volumetric_form,
                           const double           h) const
   {
+    // This is doc/theory.md (4.6), and section 2.4 where the pressure is the
+    // grid cell's.
     const double at_rest = lame.lambda + 2. * lame.mu;
     if (form_ != NitscheForm::bounded &&
         volumetric_form != VolumetricStrain::pointwise)

@@ -34,6 +34,7 @@ namespace Morula
   void
   PlacedCondition<dim>::check(const Preview<dim> &scene) const
   {
+    // Each point on which the condition acts is tried at both ends of the run.
     for (const Point<dim> &X : scene.boundary_points)
       if (holds(X))
         for (const double t : {0., scene.end_time})
@@ -51,6 +52,7 @@ namespace Morula
   bool
   PlacedCondition<dim>::holds(const Point<dim> &X) const
   {
+    // Conditions are decided at t = 0, for the whole run.
     return where.value(X, 0.) > 0.;
   }
 

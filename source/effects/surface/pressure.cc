@@ -45,7 +45,10 @@ namespace Morula
   {
     using Load = typename AreaTerm<dim>::Load;
     return std::make_unique<FollowingPressure<dim>>(
-      points, this->template loads<Load>(points, [&](const auto &point) {
+      // The value is that at the end of the step, at the point's own X; whether
+      // it acts, its seed decides.
+      points,
+      this->template loads<Load>(points, [&](const auto &point) {
         return Load{pressure.value(point.X, t), point.area};
       }));
   }
@@ -55,6 +58,7 @@ namespace Morula
   void
   Pressure<dim>::check_at(const Point<dim> &X, const double t) const
   {
+    // To evaluate it is the check: an expression without a value throws.
     pressure.value(X, t);
   }
 

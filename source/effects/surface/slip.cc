@@ -47,6 +47,8 @@ namespace Morula
   bool
   Slip<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const
   {
+    // 0.9 is the cosine of 26 degrees: points of one flat side have the same
+    // normal, those of its neighbours another.
     return PlacedCondition<dim>::acts_on(X, N) &&
            (!normal || std::abs(N * *normal) > 0.9);
   }

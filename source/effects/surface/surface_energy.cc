@@ -23,6 +23,7 @@ namespace Morula
     {
       constexpr unsigned int n_splines = BSpline<dim>::n;
       constexpr unsigned int n_dofs    = LocalSystem<dim>::n_dofs;
+      // These are the blocks of doc/theory.md (4.8b).
       for (unsigned int a = 0; a < n_splines; ++a)
         for (unsigned int b = 0; b < n_splines; ++b)
           {
@@ -44,8 +45,10 @@ namespace Morula
                                const typename AreaTerm<dim>::Deformed &point,
                                LocalSystem<dim> &system) const
   {
+    // A point without tension has nothing to add, and may have no area.
     if (load.value == 0.)
       return;
+    // This is doc/theory.md (4.8a) with m = a n.
     const Tensor<1, dim> m     = point.J * (load.area * point.f_inverse);
     const double         force = load.value * m.norm();
     const Tensor<1, dim> n     = m / m.norm();
@@ -53,14 +56,17 @@ namespace Morula
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
         const Tensor<1, dim> g = point.gradient(a);
-        s[a]                   = g - (g * n) * n;
+        // This is s_a: what a displacement along the surface changes of the
+        // area.
+        s[a] = g - (g * n) * n;
       }
     if (system.wanted == LocalSystem<dim>::tangent)
       {
         add_tangent(force, n, s, system);
         return;
       }
-    // Of the step, so that the large constant spoils no difference.
+    // The energy is relative to the start of the step: the difference of two
+    // large constants would lose its digits.
     const double before = load.value * load.area.norm();
     system.add_energy(force - before, force + before);
     for (unsigned int i = 0; i < dim; ++i)

@@ -34,6 +34,8 @@ namespace Morula
   bool
   SurfaceTensionParameters::is_on() const
   {
+    // The place has a default, everywhere. So the tension itself says whether
+    // there is one.
     return !where.empty() && !tension.is_default();
   }
 
@@ -63,6 +65,7 @@ namespace Morula
   double
   SurfaceTension<dim>::value(const Point<dim> &X, const double t) const
   {
+    // The sign is tested here, with place and time in the message.
     const double gamma = tension.value(X, t);
     if (gamma >= 0.)
       return gamma;

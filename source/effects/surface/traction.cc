@@ -46,6 +46,7 @@ namespace Morula
   {
     return std::make_unique<DeadLoad<dim>>(
       points,
+      // The area is the initial one: a dead load.
       this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
         return point.initial_area * traction.vector(point.X, t);
       }));
@@ -56,6 +57,7 @@ namespace Morula
   void
   Traction<dim>::check_at(const Point<dim> &X, const double t) const
   {
+    // To evaluate it is the check: an expression without a value throws.
     traction.vector(X, t);
   }
 

@@ -20,6 +20,8 @@ namespace Morula
   available_vector_kernels(const unsigned int law)
   {
     std::vector<VectorKernels<dim>> kernels;
+// The processor is asked at run time, since one program serves all machines.
+// The widest instruction set comes first.
 #ifdef MORULA_X86_KERNELS
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
       kernels.push_back(avx512_kernels<dim>(law));

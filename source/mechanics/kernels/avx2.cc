@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// Compiled with -mavx2 -mfma.
+// This file is compiled with -mavx2 -mfma, in a namespace of its own as
+// avx512.cc.
 #define MORULA_KERNELS avx2
 #define MORULA_LANES 4
 #include <morula/mechanics/kernels/kernels.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// For any processor.
+// This file is compiled for any processor of the architecture. Two lanes are
+// what x86-64 and ARM have at least.
 #define MORULA_KERNELS baseline
 #define MORULA_LANES 2
 #include <morula/mechanics/kernels/kernels.h>

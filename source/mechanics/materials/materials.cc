@@ -17,6 +17,8 @@ namespace Morula
     add_own(const unsigned int i, Materials &materials)
     {
       const auto material =
+        // The kernels are chosen by the law's number, since their files see
+        // only the list of laws.
         std::make_shared<const MaterialOf<Law>>(Law(),
                                                 available_vector_kernels<2>(i),
                                                 available_vector_kernels<3>(i));
@@ -27,6 +29,8 @@ namespace Morula
     void
     add_all(const Laws<Law...> &, Materials &materials)
     {
+      // A fold over the types of the list: the position in it is the law's
+      // number.
       unsigned int i = 0;
       (add_own<Law>(i++, materials), ...);
     }
@@ -43,6 +47,8 @@ namespace Morula
   Materials::add(const std::string                     &name,
                  const std::shared_ptr<const Material> &material)
   {
+    // Scenes choose a law by its name, so two of one name would hide each
+    // other.
     if (find(name) != nullptr)
       throw std::invalid_argument("There is a material '" + name +
                                   "' already.");

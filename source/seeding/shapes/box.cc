@@ -22,6 +22,7 @@ namespace Morula
       std::uint64_t n = 1;
       for (unsigned int d = 0; d < dim; ++d)
         if (d != direction)
+          // Faces are perpendicular to each direction, two of them.
           n *= counts[d];
       return n;
     }
@@ -47,6 +48,8 @@ namespace Morula
               const double          patch_length,
               const std::uint64_t   n_wished)
     {
+      // All combinations of rounding up and down are tried. Edges of equal
+      // length must have equally many pieces, so that a cube stays symmetric.
       EdgeCounts<dim> best{};
       double          best_error = std::numeric_limits<double>::max();
       for (unsigned int up = 0; up < (1u << dim); ++up)
@@ -55,7 +58,7 @@ namespace Morula
           for (unsigned int d = 0; d < dim; ++d)
             {
               const double exact = size[d] / patch_length;
-              // rounding errors must not turn 22 into 21
+              // Rounding errors must not turn 22 into 21.
               const double whole = std::floor(exact * (1. + 1e-12));
               counts[d]          = static_cast<std::uint64_t>(
                 std::max(1., whole + ((up >> d) & 1u)));
@@ -130,6 +133,9 @@ namespace Morula
   SurfaceTiling<dim>
   Box<dim>::tile(const std::uint64_t n_wished) const
   {
+    // The patch number i counts through the faces, two for each direction, and
+    // on a face through the products of the pieces along its edges. So a patch
+    // is made from its number alone, on any rank.
     const double patch_length =
       std::pow(surface_area() / static_cast<double>(n_wished), 1. / (dim - 1));
     const EdgeCounts<dim> counts = cut_edges(size, patch_length, n_wished);
@@ -151,7 +157,8 @@ namespace Morula
           patch.position[d] = box.center[d] + 0.5 * side * box.size[d];
         else
           {
-            // measured from the middle, so that mirror images are exact
+            // Places are measured from the middle, so that mirror images are
+            // exact.
             const double n = static_cast<double>(counts[d]);
             const double step =
               static_cast<double>(i % counts[d]) + 0.5 - 0.5 * n;

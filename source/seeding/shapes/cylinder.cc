@@ -61,8 +61,9 @@ namespace Morula
   SurfacePatch<3>
   Cylinder::cap_patch(const RingPlace &place, const double side) const
   {
-    // The radius halves the area of the ring. If the ring in the middle of the
-    // cap has only one patch, that patch is a disc.
+    // A patch's radius halves the area of its ring. If the ring in the middle
+    // of the cap has only one patch, that patch is a disc, and its point is in
+    // the middle.
     const bool   is_disc = 2. * place.area_before == place.area;
     const double r       = is_disc ? 0. : radius * std::sqrt(place.area_before);
 
@@ -91,6 +92,11 @@ namespace Morula
   SurfaceTiling<3>
   Cylinder::tile(const std::uint64_t n_wished) const
   {
+    // The wished number is shared between the caps and the side by area, with
+    // at least one patch for each cap and three for the side. Both are divided
+    // into rings of about square patches: on a cap equally wide ones, on the
+    // side equally high ones. What is kept is the fraction of the area below
+    // each ring; a patch follows from its number.
     const double on_cap =
       static_cast<double>(n_wished) * cap_area() / surface_area();
     const std::uint64_t n_cap =
@@ -98,8 +104,8 @@ namespace Morula
     const std::uint64_t n_side =
       std::max<std::uint64_t>(n_wished, 2 * n_cap + 3) - 2 * n_cap;
 
-    // Rings are as wide as a square patch: n rings of a cap hold about pi n²
-    // patches.
+    // Rings of a cap are as wide as a square patch, and n of them hold about pi
+    // n² patches.
     const double n_cap_rings =
       std::max(1., std::round(std::sqrt(n_cap / numbers::PI)));
     std::vector<double> cap_areas;

@@ -26,13 +26,14 @@ namespace Morula
     double
     angle_at_fraction(const double k, const double fraction)
     {
-      // in psi = angle - pi/2 it is Legendre's E(psi, k) + E(k)
+      // In psi = angle - pi/2 the integral is Legendre's E(psi, k) + E(k).
       const double wanted = (4. * fraction - 1.) * boost::math::ellint_2(k);
       const auto   error_and_slope = [k, wanted](const double psi) {
         const double s = k * std::sin(psi);
         return std::make_tuple(boost::math::ellint_2(k, psi) - wanted,
                                std::sqrt((1. - s) * (1. + s)));
       };
+      // The guess is the answer for k = 0.
       const double guess = (4. * fraction - 1.) * numbers::PI_2;
       return numbers::PI_2 + boost::math::tools::newton_raphson_iterate(
                                error_and_slope,
@@ -61,7 +62,7 @@ namespace Morula
           {
             heights[band + 1]   = std::cos(numbers::PI * (band + 1) / n_bands);
             const double middle = 0.5 * (heights[band] + heights[band + 1]);
-            // proportional to the band's area per height
+            // The density is proportional to the band's area per height.
             const double density = std::sqrt(steepest(middle)) *
                                    boost::math::ellint_2(modulus(middle));
             fractions[band + 1] =
@@ -77,6 +78,8 @@ namespace Morula
       double
       height(const double fraction) const
       {
+        // Within a band the area is taken as linear in the height; 4096 bands
+        // make that exact enough.
         const auto   above = std::upper_bound(fractions.begin() + 1,
                                             fractions.end() - 1,
                                             fraction);
@@ -120,7 +123,7 @@ namespace Morula
     : center(center)
     , half_axes(half_axes)
   {
-    // shortest first
+    // The axes are put in order, the shortest first.
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(),
                      order.end(),
@@ -132,10 +135,12 @@ namespace Morula
         const double length[3] = {half_axes[order[0]],
                                   half_axes[order[1]],
                                   half_axes[order[2]]};
-        // length[2]/length[1] < length[1]/length[0]: the shortest is the pole
+        // If length[2]/length[1] < length[1]/length[0], the two longer axes are
+        // the more similar ones, and the shortest is the pole.
         if (length[2] * length[0] < length[1] * length[1])
           std::swap(order[0], order[2]);
       }
+    // Latitudes need the longer axis of the parallels first.
     if (half_axes[order[0]] < half_axes[order[1]])
       std::swap(order[0], order[1]);
   }
@@ -151,6 +156,8 @@ namespace Morula
   bool
   Ellipsoid<dim>::contains(const Point<dim> &x, const double clearance) const
   {
+    // The distance to the surface is about (1 - level) level / |gradient|, to
+    // first order in it.
     double         level = 0.; // 0 at the centre, 1 on the surface
     Tensor<1, dim> gradient;
     for (unsigned int d = 0; d < dim; ++d)
@@ -179,6 +186,7 @@ namespace Morula
   double
   Ellipsoid<dim>::surface_area() const
   {
+    // The area is Carlson's symmetric integral in 3-D, Legendre's in 2-D.
     const auto square = [](const double x) { return x * x; };
     if constexpr (dim == 3)
       return 4. * numbers::PI *
@@ -201,6 +209,7 @@ namespace Morula
     SurfacePatch<dim> patch;
     patch.position = center + from_center;
     for (unsigned int d = 0; d < dim; ++d)
+      // The normal is the gradient of the level.
       patch.normal[d] = from_center[d] / half_axes[d] / half_axes[d];
     patch.normal /= patch.normal.norm();
     patch.area = area;
@@ -219,6 +228,7 @@ namespace Morula
     tiling.n_patches  = std::max<std::uint64_t>(n_wished, 3);
     const double n    = static_cast<double>(tiling.n_patches);
     const double area = surface_area() / n;
+    // The arcs have equal lengths, and each has its point in the middle.
     tiling.patch = [ellipse = *this, a, b, k, n, area](const std::uint64_t i) {
       const double angle =
         angle_at_fraction(k, (static_cast<double>(i) + 0.5) / n);
@@ -242,6 +252,8 @@ namespace Morula
     tiling.n_patches  = std::max<std::uint64_t>(n_wished, 4);
     const double n    = static_cast<double>(tiling.n_patches);
     const double area = surface_area() / n;
+    // Heights share the area equally; along the parallels points follow the
+    // golden angle, in the fraction of the parallel's area.
     tiling.patch =
       [ellipsoid = *this, axes, latitudes, n, area](const std::uint64_t i) {
         const double height =

@@ -33,8 +33,8 @@ namespace Morula
   double
   MeshShape::volume() const
   {
-    // Relative to a point of the surface, so that no digits are lost if the
-    // body is far from the origin.
+    // The volume is seen from a point of the surface, so that no digits are
+    // lost if the body is far from the origin.
     const Point<3> apex   = mesh.triangles().front().vertices[0];
     double         volume = 0.;
     for (const SurfaceTriangle &triangle : mesh.triangles())

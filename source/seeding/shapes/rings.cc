@@ -14,6 +14,8 @@ namespace Morula
                const std::vector<double> &area_before)
     : ends(1, 0)
   {
+    // A ring ends where the patches so far have the area so far, rounded. Rings
+    // without patches are left out.
     for (const double area : area_before)
       {
         const auto end = static_cast<std::uint64_t>(
@@ -33,7 +35,8 @@ namespace Morula
     const double n     = static_cast<double>(n_patches());
     const double first = static_cast<double>(*(end - 1));
     const double count = static_cast<double>(*end) - first;
-    // every second ring begins half a patch later
+    // Every second ring begins half a patch later, so that patches do not stand
+    // in rows.
     const double shift = ring % 2 == 0 ? 0.75 : 0.25;
     return {(first + 0.5 * count) / n,
             2. * dealii::numbers::PI *

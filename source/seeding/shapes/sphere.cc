@@ -29,6 +29,8 @@ namespace Morula
       const double   index = static_cast<double>(i);
       if constexpr (dim == 3)
         {
+          // The points are those of a golden spiral: heights share the area
+          // equally, and each point is a golden angle behind the last.
           const double z        = 1. - (2. * index + 1.) / n;
           const double parallel = std::sqrt((1. - z) * (1. + z));
           const double angle    = 2. * numbers::PI * golden_fraction(i);
@@ -95,7 +97,10 @@ namespace Morula
   {
     const double outer = area_of<dim>(radius);
     const double inner = area_of<dim>(inner_radius);
-    // Without a cavity just as many as wished.
+    // Both surfaces share the number by their areas, at least dim + 1 patches
+    // each: fewer enclose nothing. Without a cavity there are just as many as
+    // wished. The normals of the inner one point into the cavity, out of the
+    // tissue.
     const std::uint64_t n_inner =
       inner > 0. ? std::max<std::uint64_t>(std::llround(n_wished * inner /
                                                         (outer + inner)),

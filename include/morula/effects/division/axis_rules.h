@@ -157,7 +157,7 @@ namespace Morula
     /** @param field its name */
     GradientAxis(const std::string &field, const EffectSetting<dim> &setting);
 
-    /** Random if the field is uniform. */
+    /** The axis is the random one where the field is uniform. */
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override;
 

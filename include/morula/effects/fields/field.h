@@ -42,11 +42,11 @@ namespace Morula
           const unsigned int        number,
           const EffectSetting<dim> &setting);
 
-    /** As in Fields/Names. */
+    /** The name, as in Fields/Names. */
     const std::string &
     name() const;
 
-    /** As in Time. */
+    /** The kind, as in Time. */
     FieldKind
     kind() const;
 
@@ -74,7 +74,7 @@ namespace Morula
     std::optional<double>
     uniform_diffusion() const;
 
-    /** At a founder at @p X, at t = 0. @throws InputError */
+    /** The value at a founder at @p X, at t = 0. @throws InputError */
     double
     initial(const Point<dim> &X) const;
 

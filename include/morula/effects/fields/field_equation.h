@@ -31,15 +31,15 @@ namespace Morula
   template <int dim>
   struct FieldAtSurface
   {
-    /** a D n, where the field has a value there; else zero. */
+    /** The product a D n, where the field has a value there; else zero. */
     Tensor<1, dim> flux;
-    /** a times the transfer coefficient, µm^dim/day. */
+    /** The area a times the transfer coefficient, µm^dim/day. */
     double weight;
-    /** a D, where the field has a value there; else 0. */
+    /** The product a D, where the field has a value there; else 0. */
     double fixed;
     /** The field that is prescribed or outside. */
     double value;
-    /** a times the flux that is prescribed, in the field's unit times
+    /** The area a times the flux that is prescribed, in the field's unit times
      *  µm^dim/day. */
     double inflow;
   };
@@ -73,7 +73,8 @@ namespace Morula
 
     /** Places of the cells and boundary points in their grid cells. */
     GroupedPoints<dim> cell_places, surface_places;
-    /** In the order of the places. */
+    /** The coefficients at cells and at boundary points, in the order of the
+     *  places. */
     std::vector<FieldAtCell>         cells;
     std::vector<FieldAtSurface<dim>> surface;
     /** By grid cell: 1/sqrt(D/k), the inverse of the length over which a fixed

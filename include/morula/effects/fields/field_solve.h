@@ -41,7 +41,8 @@ namespace Morula
   {
     unsigned int        number; // of the field
     std::vector<double> values;
-    /** Per µm; empty where cells have no column for it. */
+    /** The gradients at the cells, per µm; empty where cells have no column for
+     *  it. */
     std::vector<Tensor<1, dim>> gradients;
     /** Cells, on all ranks, whose value came out negative and was set to 0. */
     std::uint64_t clipped = 0;
@@ -204,13 +205,14 @@ namespace Morula
     const MakeLinearSolver  make_solver;
     Assembly<dim, 1>        assembly;
     FieldEquation<dim>      equation;
-    /** Of one field's matrices: the preconditioner of one serves the next ones
-     *  while they are much like it. */
+    /** What is known of one field's matrices: the preconditioner of one serves
+     *  the next ones while they are much like it. */
     LinearProblem problem;
     SolveLinear   linear; // empty: none yet
-    /** By cell, in the field's unit per day. */
+    /** Production by cell, in the field's unit per day. */
     std::vector<double> productions;
-    /** By field and cell: those of now; empty: as the cells have them. */
+    /** Values by field and cell as they are now; empty: as the cells have them.
+     *  */
     std::vector<std::vector<double>> values;
   };
 } // namespace Morula

@@ -98,7 +98,7 @@ namespace Morula
     std::vector<Column<double>>
     carried() const;
 
-    /** All 0 where there are no cells. Collective. */
+    /** The totals of all fields, all 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
     totals(const Tissue<dim> &tissue) const;
 

@@ -21,7 +21,7 @@ namespace Morula
     double value = 0.;
     /** Unit vector away from the body; 0 if it is undefined. */
     Tensor<1, dim> gradient;
-    /** Per µm. */
+    /** Second derivative of the value, 1/µm; 0 beside a plane. */
     Tensor<2, dim> curvature;
   };
 

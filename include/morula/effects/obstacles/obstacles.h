@@ -53,7 +53,7 @@ namespace Morula
       std::string                      mesh_key;  // that names the mesh's file
       std::string                      mesh;      // empty without one
 
-      /** From t = 0 to @p t, µm. */
+      /** The way of the body from t = 0 to @p t, µm. */
       Tensor<1, dim>
       way(const double t) const;
 

@@ -19,7 +19,7 @@ namespace Morula
     /** What acts on a boundary point. */
     struct Load
     {
-      /** Per area: a pressure in kPa, or a tension in kPa µm. */
+      /** What acts per area: a pressure in kPa, or a tension in kPa µm. */
       double value;
       /** a_t n_t, µm^(dim-1). */
       Tensor<1, dim> area;

@@ -38,7 +38,7 @@ namespace Morula
       Tensor<1, dim> area;
     };
 
-    /** In the order of xi. */
+    /** The points in the order of xi. */
     std::vector<Point> points;
     /** Time of the configuration, day. */
     double time = 0.;

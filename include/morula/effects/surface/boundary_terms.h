@@ -36,8 +36,8 @@ namespace Morula
                const std::string             &kernel);
 
   /**
-   * The same with a traction that is renewed in turns: doc/theory.md (4.6a).
-   * Collective.
+   * Nitsche's term with a traction that is renewed in turns: doc/theory.md
+   * (4.6a). Collective.
    * @param stiffnesses of the tissue around the held points, along their
    *        normals, by held_groups(), kPa: k in (4.6)
    * @param tractions M T, kPa; a reference is kept

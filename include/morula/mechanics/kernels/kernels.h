@@ -35,7 +35,7 @@ namespace Morula
               &find_motions<dim>};
     }
 
-    /** Those of law number @p i in a list. */
+    /** The kernels of law number @p i in a list. */
     template <int dim, typename... Law>
     VectorKernels<dim>
     kernels_of(const Laws<Law...> &, const unsigned int i, const char *name)

@@ -12,7 +12,7 @@ namespace Morula
     /** A register of numbers, one for each of as many points. */
     using Lanes = double __attribute__((vector_size(sizeof(double) * lanes)));
 
-    /** The same where it stands among single numbers in memory. */
+    /** Such a register where it stands among single numbers in memory. */
     using LanesInMemory =
       double __attribute__((vector_size(sizeof(double) * lanes), may_alias));
 
@@ -25,25 +25,26 @@ namespace Morula
 
       using Type __attribute__((vector_size(n * sizeof(Real)))) = Real;
 
-      /** The same where it stands among single numbers in memory. */
+      /** Such a register where it stands among single numbers in memory. */
       using InMemory __attribute__((vector_size(n * sizeof(Real)), may_alias)) =
         Real;
 
       /** Three numbers and a zero: a quarter more work, but no remainder. */
       using Quad __attribute__((vector_size(4 * sizeof(Real)))) = Real;
 
-      /** The same at any address. */
+      /** A Quad at any address. */
       using QuadInMemory __attribute__((vector_size(4 * sizeof(Real)),
                                         aligned(sizeof(Real)),
                                         may_alias)) = Real;
     };
 
-    /** The same number in a whole register. */
+    /** A register that has one number in all places. */
     template <typename Real>
     MORULA_INLINE typename Register<Real>::Type
     all(const Real x)
     {
-      // unlike x + 0, exactly x: no addition
+      // x - 0 is exactly x, also for x = -0, so the compiler leaves it out; x +
+      // 0 would stay.
       return x - typename Register<Real>::Type{};
     }
 
@@ -120,7 +121,7 @@ namespace Morula
       return determinant;
     }
 
-    /** The same in the plane. */
+    /** Inverts matrices of the plane, and returns their determinants. */
     MORULA_INLINE Lanes
     invert(const Lanes (&M)[2][2], Lanes (&inverse)[2][2])
     {

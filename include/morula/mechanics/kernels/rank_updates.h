@@ -17,7 +17,8 @@ namespace Morula
       static constexpr unsigned int n_splines = dim == 2 ? 9 : 27;
       static constexpr unsigned int n_columns = (n_splines + n - 1) / n;
 
-      /** Of a row in memory: the splines and zeros. */
+      /** Numbers of a row in memory: the splines, and zeros up to a whole
+       *  register. */
       static constexpr unsigned int width = n_columns * n;
       static_assert(width > n_splines, "a Quad must fit behind the last three");
 
@@ -29,7 +30,7 @@ namespace Morula
         n_columns < 4 ? n_columns : 4;
     };
 
-    /** By direction, for each spline: what the updates of one point take. */
+    /** What the updates of one point take, by direction, for each spline. */
     template <int dimension, typename Number>
     struct PointRows
     {
@@ -56,7 +57,7 @@ namespace Morula
       }
     };
 
-    /** The same of a law with B and C. */
+    /** The rows of a point under a law with B and C. */
     template <int dim, typename Real>
     struct CoupledPointRows : public PointRows<dim, Real>
     {
@@ -232,7 +233,7 @@ namespace Morula
           }
       }
 
-      /** The same of a law with B and C. */
+      /** Adds the updates of points under a law with B and C. */
       MORULA_INLINE void
       update(const CoupledPointRows<dim, Real> *points, const unsigned int n)
       {

@@ -95,7 +95,8 @@ namespace Morula
         rows[l].scale(W_A[l], W_c[l]);
     }
 
-    /** The same of a law with B and C: also b_e g = F_e Aᵀ ∇N. */
+    /** Makes the rows of a law with B and C, which has b_e g = F_e Aᵀ ∇N as
+     *  well. */
     template <int dim, typename Real>
     MORULA_INLINE void
     make_rows(const Points<dim>            &points,
@@ -134,7 +135,7 @@ namespace Morula
     {
       using Type = PointRows<dim, Real>;
     };
-    /** The same for a coupled law. */
+    /** A coupled law needs the rows with b_e g, too. */
     template <int dim, typename Real>
     struct RowsOfLaw<dim, Real, true>
     {
@@ -155,7 +156,7 @@ namespace Morula
       KernelResult result;
       result.smallest_J = __builtin_inf();
       Blocks<dim, Real> blocks;
-      // Also what stands behind the last entry.
+      // Zeros stand behind the last entry, too, where registers read past it.
       typename RowsOfLaw<dim, Real, is_coupled<Law>>::Type rows[lanes] = {};
       const Law &law = *static_cast<const Law *>(input.law);
       for (unsigned int p = 0; p < input.n; p += lanes)

@@ -26,19 +26,19 @@ namespace Morula
     /** The compiler's vector of n doubles. */
     template <unsigned int n>
     struct VectorOf;
-    /** Of two doubles. */
+    /** The vector of two doubles. */
     template <>
     struct VectorOf<2>
     {
       using Type = double __attribute__((vector_size(16)));
     };
-    /** Of four doubles. */
+    /** The vector of four doubles. */
     template <>
     struct VectorOf<4>
     {
       using Type = double __attribute__((vector_size(32)));
     };
-    /** Of eight doubles. */
+    /** The vector of eight doubles. */
     template <>
     struct VectorOf<8>
     {
@@ -105,10 +105,8 @@ namespace Morula
       Vector power, small;
     };
 
-    /**
-     * Of |x| < 700, to 2 units in the last place: x = k ln 2 + r with |r| <= ln
-     * 2 / 2, and e^r - 1 by its Taylor series.
-     */
+    /** The exponential of |x| < 700, to 2 units in the last place: x is k ln 2
+     *  + r with |r| <= ln 2 / 2, and e^r - 1 follows from its Taylor series. */
     template <typename Vector>
     MORULA_INLINE Exponential<Vector>
                   exponential_of(const Vector &x)

@@ -18,7 +18,7 @@ namespace Morula
   class MaterialOf : public Material
   {
   public:
-    /** With the kernels that were compiled for this law. */
+    /** Takes the kernels that were compiled for this law. */
     MaterialOf(const Law                           &law,
                const std::vector<VectorKernels<2>> &kernels_2d,
                const std::vector<VectorKernels<3>> &kernels_3d)
@@ -32,13 +32,13 @@ namespace Morula
       return as_coupled(law_.response(strain));
     }
 
-    /** By automatic differentiation of the law. */
+    /** They come from automatic differentiation of the law. */
     ThirdDerivatives
     third_derivatives(const Strain<double> &strain,
                       const PartOfLaw       part) const override
     {
-      // Derivatives by tr b_e and by ln J_e. Not a Fad whose operators return
-      // expressions: a law's functions take numbers.
+      // Derivatives are taken by tr b_e and by ln J_e. A Fad whose operators
+      // return expressions would not do: a law's functions take numbers.
       using Fad = Sacado::Fad::SimpleFad<double>;
       const Fad  log_J(2, 1, strain.log_J);
       const auto r =

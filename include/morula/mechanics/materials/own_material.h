@@ -8,8 +8,8 @@
 
 #include <memory>
 
-// In a namespace of their own: compiled with a program's own flags, they must
-// not take the place of the library's.
+// These kernels have a namespace of their own: compiled with a program's own
+// flags, they must not take the place of the library's.
 #define MORULA_KERNELS programs_kernels
 #define MORULA_LANES 2
 #include <morula/mechanics/kernels/kernels.h>

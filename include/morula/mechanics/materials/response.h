@@ -98,7 +98,7 @@ namespace Morula
     }
   };
 
-  /** The same of a law in which α depends on the strain. */
+  /** The response of a law in which α depends on the strain. */
   template <typename Number>
   struct CoupledResponse : public Response<Number>
   {

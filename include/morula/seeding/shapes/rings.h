@@ -44,7 +44,7 @@ namespace Morula
     n_patches() const;
 
   private:
-    // number of patches before each ring's end; the first entry is 0
+    // The number of patches before each ring's end; the first entry is 0.
     std::vector<std::uint64_t> ends;
   };
 } // namespace Morula

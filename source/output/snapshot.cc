@@ -4,10 +4,10 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/atomic_file.h>
-#include <morula/output/hdf5_reader.h>
 #include <morula/output/hdf5_writer.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
+#include <morula/output/snapshot_names.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,20 +16,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <type_traits>
 
 namespace Morula
 {
   namespace
   {
-    // HDF5 has names for the types of C, not for those of fixed width.
-    using Id =
-      std::conditional_t<sizeof(types::particle_index) == sizeof(unsigned int),
-                         unsigned int,
-                         unsigned long long>;
-
-    constexpr const char *format_name = "Morula snapshot format";
-
     template <int dim>
     void
     write_points(Hdf5Writer           &file,
@@ -46,8 +37,8 @@ namespace Morula
       const unsigned int n_numbers =
         Utilities::MPI::max(points.n_numbers, comm);
 
-      const std::vector<Id> ids(points.ids.begin(), points.ids.end());
-      std::vector<double>   coordinates;
+      const std::vector<SnapshotId> ids(points.ids.begin(), points.ids.end());
+      std::vector<double>           coordinates;
       coordinates.reserve(dim * points.size());
       for (const Point<dim> &position : points.positions)
         for (unsigned int d = 0; d < dim; ++d)
@@ -63,8 +54,6 @@ namespace Morula
       file.text(group + "/columns", columns);
     }
 
-    constexpr const char *weights_name = "grid weights";
-
     /** One row for each grid cell: its number and its weight. */
     void
     write_weights(Hdf5Writer &file, const GridCellCounts &weights)
@@ -76,34 +65,7 @@ namespace Morula
           rows.push_back(weight.number);
           rows.push_back(weight.n);
         }
-      file.rows(weights_name, rows.data(), weights.size(), 2);
-    }
-
-    /** Rows [n r / size, n (r + 1) / size) of n, for rank r. */
-    std::pair<hsize_t, hsize_t>
-    slice(const hsize_t n, const MPI_Comm comm)
-    {
-      // The file's rows belong to nobody: each rank reads an equal share of
-      // them, and the tissue sends the points where they belong.
-      const hsize_t rank    = Utilities::MPI::this_mpi_process(comm);
-      const hsize_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      return {n * rank / n_ranks, n * (rank + 1) / n_ranks};
-    }
-
-    /** This rank's slice of the weights. */
-    GridCellCounts
-    read_weights(const Hdf5Reader &file, const MPI_Comm comm)
-    {
-      // Sizes are checked before memory is taken by them.
-      const auto size = file.size(weights_name);
-      if (size.size() != 2 || size[1] != 2)
-        throw std::runtime_error("the grid weights do not fit");
-      const auto [begin, end] = slice(size[0], comm);
-      const auto     rows = file.rows<unsigned int>(weights_name, begin, end);
-      GridCellCounts weights;
-      for (std::size_t i = 0; i < rows.size(); i += 2)
-        weights.push_back({rows[i], rows[i + 1]});
-      return weights;
+      file.rows(snapshot_weights_name, rows.data(), weights.size(), 2);
     }
 
     /**
@@ -159,47 +121,6 @@ namespace Morula
              shared.boundary_columns.size() + n_objects * n_bytes_an_object;
     }
 
-    /** This rank's slice of the points. */
-    template <int dim>
-    PointList<dim>
-    read_points(const Hdf5Reader  &file,
-                const std::string &group,
-                const MPI_Comm     comm)
-    {
-      // The three tables of a group must have the same number of rows. A file
-      // from elsewhere, or one that is damaged, may not.
-      const auto ids        = file.size(group + "/ids");
-      const auto positions  = file.size(group + "/positions");
-      const auto properties = file.size(group + "/properties");
-      if (ids.size() != 2 || positions.size() != 2 || properties.size() != 2 ||
-          ids[1] != 1 || positions[0] != ids[0] || properties[0] != ids[0] ||
-          positions[1] != dim)
-        throw std::runtime_error("the points '" + group + "' do not fit");
-
-      const auto [begin, end] = slice(ids[0], comm);
-
-      PointList<dim> points(properties[1]);
-      const auto     local_ids = file.rows<Id>(group + "/ids", begin, end);
-      points.ids.assign(local_ids.begin(), local_ids.end());
-      const auto coordinates =
-        file.rows<double>(group + "/positions", begin, end);
-      points.positions.resize(points.ids.size());
-      for (std::size_t i = 0; i < coordinates.size(); ++i)
-        points.positions[i / dim][i % dim] = coordinates[i];
-      points.numbers = file.rows<double>(group + "/properties", begin, end);
-      return points;
-    }
-
-    /** What the rows of points are, if the file says so. */
-    std::string
-    read_columns(const Hdf5Reader &file, const std::string &group)
-    {
-      for (const std::string &name : file.dataset_names(group))
-        if (name == "columns")
-          return file.text(group + "/columns");
-      return "";
-    }
-
     /** Refuses rows of other columns. */
     void
     check_rows(const std::string &path,
@@ -228,67 +149,6 @@ namespace Morula
                           std::to_string(n_numbers) + ")");
     }
 
-    /** Refuses a file whose bytes are not those that were written: the HDF5
-     *  library must not see it. */
-    void
-    check_seal(const std::string &path, const SealState state)
-    {
-      switch (state)
-        {
-          case SealState::missing:
-            throw InputError("--resume",
-                             path,
-                             "a snapshot that can be read",
-                             "There is none: start the run without --resume, "
-                             "and with --replace if there are files of it.");
-          case SealState::plain_hdf5:
-            refuse_snapshot(path,
-                            "a snapshot that begins with a digest (this is the "
-                            "HDF5 file of another program, or of a Morula that "
-                            "wrote none)");
-          case SealState::foreign:
-            refuse_snapshot(path,
-                            "a snapshot of Morula (this file does not begin as "
-                            "one)");
-          case SealState::damaged:
-            refuse_snapshot(path,
-                            "an undamaged snapshot (this file's bytes are not "
-                            "those that Morula wrote: their digest differs)");
-          case SealState::whole:
-            return;
-        }
-    }
-
-    /** Checks format, and lets @p read read the file. */
-    template <typename Read>
-    void
-    read_checked(const std::string &path, const Read &read)
-    {
-      try
-        {
-          // Whatever the HDF5 library complains of becomes a refusal of the
-          // snapshot. An InputError says more already, and passes.
-          const Hdf5Reader file(path);
-          const int        format = file.attribute<int>("/", format_name);
-          if (format != snapshot_format)
-            refuse_snapshot(path,
-                            "a snapshot of format " +
-                              std::to_string(snapshot_format) +
-                              " (this is of format " + std::to_string(format) +
-                              ")");
-          read(file);
-        }
-      catch (const InputError &)
-        {
-          throw;
-        }
-      catch (const std::exception &error)
-        {
-          refuse_snapshot(path,
-                          std::string("an undamaged snapshot (") +
-                            error.what() + ")");
-        }
-    }
     /** Why a file could not be written. Collective. */
     std::string
     reason_of(const Hdf5Writer &file)
@@ -390,7 +250,7 @@ namespace Morula
     on_root(comm, [&]() { AtomicFile(path).reserve(size); });
 
     Hdf5Writer file(temporary_path(path), comm);
-    file.attribute("/", format_name, snapshot_format);
+    file.attribute("/", snapshot_format_name, snapshot_format);
     file.attribute("/", "dimension", dim);
     file.attribute("/", "time", shared.time);
     file.text("program version", shared.program_version);
@@ -433,7 +293,7 @@ namespace Morula
     // Another name than that of a snapshot which is being written.
     const std::string trial = temporary_path(path + ".trial");
     Hdf5Writer        file(trial, comm);
-    file.attribute("/", format_name, snapshot_format);
+    file.attribute("/", snapshot_format_name, snapshot_format);
     file.text("parameters", "");
     const bool        works  = file.close();
     const std::string reason = works ? "" : reason_of(file);
@@ -446,58 +306,6 @@ namespace Morula
                          "The HDF5 library says: " + reason +
                            ". Choose another directory.");
     });
-  }
-
-  template <int dim>
-  SnapshotData<dim>
-  read_snapshot(const std::string &path, const MPI_Comm comm)
-  {
-    // The seal is examined first: a damaged file must not reach the HDF5
-    // library. Each rank then opens the file by itself, reads all common parts,
-    // and its own share of the points. What one rank cannot read ends the run
-    // on all of them.
-    SnapshotData<dim> data;
-    data.file       = path;
-    const auto read = [&](const Hdf5Reader &file) {
-      const int dimension = file.attribute<int>("/", "dimension");
-      if (dimension != dim)
-        refuse_snapshot(path,
-                        "a snapshot in " + std::to_string(dim) +
-                          " dimensions (this one has " +
-                          std::to_string(dimension) + ")");
-      data.time            = file.attribute<double>("/", "time");
-      data.program_version = file.text("program version");
-      data.parameters      = file.text("parameters");
-      for (const std::string &name : file.attribute_names("numbers"))
-        data.numbers[name] = file.attribute<double>("numbers", name);
-      for (const std::string &name : file.dataset_names("tables"))
-        data.tables[name] = file.table<double>("tables/" + name);
-      for (const std::string &name : file.dataset_names("integer tables"))
-        data.integer_tables[name] = file.table<int>("integer tables/" + name);
-      data.cells            = read_points<dim>(file, "cells", comm);
-      data.boundary_points  = read_points<dim>(file, "boundary points", comm);
-      data.cell_columns     = read_columns(file, "cells");
-      data.boundary_columns = read_columns(file, "boundary points");
-      data.grid_weights     = read_weights(file, comm);
-    };
-    const SealState state = examine_seal(path, comm);
-    on_root(comm, [&]() { check_seal(path, state); });
-    everywhere(comm, [&]() { read_checked(path, read); });
-    return data;
-  }
-
-  std::string
-  read_snapshot_parameters(const std::string &path, const MPI_Comm comm)
-  {
-    std::string     parameters;
-    const SealState state = examine_seal(path, comm);
-    on_root(comm, [&]() { check_seal(path, state); });
-    everywhere(comm, [&]() {
-      read_checked(path, [&](const Hdf5Reader &file) {
-        parameters = file.text("parameters");
-      });
-    });
-    return parameters;
   }
 
   template struct SnapshotData<2>;
@@ -520,8 +328,4 @@ namespace Morula
   write_snapshot<3>(const std::string &,
                     const SnapshotData<3> &,
                     const MPI_Comm);
-  template SnapshotData<2>
-  read_snapshot<2>(const std::string &, const MPI_Comm);
-  template SnapshotData<3>
-  read_snapshot<3>(const std::string &, const MPI_Comm);
 } // namespace Morula

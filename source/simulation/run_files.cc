@@ -4,8 +4,8 @@
 #include <morula/base/available_memory.h>
 #include <morula/output/csv.h>
 #include <morula/output/vtu.h>
-#include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
+#include <morula/simulation/run_tables.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,60 +36,6 @@ namespace Morula
                                std::floor((time + steps.slack()) / interval)) +
                                1 :
                              0;
-    }
-
-    /** A row with the columns of such a run. */
-    template <int dim>
-    StatisticsRow
-    row_like(const Scene &scene, const Tables<dim> &tables)
-    {
-      StatisticsRow row;
-      for (const auto &column : tables.columns())
-        row.of_effects.emplace_back(column.name, 0.);
-      if (has_surface<dim>(scene))
-        row.surface.emplace();
-      if (effects_of<dim>(scene).development.states_error())
-        row.step_error = 0.;
-      return row;
-    }
-
-    /** Whether conditions act on the surface. */
-    bool
-    acts_on_surface(const Scene &scene)
-    {
-      const auto &choices = scene.catalogue.boundary_conditions;
-      return std::any_of(choices.begin(),
-                         choices.end(),
-                         [](const auto &choice) {
-                           return choice.keys().is_on();
-                         });
-    }
-
-    struct Table
-    {
-      std::string              name; // of the file, without ending
-      std::vector<std::string> columns;
-      // A resumed run may have it although the run began without.
-      bool may_begin_later = false;
-    };
-
-    template <int dim>
-    std::vector<Table>
-    tables_of(const Scene &scene, const Tables<dim> &of_effects)
-    {
-      std::vector<Table> tables = {
-        {"statistics", statistics_columns(row_like(scene, of_effects))},
-        {"lineage", lineage_columns(scene.cell_types.present())}};
-      if (of_effects.records_events())
-        tables.push_back(
-          {"events", event_columns({{}, of_effects.has_causes()})});
-      if (acts_on_surface(scene))
-        tables.push_back({"forces", force_columns(), true});
-      if (scene.output.condition_estimate)
-        tables.push_back({"condition", condition_columns(), true});
-      if (scene.output.newton_trace)
-        tables.push_back({"newton", newton_columns(), true});
-      return tables;
     }
 
     /** What a snapshot calls the number of a table's rows ends so. */

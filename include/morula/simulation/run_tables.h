@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_run_tables_h
+#define morula_simulation_run_tables_h
+
+#include <morula/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** A table that grows by rows as the run goes on. */
+  struct Table
+  {
+    std::string              name; // of the file, without ending
+    std::vector<std::string> columns;
+    // A resumed run may have it although the run began without.
+    bool may_begin_later = false;
+  };
+
+  /** The tables of a run of this scene. @param of_effects what its effects add
+   */
+  template <int dim>
+  std::vector<Table>
+  tables_of(const Scene &scene, const Tables<dim> &of_effects);
+} // namespace Morula
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/program/explain_effects.h>
+
+#include <iomanip>
+#include <sstream>
+
+// The effects of a scene, a line each.
+
+namespace Morula
+{
+  namespace
+  {
+    /** What a condition does at t = 0, a line for each of its parts. */
+    std::string
+    applied_lines(const Scene                         &scene,
+                  const std::vector<AppliedCondition> &applied,
+                  const std::string                   &name)
+    {
+      std::string lines;
+      for (const AppliedCondition &one : applied)
+        if (one.name == name)
+          lines += "    " + text_of(scene, one) + '\n';
+      return lines;
+    }
+
+    /** Which founders proliferate. */
+    std::string
+    of_founders(const types::particle_index n,
+                const types::particle_index n_founders,
+                const std::string          &where)
+    {
+      return n == n_founders ?
+               "all " + std::to_string(n) + " founders" :
+               std::to_string(n) + " of " + std::to_string(n_founders) +
+                 " founders, where " + where;
+    }
+
+    /** What the chosen effect's keys say, if it is one of the catalogue. */
+    template <template <int> class Interface>
+    std::string
+    details_of(const Choices<Interface> &choices, const std::string &chosen)
+    {
+      const auto *choice = find_choice(choices, chosen);
+      return choice == nullptr ? "" : choice->keys().details();
+    }
+
+    /** What a condition or force is called. */
+    template <template <int> class Interface>
+    std::string
+    topic_of(const Choice<Interface> &choice)
+    {
+      const std::string topic = choice.keys().topic();
+      return topic.empty() ? choice.name() : topic;
+    }
+
+    /** A row for each effect that its keys switch on. */
+    template <template <int> class Interface>
+    void
+    add_effects(EffectRows &rows, const Choices<Interface> &choices)
+    {
+      for (const auto &choice : choices)
+        add_effect(rows,
+                   topic_of(choice),
+                   choice.keys().is_on(),
+                   choice.keys().details());
+    }
+
+    void
+    add_fields(EffectRows &rows, const Scene &scene)
+    {
+      std::ostringstream out; // a line a field
+      for (const FieldKeys &field : scene.fields.fields)
+        {
+          out << "    " << std::left << std::setw(22) << field.name
+              << field.time.value() << ", D = " << field.diffusion.text()
+              << " um^2/day, s = " << field.production.text()
+              << ", k = " << field.consumption.text() << " /day";
+          if (!field.fixed_where.empty())
+            out << ", " << field.value.text() << " at boundary points where "
+                << field.fixed_where.text();
+          if (!field.transfer.empty())
+            out << ", transfer " << field.transfer.text() << " um/day to "
+                << field.value.text();
+          if (!field.flux_where.empty())
+            out << ", flux " << field.flux.text()
+                << " um/day in at boundary points where "
+                << field.flux_where.text();
+          out << '\n';
+        }
+      add_effect(
+        rows, "fields", scene.fields.present(), scene.fields.names, out.str());
+    }
+  } // namespace
+
+
+  void
+  add_effect(EffectRows        &rows,
+             const std::string &name,
+             const bool         on,
+             const std::string &description,
+             const std::string &further)
+  {
+    rows.push_back({name, on, on ? description : "", further});
+  }
+
+
+  void
+  print(std::ostream &out, const EffectRow &row)
+  {
+    out << "  " << std::left << std::setw(24) << row.name
+        << (row.on ? "on   " + row.description : "off") << '\n'
+        << row.further;
+  }
+
+
+  bool
+  has_checkpoint(const Scene &scene)
+  {
+    return scene.has_proliferation() &&
+           !scene.cell_cycle.size_checkpoint.is_default();
+  }
+
+
+  EffectRows
+  effect_rows(const Scene                         &scene,
+              const ConditionCounts               &counts,
+              const std::vector<AppliedCondition> &applied,
+              const types::particle_index          n_founders,
+              const types::particle_index          n_proliferating)
+  {
+    const CellCycleParameters &cycle     = scene.cell_cycle;
+    const Catalogue           &catalogue = scene.catalogue;
+    const bool                 divides   = scene.has_proliferation();
+
+    // The rows come in a fixed order: first what the library does to cells,
+    // then fields and the effects of the catalogue in its order, then
+    // properties of the material and of the numerical method. An effect that
+    // is off has a row, too: a reader sees so what he has not asked for.
+    std::ostringstream half_a_grid_cell;
+    half_a_grid_cell << 0.5 * scene.grid.spacing;
+
+    EffectRows out;
+    add_effect(out,
+               "growth",
+               scene.has_growth(),
+               scene.law_of_growth() +
+                 details_of(catalogue.growth_laws, scene.law_of_growth()));
+    add_effect(out,
+               "proliferation",
+               divides,
+               "cell cycle, T = " + cycle.duration.text() +
+                 " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
+                 of_founders(n_proliferating, n_founders, cycle.where.text()));
+    add_effect(out,
+               "size checkpoint",
+               has_checkpoint(scene),
+               "J_th = " + cycle.size_checkpoint.text());
+    add_effect(out,
+               "division (Voronoi)",
+               divides,
+               "axis = " + cycle.division_axis +
+                 details_of(catalogue.division_rules, cycle.division_axis) +
+                 (cycle.axis_follows_rotation ? ", follows rotation" : "") +
+                 (cycle.stay_inside ? ", inside the surface" : ""));
+    add_effects(out, catalogue.growth_factors);
+    add_effects(out, catalogue.fates);
+    add_fields(out, scene);
+    add_effects(out, catalogue.traits);
+    add_effects(out, catalogue.step_effects);
+    for (const auto &choice : catalogue.boundary_conditions)
+      {
+        // A condition is on if it acts somewhere: its expression may be true
+        // at no boundary point.
+        const types::particle_index n     = counts.acting.at(choice.name());
+        const AnyKey *const         where = choice.keys().switch_key();
+        add_effect(out,
+                   topic_of(choice),
+                   n > 0,
+                   "at " + std::to_string(n) + " boundary points" +
+                     (where == nullptr ? "" : ", where " + where->text()) +
+                     choice.keys().details(),
+                   applied_lines(scene, applied, choice.name()));
+      }
+    add_effects(out, catalogue.forces);
+    add_effect(out, "material", true, material_text(scene));
+    add_effect(
+      out,
+      "heterogeneous stiffness",
+      !scene.material.youngs_modulus.expression(scene.dimension).is_constant(),
+      "E = " + scene.material.youngs_modulus.text() + " kPa");
+    add_effects(out, catalogue.flows);
+    add_effect(out,
+               "surface refinement",
+               scene.tissue.refine_surface,
+               "patches longer than " + half_a_grid_cell.str() +
+                 " um are split");
+    add_effect(out,
+               "projected volume",
+               scene.material.volumetric_form() == VolumetricStrain::projected,
+               "one mean of ln J_e a grid cell");
+    add_effect(out,
+               "pooled volume",
+               scene.material.volumetric_form() == VolumetricStrain::pooled,
+               "one sum of volumes a grid cell");
+    return out;
+  }
+} // namespace Morula

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/output/events.h>
+#include <morula/output/forces.h>
+#include <morula/output/lineage.h>
+#include <morula/output/matrix_condition.h>
+#include <morula/output/newton_trace.h>
+#include <morula/output/statistics.h>
+#include <morula/scene/seeded_tissue.h>
+#include <morula/simulation/run_tables.h>
+
+#include <algorithm>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A row with the columns of such a run. */
+    template <int dim>
+    StatisticsRow
+    row_like(const Scene &scene, const Tables<dim> &tables)
+    {
+      StatisticsRow row;
+      for (const auto &column : tables.columns())
+        row.of_effects.emplace_back(column.name, 0.);
+      if (has_surface<dim>(scene))
+        row.surface.emplace();
+      if (effects_of<dim>(scene).development.states_error())
+        row.step_error = 0.;
+      return row;
+    }
+
+    /** Whether conditions act on the surface. */
+    bool
+    acts_on_surface(const Scene &scene)
+    {
+      const auto &choices = scene.catalogue.boundary_conditions;
+      return std::any_of(choices.begin(),
+                         choices.end(),
+                         [](const auto &choice) {
+                           return choice.keys().is_on();
+                         });
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<Table>
+  tables_of(const Scene &scene, const Tables<dim> &of_effects)
+  {
+    std::vector<Table> tables = {
+      {"statistics", statistics_columns(row_like(scene, of_effects))},
+      {"lineage", lineage_columns(scene.cell_types.present())}};
+    if (of_effects.records_events())
+      tables.push_back(
+        {"events", event_columns({{}, of_effects.has_causes()})});
+    if (acts_on_surface(scene))
+      tables.push_back({"forces", force_columns(), true});
+    if (scene.output.condition_estimate)
+      tables.push_back({"condition", condition_columns(), true});
+    if (scene.output.newton_trace)
+      tables.push_back({"newton", newton_columns(), true});
+    return tables;
+  }
+
+
+  template std::vector<Table>
+  tables_of(const Scene &, const Tables<2> &);
+  template std::vector<Table>
+  tables_of(const Scene &, const Tables<3> &);
+} // namespace Morula

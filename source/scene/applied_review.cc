@@ -5,6 +5,7 @@
 #include <morula/effects/growth/relaxation.h>
 #include <morula/scene/applied.h>
 
+#include <algorithm>
 #include <optional>
 
 // What is unwise in what a scene applies, and numbers of another unit.
@@ -18,6 +19,10 @@ namespace Morula
 
     /** Part of the loads that must not be left over. */
     constexpr double largest_rest = 0.01;
+
+    /** Loads without a resultant, as surface tension and the pressure of a
+     *  lumen, have one of rounding: less than this stress on their area, kPa. */
+    constexpr double rounding_stress = 1e-9;
 
     /** Young's moduli of soft tissue, kPa: brain has some tenths, cartilage
      *  some hundreds. */
@@ -92,13 +97,15 @@ namespace Morula
       if (is_held(scene, applied))
         return;
       Tensor<1, 3> sum;
-      double       magnitude = 0.;
+      double       magnitude = 0., area = 0.;
       for (const AppliedCondition &one : applied)
         {
           sum += one.force;
           magnitude += one.magnitude;
+          area += one.area;
         }
-      if (!(sum.norm() > largest_rest * magnitude))
+      if (!(sum.norm() >
+            std::max(largest_rest * magnitude, rounding_stress * area)))
         return;
       std::string text;
       for (unsigned int d = 0; d < scene.dimension; ++d)

@@ -45,6 +45,9 @@ WARNED["examples/turnover.prm"] = ["Time/Step"]
 # Its states follow its days, not its steps.
 WARNED["showcase/organoid.prm"] = ["Output/Interval"]
 
+# It is pushed and nothing holds it: that is what it is about.
+WARNED["hard/pushed-body.prm"] = ["Boundary conditions"]
+
 # Only its own program knows its growth law: tests/steps runs it.
 OTHERS = {"step-7.prm"}
 

@@ -101,7 +101,7 @@ class Computed(ProgramTest):
                         .split())
         for words in ("four to seven cells to a grid cell's edge",
                       "Fewer than three roughen the surface",
-                      "take away most of the largest error"):
+                      "takes away most of the largest error"):
             self.assertIn(words, text)
         self.assertEqual((BEST, FEWEST), ((4, 7), 3))
 

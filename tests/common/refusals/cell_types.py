@@ -29,8 +29,10 @@ CELL_TYPES = [
           "choose another one", keys={"Fields/Names": "oxygen",
                                       "Fields/oxygen/Diffusion": "1e8"}),
     wrong_type("a type that is not there", LEAVE, "type == leave", UNREADABLE,
-               'character 9: Unexpected token "leave". The variables are X, Y, '
-               "Z, t, x, y, z, generation"),
+               'character 9: Unexpected token "leave". If it is a field, '
+               "Fields/Names must have it; functions are those of muParser, "
+               "with ramp, hill and if. The variables are X, Y, Z, t, x, y, z, "
+               "generation"),
     wrong_type("a transition to itself", STEM + "Transitions/To stem", "1",
                "a key that exists",
                "That name stands in subsection Cell types/leaf/Transitions"),

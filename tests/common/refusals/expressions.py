@@ -8,8 +8,9 @@ EXPRESSIONS = [
           "> 0 kPa", "It is -24 kPa at (-24 -24 6) um. Make it positive"),
     wrong("unknown variable", "Growth/Isotropic/Stretch", "1 + 0.1*tt",
           "an expression that muParser understands",
-          'character 9: Unexpected token "tt". The variables are X, Y, Z, t, x, '
-          "y, z, generation, age", keys={"Growth/Law": "isotropic"}),
+          'character 9: Unexpected token "tt". If it is a field, Fields/Names '
+          "must have it; functions are those of muParser, with ramp, hill and "
+          "if. The variables are X, Y, Z, t, x, y, z, generation, age", keys={"Growth/Law": "isotropic"}),
     wrong("open bracket", CONDITIONS + "Slip where", "(Z <= 0",
           "an expression that muParser understands", "Missing parenthesis"),
     wrong("too few components", CONDITIONS + "Traction", "1",

@@ -91,7 +91,7 @@ namespace Morula
     growth(const CellView<dim, const double> &cell, const double t) const;
 
     /** Makes F_g = K F_c, F_c the cycle's part, into D K F_c, as if D had come
-     *  before all growth. @param t day, of the clock */
+     *  before all growth. */
     void
     absorb(const Tensor<2, dim>        &D,
            const Tensor<2, dim>        &F_g,

@@ -33,7 +33,7 @@ namespace Morula
   std::optional<Gap<dim>>
   narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
-  /** Tells of the first such gap, once. */
+  /** Tells the user of the first gap that narrowest_gap() finds, once a run. */
   template <int dim>
   class GapWatch
   {

@@ -55,8 +55,8 @@ namespace Morula
   // The surest sign comes first (doc/theory.md, section 5.10): a negative
   // energy of an unloaded body has one cause, while a fold is what is left when
   // all other causes are out. A jump shows only when the step was halved twice
-  // (part below 0.3), as a force that falls with the step needs some length to
-  // fall over.
+  // (part below 0.3), since only then it is clear that the force does not fall
+  // with the length.
   std::string
   diagnosis(const FailedStep &step)
   {

@@ -96,8 +96,8 @@ namespace Morula
     if (!exists_)
       return {};
     // The conditions of the new patches are decided here, as those of all
-    // patches at t = 0. Rank 0 makes
-    // them. It makes none where the cells have no common surface.
+    // patches at t = 0. Rank 0 makes them, and none where the cells have no
+    // common surface.
     const auto list = carved_surface<dim>(
       tissue.cells(),
       tissue.boundary_points().copy(),

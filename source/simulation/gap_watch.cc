@@ -83,15 +83,16 @@ namespace Morula
   } // namespace
 
 
-  // Each rank looks around its own boundary points, at those of other ranks as
-  // well, and finds its nearest pair; then the nearest of all ranks counts.
-  // That two points are of one piece does not say that they stick together,
-  // since the splines between them may be parted. So the unknowns of both grid
-  // cells are compared. All points are those of the configuration at t.
   template <int dim>
   std::optional<Gap<dim>>
   narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
+    // Each rank looks around its own boundary points, at those of other ranks
+    // as well, and finds its nearest pair; then the nearest of all ranks
+    // counts. That two points are of one piece does not say that they stick
+    // together, since the splines between them may be parted. So the unknowns
+    // of both grid cells are compared. All points are those of the
+    // configuration at t.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     const GridBox<dim>        &box   = space.box();
     const double               h     = box.spacing();
@@ -103,9 +104,9 @@ namespace Morula
       const Tensor<1, dim> area = store.area_vector(p);
       append_flat(list, Tensor<1, dim>(area / area.norm()));
     };
-    // Every rank sends the points that lie within two grid cells of another
-    // rank's points, with their normals. An R-tree over them finds the few that
-    // are near one point.
+    // Each rank gets the points of all ranks that lie within two grid cells of
+    // its own, with their normals. An R-tree over them finds the few that are
+    // near one point.
     const PointList<dim> near = near_points(queries,
                                             store,
                                             {dim, normal, Ties::lowest_id},
@@ -165,7 +166,7 @@ namespace Morula
           }
       }
     // Equal widths, as in a symmetric tissue, are told apart by the place: all
-    // ranks choose the same gap, whatever their number.
+    // ranks choose the same gap.
     for (const auto &other : Utilities::MPI::all_gather(comm, best))
       if (other[dim] < best[dim] || (other[dim] == best[dim] && other < best))
         best = other;

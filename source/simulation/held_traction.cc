@@ -164,8 +164,9 @@ namespace Morula
     // This computes doc/theory.md (4.6b): the stress of each cell after the
     // increment u, as a nominal stress per area of the configuration at t, is
     // averaged around each held point by moving least squares and multiplied by
-    // its normal. The motions of the cells are found first, for all cells at
-    // once, since the average asks for cells of other ranks. Collective.
+    // its normal. The motions of this rank's cells are found first, many at
+    // once by the kernel. surroundings.values() then sends stresses to the
+    // ranks that have held points nearby. Collective.
     const std::string           &kernel = model.scene.solver.kernel;
     const DisplacementField<dim> displacement(space, u, tissue.communicator());
     // Where the volumetric strain is a mean over grid cells, it makes the

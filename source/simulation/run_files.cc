@@ -222,9 +222,9 @@ namespace Morula
                       const std::vector<CellEvent>  &events)
   {
     // Files of points are written by threads meanwhile. They are listed for
-    // ParaView as soon as all ranks have written theirs. Rows of births and
-    // events are gathered from all ranks, each of which has those of its own
-    // cells; the row of statistics.csv is equal on all ranks.
+    // ParaView as soon as all ranks have written theirs. Each rank has the
+    // births and events of its own cells, which append_parts() joins; the row
+    // of statistics.csv is equal on all ranks.
     if (points.written())
       finish_points();
     row.wall_seconds = wall_seconds();
@@ -338,7 +338,7 @@ namespace Morula
   {
     // The files of the state before are finished first: there is one lot in the
     // background at a time. Then the state is entered into the series, and its
-    // files are begun; the tables are moved to the threads that write them.
+    // files are begun.
     finish_points();
     const unsigned int number = output_times.size();
     output_times.push_back(time);

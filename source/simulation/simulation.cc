@@ -49,13 +49,14 @@ namespace Morula
   void
   Simulation<dim>::step()
   {
-    // A step has three parts. Up to solve_step() nothing of the tissue's motion
-    // changes: the configuration at t has its splines and its steady fields,
-    // and the displacement is sought on them. commit() moves the tissue to t +
-    // dt, after which a failure can no longer be answered by half the step.
-    // What follows acts on the moved tissue: divisions come before deaths, so
-    // that daughters can die, and the surface follows last, as both change what
-    // it has to enclose. All calls are collective.
+    // A step has three parts. Up to solve_step() the tissue does not move: the
+    // configuration at t has its splines and its steady fields, and the
+    // displacement is sought on them. commit() moves the tissue to t + dt,
+    // after which a failure can no longer be answered by half the step. What
+    // follows acts on the moved tissue: divisions come before deaths, so that
+    // daughters can die, and the surface follows last, as both change what it
+    // has to enclose. Most of these calls are collective, so that all ranks
+    // make all of them.
     row                       = StatisticsRow();
     newton_report             = NewtonReport();
     newton_report.wants_trace = model.scene.output.newton_trace;

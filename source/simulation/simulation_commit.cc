@@ -152,10 +152,11 @@ namespace Morula
         // F is carried on by doc/theory.md (1.1).
         Tensor<2, dim> F      = cells.motions[p].f * cell.F();
         double         factor = 1.;
+        // The energy knows the volume of a grid cell, not that of each of its
+        // cells. Where that is so, det F_e of the cell becomes what its grid
+        // cell has, e^ϑ of doc/theory.md (2.6) or (2.8). The shape is that of f
+        // F.
         if (!volumes.empty())
-          // The energy knows the volume of a grid cell, not that of each of its
-          // cells. So det F_e of the cell becomes that of the grid cell's mean,
-          // while the shape is that of f F: doc/theory.md (2.6).
           factor =
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
                      1. / dim);

@@ -27,9 +27,9 @@ namespace Morula
                    const std::size_t           begin,
                    NewtonReport               &report)
     {
-      // Newton's method needs no extremes, so each evaluation has those of its
-      // rank only. One reduction for each state afterwards is cheaper than one
-      // in each evaluation.
+      // An evaluation has the extremes of its rank only, as Newton's method
+      // needs no others. The states of the trace get those of all ranks here,
+      // when the iterations are over.
       for (std::size_t i = begin; i < report.trace.size(); ++i)
         report.trace[i].evaluation.smallest_J =
           balance.smallest_J(report.trace[i].evaluation);
@@ -158,8 +158,8 @@ namespace Morula
         throw StepFailed(failure.what() +
                          (". " + balance.describe(solution.u)));
       }
-    // The pressure at the equilibrium, not that of the last renewal, is the one
-    // that the forces below and the next step see.
+    // The forces below and the next step see the pressure at the equilibrium
+    // that was found last.
     if (pressure)
       solution.lumen->pressure = pressure->pressure();
     solution.forces = forces(attempt, list, lumen, solution);
@@ -171,11 +171,6 @@ namespace Morula
   }
 
 
-  // A step that is plainly too long is halved, since that is cheaper than a
-  // path and as good. All other failures have a path to their equilibrium, as
-  // the energy has a lowest value (doc/theory.md, section 5.9). Half the step
-  // would begin with as much unbalanced force where the last state is about to
-  // fold, or where something jumps.
   template <int dim>
   Equilibrium::Evaluation
   StepEquilibrium<dim>::find(const Attempt        &attempt,
@@ -184,6 +179,11 @@ namespace Morula
                              Equilibrium::Vector  &u,
                              NewtonReport         &report) const
   {
+    // A step that is plainly too long is halved, since that is cheaper than a
+    // path and as good. All other failures have a path to their equilibrium, as
+    // the energy has a lowest value (doc/theory.md, section 5.9). Half the step
+    // would begin with as much unbalanced force where the last state is about
+    // to fold, or where something jumps.
     const Equilibrium::Vector begin(u);
     NewtonScales scales = balance.scales(attempt.typical_stiffness);
     // A later turn begins near its equilibrium: only the renewed traction is
@@ -209,10 +209,6 @@ namespace Morula
   }
 
 
-  // The terms of conditions that load are made anew, since each of them gets a
-  // row of its own. The other terms are found in the list in the order in which
-  // terms() has added them: the stress of the cells, the forces on cells, the
-  // held points.
   template <int dim>
   SurfaceForces<dim>
   StepEquilibrium<dim>::forces(const Attempt                       &attempt,
@@ -220,6 +216,10 @@ namespace Morula
                                const std::optional<Enclosure<dim>> &lumen,
                                const Solution &solution) const
   {
+    // The terms of conditions that load are made anew, since each of them gets
+    // a row of its own. The other terms are found in the list in the order in
+    // which terms() has added them: the stress of the cells, the forces on
+    // cells, the held points.
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     if (conditions.list().empty())
       return {};

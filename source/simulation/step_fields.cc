@@ -169,7 +169,8 @@ namespace Morula
                              const double            t,
                              const double            t_next)
   {
-    // The tissue moves after this call.
+    // The tissue moves after this call. What the solver has summed belongs to
+    // the places before.
     FieldsOfStep<dim> found =
       find(FieldKind::transient, tissue, space, t, t_next);
     forget_configuration();

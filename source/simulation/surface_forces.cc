@@ -114,11 +114,6 @@ namespace Morula
   }
 
 
-  // A point acts where the step has brought it, with the area and the normal
-  // that it has there, doc/theory.md (1.2). The loops go over this rank's
-  // active grid cells and the points of the group in each of them; the term
-  // gives the forces of these points in the same order. A force goes into the
-  // row and to its point, where those of several conditions add up.
   template <int dim>
   void
   ForceSums<dim>::add_row(
@@ -129,6 +124,11 @@ namespace Morula
     const double                                                     factor,
     const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects)
   {
+    // A point acts where the step has brought it, with the area and the normal
+    // that it has there, doc/theory.md (1.2). The loops go over this rank's
+    // active grid cells and the points of the group in each of them; the term
+    // gives the forces of these points in the same order. A force goes into the
+    // row and to its point, where those of several conditions add up.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     ForceRow                   row;
     row.kind = kind;
@@ -236,7 +236,8 @@ namespace Morula
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     // The enclosure's term has its points in this order. The term is the gain
-    // of volume: its residual times minus the pressure is the force of (4.8i).
+    // of volume as if that were an energy; its forces times minus the pressure
+    // are those of doc/theory.md (4.8i).
     const PointGroups groups =
       group_points(store, space, [&](const unsigned int p) {
         return lumen.acts_on(store[p].seed_position(),

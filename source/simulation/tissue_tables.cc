@@ -76,8 +76,8 @@ namespace Morula
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
-        // A cell's stress, phase and events are those of this state and not of
-        // the step that led to it.
+        // A cell's stress and phase are those of this state and not of the step
+        // that led to it.
         table.add(cells.id(p),
                   cells[p],
                   cells.position(p),

@@ -72,7 +72,8 @@ namespace Morula
               const Term<dim>  &gain,
               const double      pressure);
 
-    /** Sums over all ranks. Collective. */
+    /** The rows as sums over all ranks, and this rank's forces of points.
+     *  Collective. */
     SurfaceForces<dim>
     result() const;
 

@@ -89,7 +89,7 @@ namespace Morula
     double
     at(const unsigned int part) const;
 
-    /** Cuts the next step in two. */
+    /** Cuts the next step in two. The present time stays as it is. */
     void
     halve();
 

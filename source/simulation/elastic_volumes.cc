@@ -90,10 +90,10 @@ namespace Morula
                   const std::string            &kernel,
                   const DisplacementField<dim> &displacement)
   {
-    // The means ϑ of (2.6) or (2.8) in doc/theory.md belong to grid cells. They
-    // are found first, for the window of this rank. Each cell then takes the
-    // mean over its quadrature points if the strain is pooled, else what stands
-    // at its position.
+    // The means ϑ of doc/theory.md (2.6), (2.8) belong to grid cells. They are
+    // found first, for the window of this rank. Each cell then takes the mean
+    // over its quadrature points if the strain is pooled, else what stands at
+    // its position.
     std::vector<double>    ratios;
     const VolumetricStrain form = material.volumetric_form();
     if (form == VolumetricStrain::pointwise)

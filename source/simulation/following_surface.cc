@@ -141,11 +141,11 @@ namespace Morula
   {
     // A renewal is due by time, by loss or by stretch, and comes before
     // splitting, so that new patches are split as well where they are too long.
-    // The volumes of cells are evened out with the same relaxation time (6.9c).
-    // If splitting finds a torn surface, nothing has been split yet: the
-    // surface is made anew where the scene has a way to do so, from the points
-    // before the losses or to fit the cells (4.12f). All three ways are
-    // collective, and torn surfaces are reported on all ranks.
+    // The volumes of cells are evened out with the same relaxation time,
+    // doc/theory.md (6.9c). If splitting finds a torn surface, nothing has been
+    // split yet: the surface is made anew where the scene has a way to do so,
+    // from the points before the losses or to fit the cells (4.12f). All three
+    // ways are collective, and torn surfaces are reported on all ranks.
     if (renews())
       {
         relax_volumes_to_space(tissue,
@@ -274,8 +274,8 @@ namespace Morula
       return;
     // Merging comes before splitting: a merged patch may be longer than half a
     // grid spacing, and is split then. Both work on a copy of the points, which
-    // replaces those of the tissue only if something has changed. Equations
-    // (4.11) to (4.12d) of doc/theory.md say which patches.
+    // replaces those of the tissue only if something has changed. doc/theory.md
+    // (4.11), (4.12), (4.12b) say which patches are too long or too small.
     const TimerOutput::Scope section(timer, "surface refinement");
     PointList<dim>           points  = tissue.boundary_points().copy();
     const auto              &columns = tissue.boundary_points().columns();

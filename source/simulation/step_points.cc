@@ -108,11 +108,11 @@ namespace Morula
                       const DevelopmentOfStep<dim> &growth,
                       const TissueMaterial         &material)
     {
-      // There are three passes. Each rank cuts its cells into points, (2.2) or
-      // (2.2b) of doc/theory.md, each with its part of W, and sends them to the
-      // owners of their grid cells. The owner sorts what it gets. The last pass
-      // walks through the active grid cells and the sorted points together, and
-      // notes where the points of each grid cell end.
+      // There are three passes. Each rank cuts its cells into points by
+      // doc/theory.md (2.2), (2.2b), each with its part of W, and sends them to
+      // the owners of their grid cells. The owner sorts what it gets. The last
+      // pass walks through the active grid cells and the sorted points
+      // together, and notes where the points of each grid cell end.
       const GridBox<dim> &box = space.box();
       PointList<dim>      list(Flat<Message<dim>>::n);
       for (unsigned int i = 0; i < tissue.cells().size(); ++i)

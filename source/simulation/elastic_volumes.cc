@@ -19,14 +19,18 @@ namespace Morula
     };
 
     /** ϑ of the grid cells in this rank's window, by number there; 0 where
-     * there is no point. A cell may have part in grid cells of other ranks.
-     *  Collective. */
+     *  there is no point. Grid cells of other ranks are among them, since a
+     *  cell may have part in those. Collective. */
     template <int dim>
     std::vector<double>
     log_volume_ratios(const InternalForce<dim>     &force,
                       const SplineSpace<dim>       &space,
                       const DisplacementField<dim> &displacement)
     {
+      // Each rank evaluates the grid cells that it owns, and tells the ranks in
+      // whose windows they lie. The grid cells are numbered in the grid's box
+      // there, which is the same on all ranks, and in this rank's window in the
+      // result.
       const GridBoxes<dim> &boxes = space.occupancy().boxes();
       std::vector<Value>    values;
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
@@ -86,6 +90,10 @@ namespace Morula
                   const std::string            &kernel,
                   const DisplacementField<dim> &displacement)
   {
+    // The means ϑ of doc/theory.md (2.6), (2.8) belong to grid cells. They are
+    // found first, for the window of this rank. Each cell then takes the mean
+    // over its quadrature points if the strain is pooled, else what stands at
+    // its position.
     std::vector<double>    ratios;
     const VolumetricStrain form = material.volumetric_form();
     if (form == VolumetricStrain::pointwise)
@@ -96,7 +104,8 @@ namespace Morula
       log_volume_ratios(*internal_force(points, form, kernel),
                         space,
                         displacement);
-    if (form == VolumetricStrain::pooled) // else the mean is that of ϑ
+    // The pooled form averages volumes, the projected one their logarithms.
+    if (form == VolumetricStrain::pooled)
       for (double &value : values)
         value = std::exp(value);
     ratios.reserve(tissue.cells().size());

@@ -21,7 +21,7 @@ namespace Morula
      *  a grid cell no longer match. */
     constexpr double mismatch = 3.;
 
-    /** A held point with such a J_e is crushed. */
+    /** A held point with a smaller J_e is crushed. */
     constexpr double crushed_J = 0.01;
 
     std::string
@@ -52,8 +52,11 @@ namespace Morula
   } // namespace
 
 
-  // The order is that of how sure a sign is: a negative energy of an unloaded
-  // body has one cause, a fold is what is left.
+  // The surest sign comes first (doc/theory.md, section 5.10): a negative
+  // energy of an unloaded body has one cause, while a fold is what is left when
+  // all other causes are out. A jump shows only when the step was halved twice
+  // (part below 0.3), since only then it is clear that the force does not fall
+  // with the length.
   std::string
   diagnosis(const FailedStep &step)
   {
@@ -101,6 +104,7 @@ namespace Morula
                    const double h,
                    const double dt)
   {
+    // This is doc/theory.md (5.8).
     return -curvature * E * dt / (h * h);
   }
 } // namespace Morula

@@ -24,19 +24,21 @@ namespace Morula
      *  made anew at once. */
     constexpr double largest_loss = 0.01;
 
-    /** And |F|/√dim that a point may have come to since then: more is no motion
-     *  of the tissue, but of a point that it has left behind. */
+    /** The largest |F|/√dim that a point may have come to since the surface was
+     *  made. More is no motion of the tissue, but of a point that it has left
+     *  behind. */
     constexpr double largest_stretch = 1.5;
 
-    /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
-     *  patches' vectors do not quite add up to nothing. */
+    /** The largest |Σ a n|/Σ a of a surface that counts as closed. On coarse
+     *  surfaces the patches' vectors do not quite add up to nothing. */
     constexpr double largest_opening = 0.02;
 
-    /** By how much the volume that the surface of flowing tissue encloses may
-     *  differ from the cells', relative to what it was at t = 0. */
+    /** The largest change of q/q₀ in doc/theory.md (4.12f): of the part of the
+     *  cells' volume that the surface of flowing tissue encloses. */
     constexpr double largest_misfit = 0.01;
 
-    /** Whether a boundary point has a larger |F|. Collective. */
+    /** Whether a boundary point of any rank has a larger |F| than that.
+     *  Collective. */
     template <int dim>
     bool
     is_stretched(const Tissue<dim> &tissue)
@@ -77,6 +79,8 @@ namespace Morula
   std::optional<double>
   FollowingSurface<dim>::begin(Tissue<dim> &tissue)
   {
+    // No place counts as crowded at the start: there is no occupancy yet, and
+    // the surface is not crumpled.
     refine(tissue, [](const Point<dim> &) { return false; });
     const SurfaceFit fit = surface_fit(tissue);
     if (fit.opening > largest_opening || !(fit.enclosed > 0.))
@@ -91,6 +95,9 @@ namespace Morula
   {
     if (!exists_)
       return {};
+    // The conditions of the new patches are decided here, as those of all
+    // patches at t = 0. Rank 0 makes them, and none where the cells have no
+    // common surface.
     const auto list = carved_surface<dim>(
       tissue.cells(),
       tissue.boundary_points().copy(),
@@ -132,6 +139,13 @@ namespace Morula
                                 const double                 t,
                                 const double                 dt)
   {
+    // A renewal is due by time, by loss or by stretch, and comes before
+    // splitting, so that new patches are split as well where they are too long.
+    // The volumes of cells are evened out with the same relaxation time,
+    // doc/theory.md (6.9c). If splitting finds a torn surface, nothing has been
+    // split yet: the surface is made anew where the scene has a way to do so,
+    // from the points before the losses or to fit the cells (4.12f). All three
+    // ways are collective, and torn surfaces are reported on all ranks.
     if (renews())
       {
         relax_volumes_to_space(tissue,
@@ -165,12 +179,17 @@ namespace Morula
                                      const double share,
                                      const bool   is_torn)
   {
+    // The length ℓ of doc/theory.md (4.12f) is known first, as it measures both
+    // the distance at which points have left the cells and the smoothness of
+    // the new surface. Points that are left alone are pulled back at the end,
+    // whether the surface is new or not.
     const SurfaceFit fit = surface_fit(tissue);
     const auto       n =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
     if (n == 0)
       return;
-    // No spline sees what is smaller than half a grid spacing, or than a cell.
+    // No spline sees what is smaller than half a grid spacing. Nothing that is
+    // smaller than a cell is a feature of the surface.
     const double length =
       std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
@@ -205,6 +224,9 @@ namespace Morula
                                       const double          t,
                                       const double          dt)
   {
+    // Times of renewal are multiples of the interval: one is due if the step
+    // has passed or met a multiple. The slack lets a step that ends within
+    // rounding of it count. Losses are those of all ranks.
     const double every = model.scene.tissue.renew_surface;
     const double slack = model.scene.time.slack();
     const bool   is_due =
@@ -223,6 +245,10 @@ namespace Morula
                                const PointList<dim> &former,
                                const SurfaceWish    &wish)
   {
+    // Rank 0 makes the surface from the cells of all ranks, so that it does not
+    // depend on their number. It has all points until replace_surface() sends
+    // them to their owners. Without a list, where the cells have no common
+    // surface, the old one stays.
     const TimerOutput::Scope   section(timer, "surface renewal");
     const BoundaryPoints<dim> &points = tissue.boundary_points();
     const auto                 list   = renewed_surface(tissue.cells(),
@@ -246,6 +272,10 @@ namespace Morula
   {
     if (!model.scene.tissue.refine_surface)
       return;
+    // Merging comes before splitting: a merged patch may be longer than half a
+    // grid spacing, and is split then. Both work on a copy of the points, which
+    // replaces those of the tissue only if something has changed. doc/theory.md
+    // (4.11), (4.12), (4.12b) say which patches are too long or too small.
     const TimerOutput::Scope section(timer, "surface refinement");
     PointList<dim>           points  = tissue.boundary_points().copy();
     const auto              &columns = tissue.boundary_points().columns();

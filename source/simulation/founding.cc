@@ -19,6 +19,10 @@ namespace Morula
                 const CellReader<dim>               &reader,
                 FirstPoints<dim>                    &points)
     {
+      // The row of the founder is complete before any effect sees it: an effect
+      // checks the cell that will be in the first step, and refuses what it
+      // cannot handle. The founder is added to the cells and to lineage.csv,
+      // where it has no mother (-1).
       const Point<dim>            X     = founders.positions[i];
       const types::particle_index id    = founders.first_id + i;
       std::vector<double>         row   = founder_row(model.development,
@@ -56,6 +60,10 @@ namespace Morula
         const SeededTissue<dim> &seeded,
         const MPI_Comm           comm)
   {
+    // Founders come first, as an effect may refuse one of them; patches cannot
+    // fail. Each rank has a part of both, numbered from first_id on, so that
+    // ids do not depend on who has which part. The points may lie anywhere:
+    // Tissue::place() sends them to the owners of their grid cells later.
     const Founders<dim>       &founders = seeded.founders;
     const SurfacePatches<dim> &patches  = seeded.surface;
     const BoundaryColumns<dim> boundary = model.boundary_columns();
@@ -65,6 +73,8 @@ namespace Morula
                                       {}};
     points.cells.reserve(founders.positions.size());
     points.births.reserve(founders.positions.size());
+    // The distance to the surface needs the patches of all ranks, so that the
+    // call is collective. The loop below is not, and may throw on one rank.
     const auto surface =
       near_surface_of(model.development.state(), founders, patches, comm);
     const CellReader<dim> reader = model.development.reader(0.);
@@ -74,6 +84,8 @@ namespace Morula
     });
     for (std::size_t i = 0; i < patches.positions.size(); ++i)
       {
+        // The condition of a patch is decided here, once for the whole run: it
+        // depends on the initial position and normal only.
         const Point<dim>          X   = patches.positions[i];
         const Tensor<1, dim>      N   = patches.normals[i];
         const std::vector<double> row = boundary.initial_point(

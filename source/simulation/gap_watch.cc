@@ -22,11 +22,14 @@ namespace Morula
 {
   namespace
   {
-    /** Cosine of the angle between a normal and the way to the other side, and
-     *  minus that of two normals, at least. */
+    /** The least cosine of the angle between a normal and the way to the other
+     *  side, and of that between one normal and the other one turned round:
+     *  the two sides need not be quite parallel. Neighbours on one side never
+     *  count, as their normals point the same way. */
     constexpr double least_cosine = 0.8;
 
-    /** Grid spacings over which splines of one copy reach. */
+    /** The width of the widest gap across which the splines of one copy reach,
+     *  in grid spacings. */
     constexpr double widest = 2.;
 
     /** Whether two boundary points look at each other through empty space. */
@@ -43,7 +46,8 @@ namespace Morula
              way * m < -least_cosine * length && n * m < -least_cosine;
     }
 
-    /** The unknowns of this rank's grid cells, sorted, by number. */
+    /** The unknowns of this rank's grid cells, by the grid cell's number,
+     * sorted to be intersected. */
     template <int dim>
     class Unknowns
     {
@@ -79,13 +83,16 @@ namespace Morula
   } // namespace
 
 
-  // Each rank looks around its own points, at those of other ranks as well; of
-  // all ranks' pairs the nearest counts. That two points are of one piece does
-  // not say that they stick together: the splines between them may be parted.
   template <int dim>
   std::optional<Gap<dim>>
   narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
+    // Each rank looks around its own boundary points, at those of other ranks
+    // as well, and finds its nearest pair; then the nearest of all ranks
+    // counts. That two points are of one piece does not say that they stick
+    // together, since the splines between them may be parted. So the unknowns
+    // of both grid cells are compared. All points are those of the
+    // configuration at t.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     const GridBox<dim>        &box   = space.box();
     const double               h     = box.spacing();
@@ -97,6 +104,9 @@ namespace Morula
       const Tensor<1, dim> area = store.area_vector(p);
       append_flat(list, Tensor<1, dim>(area / area.norm()));
     };
+    // Each rank gets the points of all ranks that lie within two grid cells of
+    // its own, with their normals. An R-tree over them finds the few that are
+    // near one point.
     const PointList<dim> near = near_points(queries,
                                             store,
                                             {dim, normal, Ties::lowest_id},
@@ -105,6 +115,8 @@ namespace Morula
     const auto           tree = pack_rtree_of_indices(near.positions);
     const Unknowns<dim>  unknowns(space);
 
+    // The place and the width stand in one array of numbers, so that ranks can
+    // exchange it.
     std::array<double, dim + 1> best;
     best.fill(0.);
     best[dim] = std::numeric_limits<double>::max();
@@ -128,6 +140,9 @@ namespace Morula
               !face(x, n, y, near.template value<Tensor<1, dim>>(i)))
             return false;
           const auto there = box.number(box.locate(y));
+          // The unknowns of a grid cell are known to its owner only. Where the
+          // other point is on another rank, only a gap below one grid spacing
+          // counts.
           return unknowns.has(here) && unknowns.has(there) ?
                    unknowns.are_shared(here, there) :
                    width < h;
@@ -139,6 +154,8 @@ namespace Morula
              found != tree.qend();
              ++found)
           {
+            // The search excludes pairs that are farther than the best one when
+            // it comes to them. The best one may have changed since then.
             const Point<dim> &y     = near.positions[*found];
             const double      width = x.distance(y);
             if (width >= best[dim])
@@ -148,6 +165,8 @@ namespace Morula
             best[dim] = width;
           }
       }
+    // Equal widths, as in a symmetric tissue, are told apart by the place: all
+    // ranks choose the same gap.
     for (const auto &other : Utilities::MPI::all_gather(comm, best))
       if (other[dim] < best[dim] || (other[dim] == best[dim] && other < best))
         best = other;
@@ -173,6 +192,8 @@ namespace Morula
                       const SplineSpace<dim> &space,
                       const double            t)
   {
+    // Without a surface, or when the user knows, no rank searches. Both are the
+    // same on all ranks, so that none waits in the search.
     if (has_told || Utilities::MPI::sum<double>(tissue.boundary_points().size(),
                                                 tissue.communicator()) == 0.)
       return;

@@ -18,9 +18,9 @@ namespace Morula
 {
   namespace
   {
-    /** Change of the traction, relative to it, that needs no further turn; and
-     *  in units of Solver/Newton tolerance, so that who asks for more gets it.
-     */
+    /** The largest change of the traction, relative to it, that needs no
+     * further turn. The second limit is in units of Solver/Newton tolerance, so
+     * that a user who asks for more accuracy gets it. */
     constexpr double largest_change = 0.01, largest_in_tolerances = 1e4;
 
     /** The largest part of the traction that a turn may change, if it may not
@@ -32,8 +32,10 @@ namespace Morula
      *  the penalty then counts on this times their stiffness at t. */
     constexpr double stiffening_of_jump = 10.;
 
-    /** After so many turns a change of more than this part of the one before
-     *  shows that the traction does not settle. */
+    /** After so many turns a change that is larger than this part of the one
+     *  before shows that the traction does not settle: at 0.8 a turn
+     *  the fourteen turns that are left of a step's twenty would leave a
+     *  twentieth of it. */
     constexpr unsigned int patient_turns = 6;
     constexpr double       settling      = 0.8;
 
@@ -92,6 +94,10 @@ namespace Morula
     , in_parts(in_parts)
     , surroundings(held_places(tissue, space), tissue)
   {
+    // All lists here have the order of held_groups(): this rank's held points
+    // by active grid cell. Normals and areas are those at t, as the terms
+    // integrate over that configuration. Points away from the cells lose their
+    // traction (4.13).
     const std::vector<unsigned int> points = held_groups(tissue, space).points;
     const std::vector<double>       attached =
       attachment(held_places(tissue, space), tissue);
@@ -126,7 +132,10 @@ namespace Morula
   std::vector<double>
   HeldTraction<dim>::stiffnesses() const
   {
-    // k = n·K n for all n, but for laws with a C, where it is an upper bound.
+    // This is the k of doc/theory.md (4.6). The tensor K of each cell is
+    // averaged first, so that k = n·K n for any normal n. For laws with a C
+    // that is not exact but an upper bound, which only makes the penalty
+    // larger. The growth is that at t, as F is.
     const auto          K = surroundings.values([&](const unsigned int p) {
       const auto           cell = tissue.cells()[p];
       const Tensor<2, dim> F_g =
@@ -152,16 +161,23 @@ namespace Morula
   std::vector<Tensor<1, dim>>
   HeldTraction<dim>::tractions_of(const Equilibrium::Vector &u) const
   {
+    // This computes doc/theory.md (4.6b): the stress of each cell after the
+    // increment u, as a nominal stress per area of the configuration at t, is
+    // averaged around each held point by moving least squares and multiplied by
+    // its normal. The motions of this rank's cells are found first, many at
+    // once by the kernel. surroundings.values() then sends stresses to the
+    // ranks that have held points nearby. Collective.
     const std::string           &kernel = model.scene.solver.kernel;
     const DisplacementField<dim> displacement(space, u, tissue.communicator());
-    // J_e of the grid cell, if that makes the pressure.
+    // Where the volumetric strain is a mean over grid cells, it makes the
+    // pressure. The vector is empty otherwise.
     const std::vector<double> volumes = elastic_volumes(
       tissue, space, growth, model.material, kernel, displacement);
     const std::vector<PointMotion<dim>> motions =
       point_motions(tissue.cells(),
                     displacement,
                     motion_kernel<dim>(model.material.material(), kernel));
-    // (W / V_t) τ f⁻ᵀ of the cells
+    // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t + dt.
     const auto P = surroundings.values([&](const unsigned int p) {
       const auto           cell = tissue.cells()[p];
       const Tensor<2, dim> F_g =
@@ -190,6 +206,10 @@ namespace Morula
   bool
   HeldTraction<dim>::renew(const Equilibrium::Vector &u)
   {
+    // The change is a mean over the held area of all ranks, so that all decide
+    // alike. Three outcomes end the turns or go on: the traction has settled;
+    // it does not settle although it was changed in parts; or it is taken over,
+    // as a whole or in part, for the next turn (doc/theory.md, section 4.2).
     const std::vector<Tensor<1, dim>> now = tractions_of(u);
     double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
     for (std::size_t k = 0; k < held.size(); ++k)
@@ -208,11 +228,12 @@ namespace Morula
         std::min(largest_change,
                  largest_in_tolerances * model.scene.solver.newton_tolerance))
       return false;
-    // What is not settled is balanced all the same, with a gap that the step's
-    // check of gaps judges.
+    // The traction need not settle where it is changed in parts. The forces are
+    // balanced all the same, with a gap that the step's check of gaps judges.
     if (in_parts && ++n_turns >= patient_turns && change > settling * before)
       return false;
-    // In its place, as the term keeps a reference.
+    // The values are changed in place, as the term keeps a reference to the
+    // list.
     const double part = in_parts ? std::min(1., largest_step / change) : 1.;
     for (std::size_t k = 0; k < held.size(); ++k)
       T[k] += part * (now[k] - T[k]);

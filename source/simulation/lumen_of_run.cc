@@ -12,7 +12,8 @@ namespace Morula
 {
   namespace
   {
-    /** Of the lumen's volume. Solver/Newton tolerance limits it as well. */
+    /** The relative error of the lumen's volume at which turns end. What is
+     * left after a turn also depends on Solver/Newton tolerance. */
     constexpr double volume_tolerance = 1e-8;
 
     /** Compression modulus of the content whose pressure is being found, over
@@ -35,6 +36,8 @@ namespace Morula
               const Tissue<dim>      &tissue,
               NamedNumbers           &kept)
   {
+    // The first pressure of a lumen that keeps its volume is a guess, 0, from
+    // which the turns of the first step begin; that of a gas is given.
     const Lumen<dim> *lumen = model.boundary_conditions.lumen();
     if (lumen != nullptr)
       keep_lumen({enclosed_volume(lumen_patches(*lumen, tissue),
@@ -79,6 +82,10 @@ namespace Morula
                 const double       volume,
                 const double       typical_stiffness)
   {
+    // A gas has p = p₀V₀/V, which needs only the product. Where the volume is
+    // given the content is that of a compressible fluid, doc/theory.md (4.8j),
+    // which begins with the pressure of the step before: a good guess saves
+    // turns.
     EnclosedContent content;
     if (!lumen.keeps_volume())
       {
@@ -113,6 +120,10 @@ namespace Morula
   bool
   LumenPressure<dim>::renew(const Equilibrium::Vector &u)
   {
+    // Two volumes are at hand: V, which the energy of the step counts, and that
+    // of the moved points (4.8g), which has to be the wanted one. Both are sums
+    // over all ranks. A gas needs no second turn, as its pressure follows from
+    // V at once.
     const TimerOutput::Scope section(timer, "lumen");
     const MPI_Comm           comm = tissue.communicator();
     const double             V    = balance.enclosed_volume(u);
@@ -125,9 +136,9 @@ namespace Morula
     error = after / wanted - 1.;
     if (std::abs(error) <= volume_tolerance)
       return false;
-    // The pressure moves on, and the volume of the step, by which the energy
-    // counts, is corrected by what that of the moved points has more:
-    // doc/theory.md (4.8j).
+    // The next turn begins at the pressure of this one. Its target is a volume
+    // V, so that the difference between the two volumes is taken off what is
+    // wanted: doc/theory.md (4.8j).
     content.pressure_at_target = pressure_;
     content.target             = wanted - (after - V);
     return true;

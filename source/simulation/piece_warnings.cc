@@ -21,7 +21,8 @@ namespace Morula
                            const BackgroundGrid<dim> &grid,
                            const double               t)
   {
-    // It is told of once, and not looked for any more.
+    // The user is told of the first place only. After that no step looks for
+    // another one, which would cost a search; all ranks know the same.
     const auto place = has_joined ? std::nullopt : watch.joined(space, grid);
     if (place)
       {
@@ -47,6 +48,8 @@ namespace Morula
                             const MPI_Comm          comm,
                             const double            t)
   {
+    // Only pieces with cells count. The count of the first step has nothing to
+    // be compared with.
     if (!counts)
       return;
     const unsigned int n = pieces_with_cells(space, comm);

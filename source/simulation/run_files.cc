@@ -38,7 +38,8 @@ namespace Morula
                              0;
     }
 
-    /** What a snapshot calls the number of a table's rows ends so. */
+    /** A snapshot calls the number of a table's rows by the table's name and
+     * this suffix. */
     const std::string rows_suffix = "_rows";
 
     /** The rows of a table that a snapshot counts. */
@@ -89,6 +90,12 @@ namespace Morula
                                 scene.time))
     , points(comm)
   {
+    // The lock is taken first, so that a second run in this directory fails
+    // before it touches anything. A snapshot that could not be written is found
+    // out now and not after hours. A resumed run checks its tables before it
+    // cuts any file; a new one removes the files of an earlier run. Tables that
+    // the earlier part of the run did not have begin here. Messages come last,
+    // as they need log.txt.
     lock.emplace(scene.output_directory, comm);
     try_snapshot(path("snapshot.h5"), comm);
     if (resumed_from)
@@ -141,6 +148,8 @@ namespace Morula
   void
   RunFiles<dim>::warn_of_missing_states()
   {
+    // The series counts all states of the run. If an earlier part has written
+    // another format, ParaView's lists are without those states.
     for (const std::string format : {"vtu", "csv"})
       {
         if (!has_format(format))
@@ -164,7 +173,9 @@ namespace Morula
   RunFiles<dim>::continue_tables(const Tables<dim>       &of_effects,
                                  const SnapshotData<dim> &resumed_from)
   {
-    // All tables are checked before the first of them is cut.
+    // The first pass checks all tables, the second one cuts them to the rows
+    // that the snapshot counts. So a table that does not fit leaves all others
+    // whole.
     for (const bool check : {true, false})
       for (const Table &table : tables_of(scene, of_effects))
         {
@@ -210,6 +221,10 @@ namespace Morula
                       const std::vector<Birth<dim>> &births,
                       const std::vector<CellEvent>  &events)
   {
+    // Files of points are written by threads meanwhile. They are listed for
+    // ParaView as soon as all ranks have written theirs. Each rank has the
+    // births and events of its own cells, which append_parts() joins; the row
+    // of statistics.csv is equal on all ranks.
     if (points.written())
       finish_points();
     row.wall_seconds = wall_seconds();
@@ -261,6 +276,7 @@ namespace Morula
   bool
   RunFiles<dim>::output_due(const double time, const bool last) const
   {
+    // The first state is always written, and the last one.
     const double interval = scene.output.interval;
     return last || output_times.empty() ||
            (interval > 0. &&
@@ -271,6 +287,8 @@ namespace Morula
   bool
   RunFiles<dim>::snapshot_due(const double time, const bool last) const
   {
+    // The clock comes last: the conditions before it are equal on all ranks, so
+    // that either all ranks go on to its collective call or none.
     const double interval = scene.output.snapshot_interval;
     return last ||
            (interval > 0. &&
@@ -282,7 +300,8 @@ namespace Morula
   bool
   RunFiles<dim>::snapshot_due_by_clock() const
   {
-    // Of the time that the run takes, snapshots take this part at most.
+    // Snapshots take this part of the run's time at most. So the time between
+    // two of them is at least 19 times as long as the last one took.
     constexpr double largest_part = 0.05;
     const double     minutes      = scene.output.snapshot_minutes;
     if (minutes == 0.)
@@ -290,6 +309,7 @@ namespace Morula
     const bool due =
       clock.wall_time() - last_snapshot >=
       std::max(60. * minutes, (1. / largest_part - 1.) * snapshot_seconds);
+    // The clocks of ranks differ; that of rank 0 decides.
     return Utilities::MPI::broadcast(comm, due, 0);
   }
 
@@ -316,6 +336,9 @@ namespace Morula
                               PointFields<dim> surface,
                               const double     time)
   {
+    // The files of the state before are finished first: there is one lot in the
+    // background at a time. Then the state is entered into the series, and its
+    // files are begun.
     finish_points();
     const unsigned int number = output_times.size();
     output_times.push_back(time);
@@ -335,7 +358,8 @@ namespace Morula
     };
     add("cells", std::move(cells));
     add("surface", std::move(surface));
-    // What waits must not be what is too much for the next step.
+    // Tables that wait in memory must not be what is too much for the next
+    // step. Where memory is short the files are finished at once.
     points.start(std::move(files), memory_is_short(comm));
     if (!points.pending())
       list_points();
@@ -369,19 +393,23 @@ namespace Morula
   void
   RunFiles<dim>::write_snapshot(SnapshotData<dim> data, TimerOutput &timer)
   {
+    // A snapshot claims the outputs before it, so their files are finished
+    // first. Then the tables are brought to the disk, counted, and the snapshot
+    // is written as the last one: whenever the machine fails, what the snapshot
+    // counts is there.
     if (points.pending())
       {
         const TimerOutput::Scope section(timer, "output");
         finish_points();
       }
-    // Before the section begins, since deal.II cannot sum up a timer while a
-    // section is open.
+    // The times are summed up before the section begins, since deal.II cannot
+    // do it while a section is open.
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
     const double             begin = clock.wall_time();
     next_snapshot =
       next_multiple(data.time, scene.output.snapshot_interval, scene.time);
-    // What the snapshot counts must be on the disk before it.
+    // A table that is behind its count could not be continued.
     for (auto &[name, table] : tables)
       {
         table.sync();
@@ -425,6 +453,7 @@ namespace Morula
                         const double         error_in_time,
                         const TimerOutput   &timer)
   {
+    // The lock goes last: until then no other run may touch the files.
     finish_points();
     progress->finish(
       {outcome,

@@ -15,6 +15,12 @@ namespace Morula
               const RunState         &state,
               const bool              has_boundary_ids)
   {
+    // What a step needs of the steps before it is stored, by names: numbers
+    // first, then the box of the grid and the weights of its last partition
+    // (they decide owners and the order of sums, so that a resumed run has the
+    // same bits), then this rank's points with the layout of their columns.
+    // Integers up to 2^53 are exact as numbers. Numbers that only some scenes
+    // have are left out elsewhere.
     SnapshotData<dim> data;
     data.program_version = MORULA_VERSION;
     data.time            = time_steps.time;
@@ -56,6 +62,9 @@ namespace Morula
   void
   restore_tissue(SnapshotData<dim> &data, Tissue<dim> &tissue)
   {
+    // The box is the same on all ranks; each rank has a part of the weights, so
+    // that only some ranks may find a wrong one. Tissue::restore() makes the
+    // same grid and partition as before, which needs numbers inside the box.
     const std::vector<int> &box_first = data.integer_table("box_first", dim);
     const std::vector<int> &box_n     = data.integer_table("box_n", dim);
     GridIndex<dim>          first, n;
@@ -92,7 +101,8 @@ namespace Morula
             data.number("step_begin"),
             static_cast<unsigned int>(data.number("step_part")),
             static_cast<unsigned int>(data.number("step_level")),
-            // Where nothing follows the state, older snapshots are as good.
+            // Snapshots of older versions do not have this. Without it the
+            // first step compares nothing with the step before.
             data.numbers.count("last_step_begin") > 0 ?
               data.number("last_step_begin") :
               data.time,
@@ -107,6 +117,8 @@ namespace Morula
                   const bool               has_boundary_ids,
                   const NamedNumbers      &kept)
   {
+    // What a snapshot must have is read by number(), which refuses one without
+    // it; what only some scenes or later versions store is looked for.
     RunState state;
     state.next_id    = data.number("next_id");
     state.n_steps    = data.number("steps");
@@ -117,7 +129,7 @@ namespace Morula
     for (auto &[name, value] : state.kept)
       if (data.numbers.count(name) > 0)
         value = data.number(name);
-    // Snapshots of versions that did not know it are without it.
+    // Snapshots of versions that did not know the share do not have it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
     if (data.numbers.count("step_error") > 0)

@@ -16,11 +16,13 @@ namespace Morula
 {
   namespace
   {
-    /** A row with the columns of such a run. */
+    /** A row with the columns that a run of this scene has. */
     template <int dim>
     StatisticsRow
     row_like(const Scene &scene, const Tables<dim> &tables)
     {
+      // The values do not matter: a column exists where the row has a value for
+      // it.
       StatisticsRow row;
       for (const auto &column : tables.columns())
         row.of_effects.emplace_back(column.name, 0.);
@@ -49,6 +51,9 @@ namespace Morula
   std::vector<Table>
   tables_of(const Scene &scene, const Tables<dim> &of_effects)
   {
+    // The first tables follow from what acts in the scene, which a resumed run
+    // cannot change. The others follow from keys that it may change, or came
+    // with a later version: they may begin later.
     std::vector<Table> tables = {
       {"statistics", statistics_columns(row_like(scene, of_effects))},
       {"lineage", lineage_columns(scene.cell_types.present())}};

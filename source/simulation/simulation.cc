@@ -23,13 +23,14 @@ namespace Morula
 {
   namespace
   {
-    /** A step that is plainly too long is halved so often before a proximal
-     * path is tried. An eighth of it hardly is too long any more: then
-     * something jumps. */
+    /** The number of times that a plainly too long step is halved before a
+     * proximal path is tried. An eighth of such a step hardly is too long any
+     * more: if it fails too, something jumps (doc/theory.md, section 5.9). */
     constexpr unsigned int most_plain_halves = 3;
 
 
-    /** Whether a condition has killed cells that are gone already. */
+    /** Whether some cells were killed by a condition in this step and are gone
+     *  already. Local to the rank. */
     bool
     cuts(const std::vector<CellEvent> &events)
     {
@@ -48,6 +49,14 @@ namespace Morula
   void
   Simulation<dim>::step()
   {
+    // A step has three parts. Up to solve_step() the tissue does not move: the
+    // configuration at t has its splines and its steady fields, and the
+    // displacement is sought on them. commit() moves the tissue to t + dt,
+    // after which a failure can no longer be answered by half the step. What
+    // follows acts on the moved tissue: divisions come before deaths, so that
+    // daughters can die, and the surface follows last, as both change what it
+    // has to enclose. Most of these calls are collective, so that all ranks
+    // make all of them.
     row                       = StatisticsRow();
     newton_report             = NewtonReport();
     newton_report.wants_trace = model.scene.output.newton_trace;
@@ -60,20 +69,28 @@ namespace Morula
     const SplineSpace<dim> space = splines();
     pieces.look(space, tissue.grid(), time_steps.time());
     gaps.look(tissue, space, time_steps.time());
-    // Those of t = 0 stand in the first row.
+    // The fields of t = 0 are known already: begin() needs them for the first
+    // row of statistics.csv.
     if (run_state.n_steps > 1)
       find_fields(
         [&]() { fields.set_steady(tissue, space, time_steps.time()); });
     for_step_effects(&StepEffect<dim>::before, time_steps.time(), 0.);
+    // The length of the step has to be known before growth is computed for it,
+    // but after the fields, as growth may depend on them.
     adapt_step();
-    const auto   solution = solve_step(space);
-    const double mu       = error_of_step(growth_of_step.missed_growth);
+    const auto solution = solve_step(space);
+    // commit() empties growth_of_step and sets the missed flow of this step, so
+    // the error of the step before is read here.
+    const double mu = error_of_step(growth_of_step.missed_growth);
     commit(space, solution);
     if (model.development.states_error())
       {
         row.step_error = mu;
         run_state.error.add(mu);
       }
+    // The displacement is extrapolated beyond the outermost cells and carries
+    // boundary points away there, doc/theory.md (4.13). A surface that is kept
+    // near its cells in follow_surface() has a rule of its own for such points.
     if (!surface.restores(run_state.enclosed_share))
       {
         const TimerOutput::Scope section(timer, "strays");
@@ -83,6 +100,8 @@ namespace Morula
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept();
     divide();
+    // A new surface may need the points that leave with dead cells, to know
+    // which conditions its patches had.
     const PointList<dim> former = surface.before_losses(tissue);
     remove_the_dead();
     count(space);
@@ -98,6 +117,8 @@ namespace Morula
                                     const double       t,
                                     const double       dt)
   {
+    // The effects change the tissue and the kept numbers in the order of the
+    // scene's list, each in a section of its own in timings.csv.
     for (const auto &[name, effect] : model.step_effects)
       {
         const TimerOutput::Scope section(timer, name);
@@ -113,7 +134,10 @@ namespace Morula
     if (model.scene.time.tolerance <= 0.)
       return;
     const TimerOutput::Scope section(timer, "growth");
-    std::vector<double>      missed;
+    // Each rank evaluates its own cells and may meet an expression without a
+    // value; everywhere() lets all ranks throw then. error_of_step() makes one
+    // number of all ranks' cells, so that all of them choose the same length.
+    std::vector<double> missed;
     everywhere(comm, [&]() {
       missed = model.development.missed_growth(tissue,
                                                time_steps.time(),
@@ -126,6 +150,9 @@ namespace Morula
   double
   Simulation<dim>::error_of_step(const std::vector<double> &missed) const
   {
+    // This is the μ of doc/theory.md (5.10). What was missed of flow is known
+    // at the end of a step and waits in run_state, what was missed of growth is
+    // known only here.
     if (!model.development.states_error())
       return 0.;
     return run_state.error.flow +
@@ -143,13 +170,17 @@ namespace Morula
   {
     if (first_splines)
       {
-        // The cells are where they were when the first row was written.
+        // begin() has made these splines for the first row, and the cells have
+        // not moved since then.
         SplineSpace<dim> space = std::move(*first_splines);
         first_splines.reset();
         return space;
       }
     const TimerOutput::Scope section(timer, "grid");
-    tissue.defragment(); // here, where a step holds least memory
+    // A step holds the least memory here, before its matrix exists.
+    tissue.defragment();
+    // Where the volumetric strain is a mean over grid cells, points on grid
+    // lines belong to all grid cells around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
   }
@@ -158,6 +189,12 @@ namespace Morula
   typename StepEquilibrium<dim>::Solution
   Simulation<dim>::solve_step(const SplineSpace<dim> &space)
   {
+    // The loop halves the step until an attempt succeeds. What does not depend
+    // on the step's length (the supports of rigid motions, the splines) is made
+    // once before it; StepFailed arrives on all ranks together, so that all go
+    // round the loop equally often. The inner try block sees failures that a
+    // shorter step can cure, the outer one those of the scene, which end the
+    // run.
     try
       {
         typename StepEquilibrium<dim>::Supports supports;
@@ -175,6 +212,9 @@ namespace Morula
             }
           catch (const StepFailed &failure)
             {
+              // Whether half a step begins with half the unbalanced force tells
+              // in the end why the step failed; so the first attempt is
+              // remembered.
               if (row.rejected_steps == 0)
                 first_attempt = {time_steps.next() - time_steps.time(),
                                  newton_report.first_residual};
@@ -187,7 +227,7 @@ namespace Morula
       }
     catch (const InputError &error)
       {
-        // an expression without a value at this time
+        // An expression has no value at this time.
         give_up(model.scene.located(error.what()));
       }
   }
@@ -196,6 +236,9 @@ namespace Morula
   typename StepEquilibrium<dim>::Solution
   Simulation<dim>::try_step(const StepEquilibrium<dim> &equilibrium)
   {
+    // Growth is known before the equilibrium is sought (doc/theory.md, section
+    // 6), and depends on the length of the step: it is computed anew in each
+    // attempt and committed only with the one that succeeds.
     const double t = time_steps.time(), t_next = time_steps.next();
     if (model.development.present())
       {
@@ -204,7 +247,8 @@ namespace Morula
           growth_of_step =
             model.development.of_step(tissue, t, t_next, time_steps.past());
         });
-        // Of the step's cells, so that a resumed run has the same.
+        // The stiffness is taken from the cells as they are in this step, since
+        // a resumed run knows no earlier ones and has to find the same value.
         if (model.material.depends_on_state())
           typical_stiffness =
             model.typical_stiffness(tissue, growth_of_step, comm);
@@ -224,6 +268,9 @@ namespace Morula
   void
   Simulation<dim>::find_fields(const std::function<void()> &find)
   {
+    // Before the first step no state is worth saving, and an invalid expression
+    // is an error of the input. Later the last good state is saved before the
+    // run ends.
     const bool has_begun = run_state.n_steps > 0;
     try
       {
@@ -250,7 +297,11 @@ namespace Morula
   {
     if (model.development.cycle() == nullptr)
       return;
-    const TimerOutput::Scope        section(timer, "division");
+    const TimerOutput::Scope section(timer, "division");
+    // Each rank lists its own cells that are due. divide() communicates, as
+    // daughters are placed between cells of other ranks and get ids in an order
+    // of all ranks' events; so it is called on all ranks if any has a cell that
+    // is due.
     const std::vector<unsigned int> due =
       cells_due(tissue, model.development, time_steps.time());
     row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
@@ -271,6 +322,10 @@ namespace Morula
   {
     if (!model.development.is_mortal())
       return;
+    // The boundary points are counted before and after the removal: those of
+    // lost tissue go with it, and a large loss opens the surface. A cut also
+    // changes what the next step has to balance, so that its length is chosen
+    // anew.
     const TimerOutput::Scope section(timer, "removal");
     const auto               n_points = [&]() {
       return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
@@ -280,9 +335,12 @@ namespace Morula
     const std::vector<CellEvent> removals = remove_dead_cells(
       tissue, model.development, time_steps.time(), model.fields.carried());
     events.insert(events.end(), removals.begin(), removals.end());
-    // The surface is open where it was cut, unless it is made anew.
+    // A cut surface stays open unless the scene renews it. What it encloses
+    // is no measure any more.
     if (surface.is_cut(n_before, n_points()))
       run_state.enclosed_share.reset();
+    // The events are those of this rank's cells. The length of a step is the
+    // same on all ranks.
     if (Utilities::MPI::logical_or(cuts(events), comm))
       time_steps.begin_anew();
   }
@@ -303,7 +361,9 @@ namespace Morula
       }
     catch (const SurfaceTorn &error)
       {
-        // This step is done; the next one could not be.
+        // The tissue has moved already, so the step counts and gets its row.
+        // The next one could not be done without a surface. give_up() takes one
+        // off the count of steps, which is therefore raised first.
         complete_row();
         write_rows();
         ++run_state.n_steps;

@@ -45,6 +45,10 @@ namespace Morula
           const Motion                 &limit,
           const MPI_Comm                comm)
     {
+      // The positions are clipped to the limit here, while F is not: the caller
+      // decides with the motions whether a point deforms. The largest motions
+      // are those of all ranks, as they are the limit for other points. Nothing
+      // is written yet.
       Moved<dim> result;
       result.motions = point_motions(store, displacement, find_motions);
       result.positions.reserve(store.size());
@@ -98,6 +102,13 @@ namespace Morula
     const SplineSpace<dim>                        &space,
     const typename StepEquilibrium<dim>::Solution &solution)
   {
+    // The first part only computes: the motions of cells and boundary points
+    // and the check that they still fit on a grid, so that a run that gives up
+    // saves the state at t. Then growth is committed, after it F (which needs
+    // the new F_g where volumes are means over grid cells), then transient
+    // fields, which are diluted by the new volumes. tissue.move() comes last:
+    // it sends points to the ranks that own their new grid cells and sorts
+    // them, so that p means another point behind it.
     const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, solution.u, comm);
     const std::vector<double>    volumes =
@@ -111,8 +122,9 @@ namespace Morula
       motion_kernel<dim>(model.material.material(), model.scene.solver.kernel);
     const Moved<dim> cells =
       moved(tissue.cells(), displacement, find_motions, Motion(), comm);
-    // Where the surface stands off from the cells the field is extrapolated: no
-    // reason to move farther, or to deform more, than the cells do. See also
+    // The displacement is extrapolated where the surface stands off from the
+    // cells. That is no reason for it to move farther, or to deform more, than
+    // the cells do: doc/theory.md, section 4.6. See also
     // pull_back_detached_points().
     const Motion     limit{2. * cells.largest.u + space.box().spacing(),
                        2. * cells.largest.f};
@@ -127,16 +139,23 @@ namespace Morula
 
     const double t = time_steps.time(), t_next = time_steps.next();
     const bool   has_transient = model.fields.any(FieldKind::transient);
-    const Rows   before        = has_transient ? rows_of(tissue) : Rows();
+    // The equations of transient fields are solved with the new volumes on the
+    // splines of the step, so they can fail when the cells have changed
+    // already. The rows of the cells are kept to go back.
+    const Rows before = has_transient ? rows_of(tissue) : Rows();
     model.development.commit(tissue, growth_of_step, t, t_next);
     std::vector<double> missed_flow(cells.positions.size(), 0.);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
         const double volume = model.fields.present() ? cell.volume() : 0.;
-        // doc/theory.md (1.1)
+        // F is carried on by doc/theory.md (1.1).
         Tensor<2, dim> F      = cells.motions[p].f * cell.F();
         double         factor = 1.;
+        // The energy knows the volume of a grid cell, not that of each of its
+        // cells. Where that is so, det F_e of the cell becomes what its grid
+        // cell has, e^ϑ of doc/theory.md (2.6) or (2.8). The shape is that of f
+        // F.
         if (!volumes.empty())
           factor =
             std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
@@ -144,13 +163,17 @@ namespace Morula
         F *= factor;
         cell.set(cell.columns().deformation, F);
         const Tensor<2, dim> f = factor * cells.motions[p].f;
+        // The forecast of this step's motion is compared with the motion before
+        // remember_motion() overwrites what it was made from.
         missed_flow[p] =
           model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
         model.development.remember_motion(cell, f);
         if (model.fields.present())
           model.fields.dilute(cell, cell.volume() / volume);
       }
-    // Diluted first, so that a fixed value is not low by what grows in a step.
+    // The concentrations are diluted before the equation is solved: a value
+    // that is held at the surface would otherwise be too low by what grows in a
+    // step (doc/theory.md, section 11.4).
     FieldsOfStep<dim> of_step;
     find_fields([&]() {
       try
@@ -159,7 +182,8 @@ namespace Morula
         }
       catch (...)
         {
-          set_rows(tissue, before); // the state that is saved is that of t
+          // give_up() saves the cells, which have to be those at t.
+          set_rows(tissue, before);
           throw;
         }
     });
@@ -169,6 +193,8 @@ namespace Morula
         tissue,
         [&](const unsigned int p) { return missed_flow[p]; },
         std::pow(model.scene.tissue.cell_spacing, dim));
+    // A boundary point keeps its F where the extrapolated f is too large or
+    // turns it inside out; its position has moved all the same.
     for (unsigned int p = 0; p < surface.positions.size(); ++p)
       if (surface.motions[p].f.norm() <= limit.f &&
           determinant(surface.motions[p].f) > 0.)

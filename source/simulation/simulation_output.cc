@@ -31,6 +31,7 @@ namespace Morula
   CellQuantities
   Simulation<dim>::quantities(const unsigned int p) const
   {
+    // The reader evaluates expressions of the cells with the present time.
     const CellReader<dim> reader = model.development.reader(time_steps.time());
     return present_cell(tissue, p, reader).quantities();
   }
@@ -56,6 +57,10 @@ namespace Morula
   void
   Simulation<dim>::describe_state()
   {
+    // set_state() sums over the cells of all ranks and clears the columns of
+    // the effects. The loop fills these columns from two sources: events, which
+    // are counted over all ranks, and numbers of the step, which are equal on
+    // all ranks already.
     row.step = run_state.n_steps;
     set_state(model, tissue, time_steps.time(), row);
     if (model.development.is_mortal())
@@ -73,13 +78,17 @@ namespace Morula
     if (surface.exists())
       row.surface = surface_fit(tissue);
     if (model.development.states_error() && !row.step_error)
-      row.step_error = 0.; // of the first row
+      // No step has led to the first row, but the column exists from it on.
+      row.step_error = 0.;
   }
 
   template <int dim>
   void
   Simulation<dim>::complete_row()
   {
+    // The row joins the state at the end of the step with the work that
+    // Newton's method had in all attempts. The messages are given once a run;
+    // what they depend on is equal on all ranks, as message() is collective.
     const TimerOutput::Scope section(timer, "statistics");
     describe_state();
     row.newton_iterations = newton_report.newton_iterations;
@@ -108,6 +117,7 @@ namespace Morula
   std::uint64_t
   Simulation<dim>::count(const EventKind &kind) const
   {
+    // Each rank holds the events of its own cells.
     const std::uint64_t n =
       std::count_if(events.begin(), events.end(), [&kind](const auto &event) {
         return event.kind == kind;
@@ -119,6 +129,8 @@ namespace Morula
   bool
   Simulation<dim>::surface_misfits() const
   {
+    // Loads on the surface and fields that enter through it are wrong by as
+    // much as the surface misfits. The user is told from 5 % on.
     return run_state.enclosed_share && row.cells > 0 &&
            std::abs(row.surface->share() / *run_state.enclosed_share - 1.) >
              0.05;
@@ -128,11 +140,15 @@ namespace Morula
   void
   Simulation<dim>::write_rows()
   {
+    // The rows of one step go to all tables together: a snapshot counts the
+    // rows of each, and a resumed run cuts them there.
     const TimerOutput::Scope section(timer, "rows");
     files->step(row, births, events);
     if (condition)
       files->condition(run_state.n_steps, row.time - row.dt, *condition);
-    condition.reset(); // one row a step, also where the run ends here
+    // There is one row a step. The next step makes an estimate of its own only
+    // if it finds none.
+    condition.reset();
     if (model.scene.output.newton_trace)
       files->newton(run_state.n_steps, newton_report.trace);
   }
@@ -141,6 +157,8 @@ namespace Morula
   void
   Simulation<dim>::output(const bool last)
   {
+    // The snapshot comes last: it waits for the files of points and counts the
+    // rows of the tables, so that they belong to it.
     const double t = time_steps.time();
     if (files->writes_points() && files->output_due(t, last))
       {
@@ -159,6 +177,7 @@ namespace Morula
   SnapshotData<dim>
   Simulation<dim>::snapshot() const
   {
+    // Boundary points get new ids where patches are split or made anew.
     return snapshot_of(tissue,
                        time_steps.state(),
                        run_state,

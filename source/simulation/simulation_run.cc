@@ -65,6 +65,11 @@ namespace Morula
   void
   Simulation<dim>::seed(const SeededTissue<dim> &seeded)
   {
+    // The cells and boundary points get their first state and then their ranks:
+    // place() makes the grid and sends points to the owners of their grid
+    // cells. The surface is refined before anything is measured on it: the
+    // lumen's volume and the carriers of held points belong to the refined
+    // points. No file is touched, as begin() opens them.
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births   = std::move(points.births);
@@ -85,6 +90,11 @@ namespace Morula
   void
   Simulation<dim>::restore()
   {
+    // All checks come before the tissue is filled: a snapshot of another scene,
+    // or with other columns, is refused with its key. The run's numbers and the
+    // place in the sequence of steps are restored before the tissue, whose
+    // points are moved out of the snapshot. The state is then described, so
+    // that last_row() is right before the first step.
     const std::string path = model.scene.output_directory + "/snapshot.h5";
     check_resumable(model.scene, read_snapshot_parameters(path, comm));
     resumed_from = read_snapshot<dim>(path, comm);
@@ -109,6 +119,8 @@ namespace Morula
   {
     if (model.development.cycle() == nullptr)
       return;
+    // A resumed run may have another Time/Step, with which a phase of the cycle
+    // can be too short for a step. Each rank checks the cells that it owns.
     std::vector<Point<dim>> founders;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       founders.push_back(tissue.cells().founder_position(p));
@@ -121,6 +133,11 @@ namespace Morula
   void
   Simulation<dim>::run(const std::function<void()> &observe)
   {
+    // begin() opens the files and writes the first rows, so a run that has
+    // ended already must not reach it. Signals are recorded from then on, as
+    // there is something to save. Failures inside the loop also go to log.txt.
+    // A step is complete when its rows are written: output() may write a
+    // snapshot that counts them.
     if (resumed_from && must_stop())
       {
         if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -152,6 +169,12 @@ namespace Morula
   void
   Simulation<dim>::begin()
   {
+    // A new run still has to make its first row: steady fields are found on the
+    // first splines, as carving, the axes of founders and the columns of the
+    // row may depend on them. Carving changes the tissue, and the fields with
+    // it, so they are found again on new splines. The splines are kept for the
+    // first step, which begins in the same configuration. A resumed run has its
+    // rows already.
     files.emplace(model.scene, model.tables, resumed_from, clock, comm);
     if (!resumed_from)
       {
@@ -162,16 +185,19 @@ namespace Morula
           find_fields([&]() {
             fields.set_steady(tissue, *first_splines, time_steps.time());
           });
-          fields.forget_configuration(); // the splines will stand elsewhere
+          // Carving or the first step makes the solver anew.
+          fields.forget_configuration();
         };
         find_steady();
-        // Founders that are in a cycle were given their axes without fields.
+        // Founders that are in a cycle have got their axes when no field was
+        // known yet. An axis may depend on one.
         if (model.fields.any(FieldKind::steady))
           for (unsigned int p = 0; p < tissue.cells().size(); ++p)
             model.development.choose_first_axis(
               present_cell(tissue, p, model.development.reader(0.)),
               tissue.cell(p));
-        // What is carved may depend on the fields, and they on what is left.
+        // The fields decide what is carved, and what is left decides the
+        // fields.
         if (carve())
           find_steady();
         begin_step_effects();
@@ -184,6 +210,8 @@ namespace Morula
     else
       begin_step_effects();
     resumed_from.reset();
+    // What holds at the beginning already needs no message from a step on: the
+    // user was told of it before the run, or by the run before.
     warned_of_long_cells = row.lengths.n_too_long > 0;
     warned_of_misfit     = surface_misfits();
   }
@@ -204,6 +232,10 @@ namespace Morula
   {
     if (!model.development.is_mortal())
       return false;
+    // Removal leaves holes in the surface where boundary points have gone with
+    // the cells. The surface is closed first; what is measured on it, or on the
+    // cells that are left, is then found again. All ranks go the same way, as
+    // the count is that of all.
     events = Morula::carve(tissue, model.development);
     if (count(CellEvent::removal) == 0)
       return false;
@@ -222,6 +254,8 @@ namespace Morula
       {
         steps();
       }
+    // Memory has run out on this rank alone. The program's main function tells
+    // of it and ends all ranks.
     catch (const std::bad_alloc &)
       {
         throw;
@@ -233,8 +267,9 @@ namespace Morula
       }
     catch (const std::exception &error)
       {
-        // Also an expression without a value at some later time: the scene had
-        // been accepted, so this is no longer bad input but a run that failed.
+        // An expression without a value at some later time arrives here, too:
+        // the scene had been accepted, so this is no longer bad input but a run
+        // that failed.
         std::ostringstream text;
         text << "At t = " << time_steps.time() << " day: " << error.what();
         files->fail(text.str());
@@ -260,6 +295,8 @@ namespace Morula
   bool
   Simulation<dim>::must_stop() const
   {
+    // The cells are counted over all ranks only where their number can end the
+    // run: the sum is a collective call in each step.
     const auto limit = model.scene.time.stop_at_cells;
     if (time_steps.finished())
       return true;
@@ -274,6 +311,8 @@ namespace Morula
   void
   Simulation<dim>::stop_if_asked(const StopSignals &signals)
   {
+    // received() is collective and gives all ranks the same number, so that
+    // they write the snapshot together.
     const int signal = signals.received();
     if (signal == 0)
       return;
@@ -286,9 +325,11 @@ namespace Morula
   void
   Simulation<dim>::give_up(const std::string &reason)
   {
-    --run_state.n_steps; // not done
+    // The step was counted when it began, but it is not done.
+    --run_state.n_steps;
     files->write_snapshot(snapshot(), timer);
-    // Behind the snapshot, as the step is repeated when the run is resumed.
+    // These rows follow the snapshot, which must not count them: a resumed run
+    // repeats the step and writes its own.
     if (condition)
       files->condition(run_state.n_steps + 1, time_steps.time(), *condition);
     if (model.scene.output.newton_trace)
@@ -301,6 +342,8 @@ namespace Morula
   double
   Simulation<dim>::largest_held_displacement() const
   {
+    // Each rank looks at its own held points, and their expressions may have no
+    // value at t + dt.
     double largest = 0.;
     everywhere(comm, [&]() {
       for (const auto &point : held_points(model.boundary_conditions,
@@ -316,6 +359,11 @@ namespace Morula
   FailedStep
   Simulation<dim>::failed_step() const
   {
+    // The signs of doc/theory.md, section 5.10, come from three places: the
+    // cells at t, which the failed attempts have not changed; the report of the
+    // last attempt; and the first attempt, whose unbalanced force is what that
+    // of the last one is compared with. Both forms of Nitsche's method stay
+    // false where nothing is held.
     StatisticsRow before;
     set_state(model, tissue, time_steps.time(), before);
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
@@ -340,6 +388,8 @@ namespace Morula
     step.loaded = conditions.has(SurfaceCondition::loaded) ||
                   !model.forces.empty() ||
                   model.boundary_conditions.lumen() != nullptr;
+    // The friction is that for the whole step, as the user would set it, and
+    // not for the last halved attempt.
     step.friction = friction_against(step.curvature,
                                      typical_stiffness,
                                      model.scene.grid.spacing,
@@ -351,6 +401,10 @@ namespace Morula
   void
   Simulation<dim>::give_up_step(const std::string &reason)
   {
+    // The message names the step, the reason of its last attempt and the
+    // diagnosis before general advice. Points that are moved by more than half
+    // a grid spacing even in the smallest step hint at a displacement that
+    // jumps.
     std::ostringstream text;
     text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()

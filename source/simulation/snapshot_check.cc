@@ -17,7 +17,7 @@ namespace Morula
     std::set<std::string>
     may_differ(const Scene &scene)
     {
-      // the keys that Method stands for are compared by themselves
+      // Method is a name for several keys, which are compared by themselves.
       std::set<std::string> paths = {scene.method.path(),
                                      scene.output_directory.path(),
                                      scene.time.end_time.path(),
@@ -33,6 +33,8 @@ namespace Morula
     std::map<std::string, std::string>
     values(const std::string &parameters, const std::string &name)
     {
+      // Comments and includes are no statements of this kind, so that only
+      // values are compared.
       std::istringstream                 input(parameters);
       std::map<std::string, std::string> map;
       for (const Statement &statement : read_statements(input, name))
@@ -45,8 +47,10 @@ namespace Morula
   void
   check_resumable(const Scene &scene, const std::string &parameters)
   {
-    // The program that wrote the snapshot may not have had a key yet. Then the
-    // key's default counts: a new key's default is what was done before.
+    // Both scenes become maps from key to value. The program that wrote the
+    // snapshot may not have had a key yet. Then the key's default counts, as
+    // the default of a new key is what was done before. Keys that are gone are
+    // looked for first: they have no value to be compared with.
     auto before = values(parameters, "the snapshot's scene");
     before.merge(
       values(scene.with_defaults().parameters(), "the default scene"));
@@ -62,6 +66,7 @@ namespace Morula
     const std::set<std::string> may = may_differ(scene);
     for (const auto &[path, value] : now)
       {
+        // Numbers are compared as such: 1 and 1.0 are the same value.
         if (may.count(path) > 0 || same_value(before.at(path), value))
           continue;
         throw InputError(

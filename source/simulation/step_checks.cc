@@ -17,6 +17,8 @@ namespace Morula
           const PointStore<dim>        &store,
           const MPI_Comm                comm)
   {
+    // f is taken at each point's own position, in the configuration at t. The
+    // sum makes all ranks agree, so that they reject the step together.
     unsigned int inverted = 0;
     displacement.at_points(store,
                            [&](const unsigned int,
@@ -36,6 +38,7 @@ namespace Morula
             const double         largest_gap,
             const double         h)
   {
+    // The extremes are those of all ranks, so that all throw.
     if (largest_gap == 0. || extremes.largest_gap <= largest_gap * h)
       return;
     std::ostringstream text;
@@ -54,6 +57,11 @@ namespace Morula
                       const GridBox<dim>            &box,
                       const MPI_Comm                 comm)
   {
+    // The box around all points follows from one reduction: the largest
+    // coordinates, and the largest of the negative ones for the lower corner.
+    // Its grid cells are counted as a floating-point number, as an integer
+    // could overflow just where this matters. A rank without points leaves the
+    // box alone.
     constexpr double    infinity = std::numeric_limits<double>::infinity();
     std::vector<double> reach(2 * dim, -infinity);
     for (const auto *points : {&cells, &boundary_points})
@@ -73,6 +81,10 @@ namespace Morula
         n_grid_cells *= (upper[d] - lower[d]) / box.spacing() + 1.;
       }
     const double n_cells = Utilities::MPI::sum(1. * cells.size(), comm);
+    // Tables over two million grid cells fit in any memory, and tissue of many
+    // cells may have more of them, also where it is as sparse as one cell in
+    // 100. The third bound lets a step double the box in each of three
+    // directions.
     if (n_grid_cells <= std::max(2e6 + 100. * n_cells, 8. * box.size()))
       return "";
     std::ostringstream text;

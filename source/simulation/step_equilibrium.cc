@@ -27,6 +27,9 @@ namespace Morula
                    const std::size_t           begin,
                    NewtonReport               &report)
     {
+      // An evaluation has the extremes of its rank only, as Newton's method
+      // needs no others. The states of the trace get those of all ranks here,
+      // when the iterations are over.
       for (std::size_t i = begin; i < report.trace.size(); ++i)
         report.trace[i].evaluation.smallest_J =
           balance.smallest_J(report.trace[i].evaluation);
@@ -64,7 +67,8 @@ namespace Morula
     Solution solution = balance(attempt, points, report, condition);
 
     // A large cell is several quadrature points, but deforms as the field does
-    // at its own position: no energy has kept that from turning inside out.
+    // at its own position. The energy does not see this position and has not
+    // kept it from turning inside out.
     if (points.subdivided &&
         inverts(DisplacementField<dim>(space, solution.u, comm),
                 tissue.cells(),
@@ -82,6 +86,12 @@ namespace Morula
     NewtonReport                     &report,
     std::optional<ConditionEstimate> &condition) const
   {
+    // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
+    // turn by turn (5.6), and reads the forces out of the terms. The held
+    // traction comes before the terms, which keep a reference to it, and is
+    // predicted after them from the start of the displacement, before the first
+    // residual needs it. The report is completed in both outcomes, as the
+    // diagnosis of a failed step reads it.
     const double                     stiffness = attempt.typical_stiffness;
     std::optional<HeldTraction<dim>> traction;
     if (model.boundary_conditions.has_dirichlet() &&
@@ -110,6 +120,9 @@ namespace Morula
                       {}};
     if (traction)
       traction->predict(solution.u);
+    // The participants hold their quantities fixed while Newton's method runs
+    // and renew them at its end: the lumen its pressure (4.8j), the held points
+    // their traction (4.6b).
     std::optional<LumenPressure<dim>> pressure;
     std::vector<TurnParticipant *>    participants;
     if (lumen)
@@ -137,12 +150,16 @@ namespace Morula
     catch (const StepFailed &failure)
       {
         share_extremes(balance, n_traced, report);
+        // The failed state is evaluated once more: its energy and smallest J_e
+        // are signs of what went wrong.
         Equilibrium::Vector R(solution.u);
         report.failed_at            = balance.residual(solution.u, R);
         report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
         throw StepFailed(failure.what() +
                          (". " + balance.describe(solution.u)));
       }
+    // The forces below and the next step see the pressure at the equilibrium
+    // that was found last.
     if (pressure)
       solution.lumen->pressure = pressure->pressure();
     solution.forces = forces(attempt, list, lumen, solution);
@@ -154,10 +171,6 @@ namespace Morula
   }
 
 
-  // A step that is plainly too long is halved: that is cheaper than a path, and
-  // as good. All other failures have a path to their equilibrium, as the energy
-  // has a lowest value; half the step would begin with as much unbalanced force
-  // where the last state is about to fold, or where something jumps.
   template <int dim>
   Equilibrium::Evaluation
   StepEquilibrium<dim>::find(const Attempt        &attempt,
@@ -166,10 +179,16 @@ namespace Morula
                              Equilibrium::Vector  &u,
                              NewtonReport         &report) const
   {
+    // A step that is plainly too long is halved, since that is cheaper than a
+    // path and as good. All other failures have a path to their equilibrium, as
+    // the energy has a lowest value (doc/theory.md, section 5.9). Half the step
+    // would begin with as much unbalanced force where the last state is about
+    // to fold, or where something jumps.
     const Equilibrium::Vector begin(u);
     NewtonScales scales = balance.scales(attempt.typical_stiffness);
-    // A later turn begins with what the renewed traction has changed, and need
-    // not be balanced more exactly than the first one.
+    // A later turn begins near its equilibrium: only the renewed traction is
+    // not balanced. Forces count as small in relation to those of the first
+    // turn, or it would be balanced more exactly than that one.
     if (report.place.turn > 1 && !attempt.lumen)
       scales.small_force = std::max(scales.small_force, report.first_residual);
     try
@@ -181,6 +200,8 @@ namespace Morula
       {
         if (attempt.halve_first && balance.is_far_from(begin, u))
           throw;
+        // Newton's method may have left u anywhere. The path starts from the
+        // last state that is known to be good.
         u = begin;
         return follow_proximal_path(
           balance, linear, scales, model.scene.solver, timer, u, report);
@@ -188,8 +209,6 @@ namespace Morula
   }
 
 
-  // The terms of conditions that load are made anew, apart from each other;
-  // that of the points that are held stands behind those of the cells.
   template <int dim>
   SurfaceForces<dim>
   StepEquilibrium<dim>::forces(const Attempt                       &attempt,
@@ -197,6 +216,10 @@ namespace Morula
                                const std::optional<Enclosure<dim>> &lumen,
                                const Solution &solution) const
   {
+    // The terms of conditions that load are made anew, since each of them gets
+    // a row of its own. The other terms are found in the list in the order in
+    // which terms() has added them: the stress of the cells, the forces on
+    // cells, the held points.
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     if (conditions.list().empty())
       return {};
@@ -227,6 +250,8 @@ namespace Morula
   {
     if (!attempt.lumen)
       return {};
+    // The volume is found by all ranks together. The content may need
+    // expressions, which can fail on one rank.
     const TimerOutput::Scope section(timer, "lumen");
     const Lumen<dim>        &lumen = *model.boundary_conditions.lumen();
     Enclosure<dim>           found = enclosure(lumen, tissue, space, comm);
@@ -245,6 +270,9 @@ namespace Morula
   std::optional<Equilibrium::Vector>
   StepEquilibrium<dim>::start(const Attempt &attempt) const
   {
+    // Where a clamp moves, Newton's method starts with the tissue going along,
+    // doc/theory.md (4.14). From u = 0 it may not converge where the clamp
+    // moves by a grid spacing.
     if (!model.boundary_conditions.has_dirichlet())
       return {};
     std::vector<HeldPoint<dim>> points;
@@ -265,7 +293,7 @@ namespace Morula
     const LinearProblem              &linear,
     std::optional<ConditionEstimate> &condition) const
   {
-    // Once a step, in its first attempt.
+    // The estimate is made once a step, in its first attempt.
     if (!model.scene.output.condition_estimate || condition)
       return;
     const TimerOutput::Scope section(timer, "condition estimate");
@@ -279,12 +307,18 @@ namespace Morula
                               const MaterialPoints<dim> &points,
                               const HeldTraction<dim>   *traction) const
   {
+    // The list has the terms of doc/theory.md (2.1) that the scene calls for:
+    // the stress of the cells first, then forces on cells, held points (4.2) or
+    // (4.6a), and loads. forces() relies on this order. All loads are taken at
+    // t + dt, as the equilibrium is that of the step's end, while readers of
+    // cells see the state at t.
     const double t = attempt.t_next;
     TermList     list;
     list.push_back(internal_force(points,
                                   model.material.volumetric_form(),
                                   model.scene.solver.kernel));
-    // Expressions may have no value at this time: then all ranks must know.
+    // Expressions may have no value at this time on some ranks; all ranks must
+    // then throw together.
     const auto add = [&](const std::string &name, const auto &make) {
       const TimerOutput::Scope section(timer, name);
       everywhere(comm, [&]() { list.push_back(make()); });
@@ -328,6 +362,9 @@ namespace Morula
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     if (!conditions.has(SurfaceCondition::loaded))
       return;
+    // The groups of loaded points are shared by all conditions and made by the
+    // first of them, inside its section of the timer. A condition that does
+    // nothing at this time gives no term.
     std::optional<LoadedPoints<dim>> points;
     for (const auto &named : conditions.list())
       if (named.condition->kind() == SurfaceCondition::loaded)
@@ -353,6 +390,8 @@ namespace Morula
   std::unique_ptr<Term<dim>>
   StepEquilibrium<dim>::weak_drag(const double typical_stiffness) const
   {
+    // This is doc/theory.md (4.8f) with one stiffness η V⁰ for each cell, in
+    // the order of cell_positions().
     const double        h   = space.box().spacing();
     const double        eta = Drag<dim>::least * typical_stiffness / (h * h);
     std::vector<double> stiffnesses;
@@ -367,6 +406,9 @@ namespace Morula
   typename StepEquilibrium<dim>::MassList
   StepEquilibrium<dim>::masses() const
   {
+    // The cells stand in the order of their grid cells. The piece of a grid
+    // cell is that of all its cells, so that each piece gets its own rigid
+    // motions.
     const Cells<dim> &cells = tissue.cells();
     MassList          list;
     for (const auto &grid_cell : cells.grid_cells())
@@ -382,6 +424,9 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {
+    // Obstacles may hold motions that no support is known of before the step.
+    // With them nothing is projected out, and the weak drag (4.8f) decides
+    // instead of (4.10).
     if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");

@@ -14,6 +14,7 @@ namespace Morula
   void
   ErrorInTime::add(const double mu)
   {
+    // This is the sum in doc/theory.md (5.10).
     changes += std::abs(mu - last) / 6.;
     last = mu;
   }
@@ -32,7 +33,9 @@ namespace Morula
                    const std::function<double(const unsigned int)> &number,
                    const double                                     scale)
   {
-    // 2^23 cells of 2^10 typical volumes do not overflow.
+    // Sums of integers do not depend on their order, and so not on the number
+    // of ranks. With units of 2^-30 typical volumes and at most 2^10 of these a
+    // cell, 2^23 cells of the largest size do not overflow 64 bits.
     constexpr double units  = 1u << 30;
     constexpr double most   = 1024.;
     std::int64_t     all[2] = {0, 0};

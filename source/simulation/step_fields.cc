@@ -12,8 +12,8 @@ namespace Morula
 {
   namespace
   {
-    /** A linear solver with a timer of its own: the rows of the linear solver
-     *  in timings.csv are those of Newton's method. */
+    /** A linear solver with a timer of its own, which nobody reads: the rows of
+     *  the linear solver in timings.csv are those of Newton's method. */
     struct SilentSolver
     {
       SilentSolver(const SolverParameters &parameters,
@@ -30,7 +30,8 @@ namespace Morula
     make_solver_of(const SolverParameters &parameters)
     {
       return [&parameters](const LinearProblem &problem) -> SolveLinear {
-        // Functions are copied; a preconditioner is not.
+        // The function that is returned may be copied, while the solver with
+        // its preconditioner may not. So copies share one solver.
         const auto own = std::make_shared<SilentSolver>(parameters, problem);
         return [own](const Equilibrium::Matrix &A,
                      Equilibrium::Vector       &x,
@@ -38,6 +39,7 @@ namespace Morula
                      const double               tolerance) {
           unsigned int iterations = 0;
           own->solver.solve(A, x, b, tolerance, iterations);
+          // A solver that had to shift the matrix has solved another problem.
           return !own->solver.has_shifted();
         };
       };
@@ -71,6 +73,11 @@ namespace Morula
                         const double            t,
                         const double            t1)
   {
+    // The first call in a configuration makes the solver, with the sums over
+    // cells and the surface that all fields share. Each solution is then looked
+    // at for what the user should know: negative values that were cut off
+    // (doc/theory.md, section 11.3), and fields that are inexact. Collective;
+    // the solution is equal on all ranks as far as these warnings ask.
     if (!model.fields.any(kind))
       return {};
     const TimerOutput::Scope section(timer, "fields");
@@ -148,7 +155,8 @@ namespace Morula
                               const double            t)
   {
     model.fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
-    // What it has made serves the others in the same configuration.
+    // The transient fields of this step use the same configuration, and then
+    // the same solver. Without any nothing else will ask for it.
     if (!model.fields.any(FieldKind::transient))
       forget_configuration();
   }
@@ -161,6 +169,8 @@ namespace Morula
                              const double            t,
                              const double            t_next)
   {
+    // The tissue moves after this call. What the solver has summed belongs to
+    // the places before.
     FieldsOfStep<dim> found =
       find(FieldKind::transient, tissue, space, t, t_next);
     forget_configuration();
@@ -181,6 +191,7 @@ namespace Morula
   StepFields<dim>::describe(const Tissue<dim> &tissue,
                             NamedNumbers      &columns) const
   {
+    // Before the first call of find() nothing was clipped.
     const std::vector<FieldTotals> totals = model.fields.totals(tissue);
     for (std::size_t k = 0; k < totals.size(); ++k)
       {

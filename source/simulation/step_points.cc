@@ -16,7 +16,8 @@ namespace Morula
 {
   namespace
   {
-    /** A quadrature point's part of MaterialPoints. */
+    /** What MaterialPoints has of one quadrature point: A = F F_g⁻¹ and W, with
+     *  the growth at t + dt and, for the first tangent, that at t. */
     template <int dim>
     struct PointData
     {
@@ -48,7 +49,8 @@ namespace Morula
                growth.lame[i];
     }
 
-    /** Its data but for those. */
+    /** The data of the cell's quadrature points without λ and μ, which need not
+     *  be known for each cell where they are uniform. */
     template <int dim>
     PointData<dim>
     data_of(const Tissue<dim>            &tissue,
@@ -82,7 +84,7 @@ namespace Morula
         points.previous.push_back(data.previous);
     }
 
-    /** Of n quadrature points per edge. */
+    /** The number of points of a cell that has n[k] of them along edge k. */
     template <std::size_t dim>
     unsigned int
     n_points(const std::array<unsigned int, dim> &n)
@@ -96,8 +98,9 @@ namespace Morula
     using Message = std::
       tuple<double, double, Tensor<2, dim>, double, Tensor<2, dim>, double>;
 
-    /** Cells with several points, which may lie in grid cells of other ranks,
-     *  or with points that several grid cells share. */
+    /** The quadrature points where some cell has several of them, which may lie
+     *  in grid cells of other ranks, or where several grid cells share a point.
+     *  Collective. */
     template <int dim>
     MaterialPoints<dim>
     subdivided_points(const Tissue<dim>            &tissue,
@@ -105,6 +108,11 @@ namespace Morula
                       const DevelopmentOfStep<dim> &growth,
                       const TissueMaterial         &material)
     {
+      // There are three passes. Each rank cuts its cells into points by
+      // doc/theory.md (2.2), (2.2b), each with its part of W, and sends them to
+      // the owners of their grid cells. The owner sorts what it gets. The last
+      // pass walks through the active grid cells and the sorted points
+      // together, and notes where the points of each grid cell end.
       const GridBox<dim> &box = space.box();
       PointList<dim>      list(Flat<Message<dim>>::n);
       for (unsigned int i = 0; i < tissue.cells().size(); ++i)
@@ -115,6 +123,8 @@ namespace Morula
           const auto   n    = space.occupancy().n_points_per_edge(domain);
           const double part = 1. / n_points(n);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
+            // A point within rounding of a grid line belongs to all grid cells
+            // around it, in equal parts.
             space.occupancy().for_each_share(
               point, [&](const Point<dim> &share, const unsigned int n_shares) {
                 const double of_cell = part / n_shares;
@@ -131,8 +141,8 @@ namespace Morula
         }
       list = send_to_owners(std::move(list), tissue.grid());
 
-      // By grid cell, then by id, then in the order in the domain, so that
-      // sums do not depend on who sent what.
+      // The points are ordered by grid cell, then by the cell's id, then as
+      // they stand in the cell, so that sums do not depend on who sent what.
       std::vector<unsigned int> numbers(list.size()), order(list.size());
       for (std::size_t k = 0; k < list.size(); ++k)
         numbers[k] = box.number(box.locate(list.positions[k]));
@@ -166,6 +176,8 @@ namespace Morula
             }
           points.offsets.push_back(points.xi.size());
         }
+      // A point outside all active grid cells would carry energy that no spline
+      // sees.
       AssertThrow(k == order.size(), ExcInternalError());
       return points;
     }
@@ -189,6 +201,10 @@ namespace Morula
                   const DevelopmentOfStep<dim> &growth,
                   const TissueMaterial         &material)
   {
+    // If any rank has a cell with several points, all ranks exchange points.
+    // Otherwise each cell is one point of the rank that owns it, in the order
+    // of the cells, which is that of their grid cells already. λ and μ stand
+    // there once if they are uniform.
     if (Utilities::MPI::logical_or(space.occupancy().subdivides(),
                                    tissue.communicator()))
       return subdivided_points(tissue, space, growth, material);

@@ -15,6 +15,11 @@ namespace Morula
                 const double            t,
                 const double            t_next)
   {
+    // Held points come first, then cells with friction, each with its weight in
+    // the matrix S of doc/theory.md (4.9) and section 4.4. Friction holds all
+    // directions (M = I). If ζh²/(E Δt) is below the least drag rounding would
+    // decide where a free piece goes; it then counts as none. Each rank lists
+    // what lies in its own grid cells; RigidModes adds the lists up.
     auto              list = supports(model.boundary_conditions, tissue, space);
     const double      h    = space.box().spacing();
     const Cells<dim> &cells       = tissue.cells();
@@ -23,6 +28,7 @@ namespace Morula
       {
         const std::vector<double> friction =
           named.force->friction(tissue, reader, t);
+        // The list is empty for a force without friction.
         if (friction.empty())
           continue;
         for (const auto &grid_cell : cells.grid_cells())

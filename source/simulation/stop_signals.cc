@@ -17,7 +17,8 @@ namespace Morula
                                                       {SIGTERM, "SIGTERM"},
                                                       {SIGUSR1, "SIGUSR1"}};
 
-    // A signal handler gets only the number, and may use only such variables.
+    // A signal handler gets only the number of the signal. It may use only
+    // variables of this kind, and none that belongs to an object.
     volatile std::sig_atomic_t last_signal = 0;
     volatile std::sig_atomic_t is_root     = 0;
 
@@ -25,13 +26,16 @@ namespace Morula
     record_signal(const int number)
     {
       last_signal = number;
+      // Streams may be in use when the signal comes, and must not be entered
+      // again; write() is safe. One rank tells for all.
       constexpr char text[] =
         "\nmorula: stopping after this step; the same signal again stops at "
         "once, without saving\n";
       if (is_root)
         {
           const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
-          static_cast<void>(written); // an error could not be reported
+          // An error of write() could not be reported.
+          static_cast<void>(written);
         }
     }
 
@@ -56,6 +60,10 @@ namespace Morula
   StopSignals::StopSignals(const MPI_Comm comm)
     : comm(comm)
   {
+    // SA_RESETHAND restores the default after the first signal, so that the
+    // second one ends the program. SA_RESTART lets the calls of files and
+    // messages go on that a signal has interrupted. What was set before is kept
+    // for the destructor.
     last_signal = 0;
     is_root     = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     struct sigaction action{};
@@ -65,6 +73,7 @@ namespace Morula
       {
         struct sigaction before{};
         sigaction(number, nullptr, &before);
+        // A program that runs under nohup, say, is to go on.
         if (before.sa_handler == SIG_IGN)
           continue;
         sigaction(number, &action, nullptr);
@@ -81,6 +90,8 @@ namespace Morula
   int
   StopSignals::received() const
   {
+    // A launcher may send the signal to some ranks only, or to all at different
+    // times. All stop after the same step.
     return dealii::Utilities::MPI::max(static_cast<int>(last_signal), comm);
   }
 } // namespace Morula

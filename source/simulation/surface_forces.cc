@@ -14,7 +14,8 @@ namespace Morula
 {
   namespace
   {
-    /** A vector in three directions. */
+    /** The vector with 0 for the third direction in 2-D, so that moments have
+     * one form. */
     template <int dim>
     Tensor<1, 3>
     in_space(const Tensor<1, dim> &v)
@@ -25,7 +26,8 @@ namespace Morula
       return result;
     }
 
-    /** The numbers of a row that ranks add up. */
+    /** How many numbers of a row ranks add up: points, area, the inward part,
+     * and three components of force and moment each. */
     constexpr unsigned int n_sums = 9;
 
     /** Coefficients of the splines of a grid cell in the field x, µm: their
@@ -78,6 +80,12 @@ namespace Morula
   void
   ForceSums<dim>::add_force(const std::string &name, const Term<dim> &term)
   {
+    // Minus the residual of a term at a spline is its force on this spline. The
+    // splines add up to 1 and reproduce affine fields, so that the forces add
+    // up to the resultant, and those at the places that the splines' centres
+    // have moved to give the moment about the origin. The loop is over the
+    // active grid cells that this rank owns: each cell acts in one of them. The
+    // growth is that at t + dt, as in the residual.
     constexpr unsigned int n = BSpline<dim>::n;
     ForceRow               row;
     row.kind   = "force";
@@ -106,8 +114,6 @@ namespace Morula
   }
 
 
-  // A point acts where the step has brought it, with the area and the normal
-  // that it has there, (1.2).
   template <int dim>
   void
   ForceSums<dim>::add_row(
@@ -118,12 +124,18 @@ namespace Morula
     const double                                                     factor,
     const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects)
   {
+    // A point acts where the step has brought it, with the area and the normal
+    // that it has there, doc/theory.md (1.2). The loops go over this rank's
+    // active grid cells and the points of the group in each of them; the term
+    // gives the forces of these points in the same order. A force goes into the
+    // row and to its point, where those of several conditions add up.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     ForceRow                   row;
     row.kind = kind;
     row.name = name;
     for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
       {
+        // Most grid cells have no point of the surface.
         if (groups.offsets[c] == groups.offsets[c + 1])
           continue;
         const LocalField<dim> field = displacement.on_grid_cell(c);
@@ -148,6 +160,8 @@ namespace Morula
             row.area += area.norm();
             row.force += in_space(force);
             row.moment += cross_product_3d(in_space(place), in_space(force));
+            // A point that is turned inside out may have no area left, and then
+            // no normal.
             if (area.norm() > 0.)
               row.inward -= force * area / area.norm();
             mine.of_points[p] += force;
@@ -162,6 +176,9 @@ namespace Morula
   ForceSums<dim>::add_held(const BoundaryConditions<dim> &conditions,
                            const Term<dim>               &term)
   {
+    // One term holds all points, also where several conditions ask for it. Each
+    // point belongs to the condition that wins at its initial place, and to one
+    // row.
     const BoundaryPoints<dim> &store  = tissue.boundary_points();
     const PointGroups          groups = held_groups(tissue, space);
     for (unsigned int k = 0; k < conditions.list().size(); ++k)
@@ -184,6 +201,10 @@ namespace Morula
                             const LoadedPoints<dim>       &points,
                             const double                   t)
   {
+    // The group of all loaded points is that for which the terms are made. A
+    // condition may act in several parts, as obstacles do, one row each. An
+    // obstacle's row counts only points that touch it, and these are known by
+    // their force.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     const PointGroups          groups =
       group_points(store, space, [&](const unsigned int p) {
@@ -214,7 +235,9 @@ namespace Morula
                             const double      pressure)
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
-    // In the order of the enclosure's.
+    // The enclosure's term has its points in this order. The term is the gain
+    // of volume as if that were an energy; its forces times minus the pressure
+    // are those of doc/theory.md (4.8i).
     const PointGroups groups =
       group_points(store, space, [&](const unsigned int p) {
         return lumen.acts_on(store[p].seed_position(),
@@ -233,6 +256,9 @@ namespace Morula
   SurfaceForces<dim>
   ForceSums<dim>::result() const
   {
+    // The rows follow from the scene, so that all ranks have the same ones in
+    // the same order, also where they have no points. So one reduction adds up
+    // all of them. The forces of points stay with the rank that has the points.
     SurfaceForces<dim>  result = mine;
     std::vector<double> numbers;
     for (const ForceRow &row : mine.rows)

@@ -25,6 +25,9 @@ namespace Morula
   void
   TimeSteps::restore(const State &state)
   {
+    // With the same Time/Step and no other end of the interval the sequence
+    // goes on to the bit. Otherwise a new interval begins at the snapshot's
+    // time and ends at the next multiple of the new Step.
     state_ = state;
     if (state.step == parameters.step && time() == state.time)
       return;
@@ -49,6 +52,7 @@ namespace Morula
   double
   TimeSteps::end_of_interval() const
   {
+    // A last step within rounding of End time would be too short to solve.
     const double end = (state_.interval + 1) * parameters.step;
     return end > parameters.end_time - time_slack * parameters.step ?
              parameters.end_time :
@@ -58,6 +62,8 @@ namespace Morula
   double
   TimeSteps::at(const unsigned int part) const
   {
+    // Times are multiples of a part and no sums of steps. The end of the
+    // interval is taken as it is, so that intervals fit together to the bit.
     const unsigned int parts = 1u << state_.level;
     return part == parts ?
              end_of_interval() :
@@ -79,6 +85,7 @@ namespace Morula
   void
   TimeSteps::halve()
   {
+    // The time stays: twice as many parts of half the length are done.
     state_.part *= 2;
     ++state_.level;
   }
@@ -86,15 +93,21 @@ namespace Morula
   void
   TimeSteps::adapt(const double mu)
   {
+    // This is doc/theory.md (5.11). What the last step missed goes with the
+    // square of its length, which tells what the next one would miss. A longer
+    // step is tried first, and by one level only; it must begin at a multiple
+    // of its own length, so that steps do not cross the intervals' ends. The
+    // first step and that after a cut are not made longer.
     if (parameters.tolerance <= 0.)
       return;
     const bool anew = std::exchange(state_.anew, false);
-    // What a step misses goes with the square of its length. Only a doubled
-    // step that stays well below the tolerance is worth it: else lengths swing.
+    // Only a doubled step that stays well below the tolerance is worth it.
+    // Without this margin lengths would swing: a step would be doubled, and
+    // halved again.
     const double     ratio      = next() - time() > 0. && past().exists() ?
                                     past().length() / (next() - time()) :
                                     1.;
-    constexpr double hysteresis = 2.; // √2 in the length
+    constexpr double hysteresis = 2.; // this is √2 in the length
     double           error      = mu / (ratio * ratio);
     if (!anew && state_.level > 0 && state_.part % 2 == 0 &&
         4. * hysteresis * error <= parameters.tolerance)
@@ -110,6 +123,9 @@ namespace Morula
   void
   TimeSteps::begin_anew()
   {
+    // Nothing is known yet of what the next step will miss, so that it is
+    // short: Step/16, doc/theory.md, section 5.11. Longer ones follow by a
+    // factor of two a step.
     constexpr unsigned int first_level = 4;
     if (parameters.tolerance <= 0.)
       return;
@@ -127,12 +143,17 @@ namespace Morula
   void
   TimeSteps::accept()
   {
+    // Three things can follow a step. Its interval is done: the next one
+    // begins, with steps as long as before if Tolerance chooses them, else with
+    // Step. Or two halves are done, and the next step is twice as long again.
+    // Or the next step is as long as this one. With Tolerance adapt() decides,
+    // and not this function.
     state_.past = time();
     ++state_.part;
     if (state_.part == 1u << state_.level)
       {
-        // An interval that End time has cut is not finished: a resumed run may
-        // go on in it.
+        // An interval that End time has cut is not finished: a resumed run with
+        // a later End time may go on in it.
         const double end = end_of_interval();
         if (end >= (state_.interval + 1 - time_slack) * parameters.step)
           ++state_.interval;
@@ -153,6 +174,8 @@ namespace Morula
   bool
   TimeSteps::can_halve() const
   {
+    // Below level 30 the number of parts of an interval fits in an unsigned
+    // int.
     return 0.5 * (next() - time()) >=
              parameters.smallest_step * (1. - time_slack) &&
            state_.level < 30;

@@ -39,10 +39,14 @@ namespace Morula
   BoundaryColumns<dim>
   TissueModel<dim>::boundary_columns() const
   {
+    // A point stores only what the scene needs: the edges of its patch where
+    // patches split, the area that it wants where they merge, the force on it
+    // where conditions act.
     BoundaryColumns<dim> columns(scene.tissue.refine_surface,
                                  scene.tissue.coarsen_surface,
                                  !boundary_conditions.list().empty());
-    // The renewed traction is that of all cells around a point.
+    // Nitsche's term (4.2) needs F_g of a carrier. The bounded form needs none,
+    // as its traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&
         boundary_conditions.nitsche().form() != NitscheForm::bounded)
       add_carriers(columns);
@@ -77,6 +81,9 @@ namespace Morula
                                       const DevelopmentOfStep<dim> &growth,
                                       const MPI_Comm                comm) const
   {
+    // Moduli that depend on the state of cells are those of the step. All
+    // others travel with the cell, by the place of its founder. The largest one
+    // of all ranks is taken, as it scales penalties.
     double largest = 0.;
     if (material.depends_on_state())
       for (const Lame &lame : growth.lame)

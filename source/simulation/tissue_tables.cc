@@ -19,6 +19,11 @@ namespace Morula
             const double            t,
             StatisticsRow          &row)
   {
+    // The first pass goes once through this rank's cells and adds up all that
+    // is asked of them, as reading a cell with its stress is the costly part.
+    // Boundary points only extend the box around the tissue. The second pass
+    // makes sums over all ranks of it. The columns of effects are set anew in
+    // the order of the scene.
     const auto           &columns = model.tables.columns();
     const Cells<dim>     &cells   = tissue.cells();
     const CellReader<dim> reader  = model.development.reader(t);
@@ -33,6 +38,7 @@ namespace Morula
         sums.add_cell(cell.scalars(), cell.position());
         held += model.is_held(cell, t);
         for (std::size_t k = 0; k < columns.size(); ++k)
+          // Columns that count events or belong to the step stay 0 here.
           if (columns[k].of_cell)
             of_effects[k] += columns[k].of_cell(cell);
         longest.add(cell.position(), cell_shape<dim>(cell.cell()));
@@ -58,6 +64,8 @@ namespace Morula
              const Tissue<dim>      &tissue,
              const double            t)
   {
+    // The table has this rank's cells in the canonical order (by grid cell,
+    // then by id). The output joins those of all ranks.
     const CellCycle<dim> *cycle = model.development.cycle();
     const Cells<dim>     &cells = tissue.cells();
     CellFields<dim>       table(t,
@@ -68,6 +76,8 @@ namespace Morula
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        // A cell's stress and phase are those of this state and not of the step
+        // that led to it.
         table.add(cells.id(p),
                   cells[p],
                   cells.position(p),
@@ -95,6 +105,9 @@ namespace Morula
   std::string
   long_cells_warning(const StatisticsRow &row, const double grid_spacing)
   {
+    // The row is that of all ranks. The length is the grid spacing over the
+    // least number of cells in it, which is how the column is defined
+    // (doc/theory.md, section 2.1).
     const auto        &place = row.lengths.place;
     std::ostringstream text;
     text << "Warning: from t = " << row.time << " day on, fewer than "

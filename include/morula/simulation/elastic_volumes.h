@@ -18,10 +18,10 @@ namespace Morula
   /**
    * J_e of this rank's cells after a step, in the order of Tissue::cells(), if
    * the volumetric strain is averaged over grid cells: e^ϑ, doc/theory.md
-   * (2.6), (2.10). In several grid cells a cell takes a mean: if the strain is
-   * pooled, that of e^ϑ over its parts, so that the tissue's volume is that of
-   * the step; else e to the mean of ϑ. Empty if the volumetric strain is
-   * pointwise. Collective.
+   * (2.6), (2.10). A cell that lies in several grid cells takes a mean: if the
+   * strain is pooled, that of e^ϑ over its parts, so that the tissue's volume
+   * is that of the step; else e to the mean of ϑ. The list is empty if the
+   * volumetric strain is pointwise. Collective.
    * @param growth       of the step, not yet committed
    * @param kernel       value of Solver/Kernel
    * @param displacement of the step, um

@@ -11,14 +11,17 @@ namespace Morula
   /** What is known of a step that no attempt has solved. */
   struct FailedStep
   {
-    /** |R| where the first and the last attempt began, kPa µm^(dim-1), and the
-     *  length of the last in that of the first. */
+    /** The unbalanced force |R| with which the first and the last attempt
+     * began, kPa µm^(dim-1), and the length of the last attempt over that of
+     * the first. */
     double first_force = 0., last_force = 0., part = 1.;
     /** Energy where the last attempt has ended, kPa µm^dim. */
     double energy = 0.;
-    /** The smallest J_e there, held points among them. */
+    /** The smallest J_e of cells and held points where the last attempt has
+     *  ended. */
     double smallest_J = 1.;
-    /** p·Kp / p·|diag K|p of the most negative curvature; 0: there was none. */
+    /** The most negative curvature that was met, p·Kp / p·|diag K|p. It is 0 if
+     *  there was none. */
     double curvature = 0.;
     /** Smallest and largest J_e of the cells before the step. */
     double min_J = 1., max_J = 1.;

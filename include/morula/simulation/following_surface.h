@@ -46,8 +46,9 @@ namespace Morula
     std::optional<double>
     close_cuts(Tissue<dim> &tissue);
 
-    /** Whether the surface stays open, as a step has lost so many points and
-     * the scene never renews it. @param n_before, n_left points of all ranks */
+    /** Whether the surface stays open: a step has lost more than one in a
+     * hundred points, and the scene never renews them. @param n_before, n_left
+     * numbers of points of all ranks before and after the loss */
     bool
     is_cut(const std::uint64_t n_before, const std::uint64_t n_left) const;
 

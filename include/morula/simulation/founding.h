@@ -12,7 +12,8 @@
 
 namespace Morula
 {
-  /** The points of this rank at t = 0, with all columns that effects need. */
+  /** The points that this rank makes at t = 0, with all columns that effects
+   *  need. They may lie in grid cells of other ranks. */
   template <int dim>
   struct FirstPoints
   {

@@ -12,11 +12,11 @@
 
 namespace Morula
 {
-  /** Where a surface faces itself. */
+  /** A place at which a surface faces itself. */
   template <int dim>
   struct Gap
   {
-    /** µm. */
+    /** The distance between the two boundary points, µm. */
     double width;
     /** The middle between the two boundary points, µm. */
     Point<dim> place;
@@ -26,14 +26,15 @@ namespace Morula
    * The narrowest gap of the tissue across which splines reach: two boundary
    * points look at each other through empty space, and their grid cells share
    * unknowns. Two arms of one piece, or the rims of a hole, stick together
-   * there. Nothing where there is none. Pairs of points on two ranks count from
-   * a grid spacing on. Collective.
+   * there. The function returns nothing where there is no such gap. Two points
+   * on two ranks count if they are nearer than a grid spacing, since neither
+   * rank knows the unknowns of both grid cells. Collective.
    */
   template <int dim>
   std::optional<Gap<dim>>
   narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
-  /** Tells of the first such gap, once. */
+  /** Tells the user of the first gap that narrowest_gap() finds, once a run. */
   template <int dim>
   class GapWatch
   {

@@ -15,20 +15,21 @@
 namespace Morula
 {
   /**
-   * The traction of this rank's fixed and slip points from the stress of the
-   * cells around them, doc/theory.md (4.6b), and what else of these cells their
-   * term needs. It is constant while an equilibrium is found and taken anew
-   * there, until it changes by less than one per cent (or ten thousand
-   * times Solver/Newton tolerance, if that is less). Where it is changed in
-   * parts it need not settle: then tissue is crushed at an edge, and stays as
-   * far from where it is held as the last traction lets it, which the step's
-   * check of gaps judges. Keeps references to all that it is given.
+   * The traction T of this rank's fixed and slip points from the stress of the
+   * cells around them, doc/theory.md (4.6b), and the stiffness of these cells,
+   * which the points' term needs as well. T is constant while an equilibrium is
+   * found, and is taken anew from it. Turns go on until T changes by less than
+   * one per cent (or ten thousand times Solver/Newton tolerance, if that is
+   * less). Where T is changed in parts it need not settle: then tissue is
+   * crushed at an edge, and stays as far from where it is held as the last T
+   * lets it. The step's check of gaps judges that. The object keeps references
+   * to all that it is given.
    */
   template <int dim>
   class HeldTraction : public TurnParticipant
   {
   public:
-    /** Zero before it is predicted. Collective.
+    /** The traction is zero until predict() sets it. Collective.
      *  @param typical_stiffness kPa
      *  @param in_parts whether a turn may change the traction by a part of what
      *         the cells say only, as where a load jumps */
@@ -45,8 +46,9 @@ namespace Morula
     void
     predict(const Equilibrium::Vector &u);
 
-    /** M T per area of the configuration at t, kPa, by held_groups(). Stays
-     *  where it is as long as this object. */
+    /** M T per area of the configuration at t, kPa, in the order of
+     *  held_groups(). The list stays at its address as long as this object
+     *  lives, since the term keeps a reference. */
     const std::vector<Tensor<1, dim>> &
     tractions() const;
 

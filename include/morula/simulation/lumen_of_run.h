@@ -23,11 +23,12 @@ namespace Morula
     double pressure        = 0.; // kPa, above that around the tissue
   };
 
-  /** Keeps this of a lumen. */
+  /** Writes the memory of a lumen into the numbers that outlive a step. */
   void
   keep_lumen(const LumenMemory &lumen, NamedNumbers &kept);
 
-  /** Keeps the lumen of t = 0, if there is one. Collective. */
+  /** Writes the lumen's volume and pressure at t = 0 into the kept numbers, if
+   *  there is a lumen. Collective. */
   template <int dim>
   void
   begin_lumen(const TissueModel<dim> &model,
@@ -83,7 +84,7 @@ namespace Morula
     std::string
     unfinished() const override;
 
-    /** At the last equilibrium, kPa. */
+    /** The pressure at the last equilibrium, kPa. */
     double
     pressure() const;
 

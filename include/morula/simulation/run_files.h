@@ -89,8 +89,7 @@ namespace Morula
      */
     bool
     output_due(const double time, const bool last) const;
-    /** Whether a snapshot is due; see output_due(). Also by the clock of rank
-     *  0. */
+    /** Whether a snapshot is due, as output_due() or by the clock of rank 0. */
     bool
     snapshot_due(const double time, const bool last) const;
 

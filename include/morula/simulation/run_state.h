@@ -26,7 +26,7 @@ namespace Morula
     /** The volume that the surface enclosed at t = 0 over that of the cells;
      *  nothing if it was not closed. */
     std::optional<double> enclosed_share = {};
-    /** Of the steps so far. */
+    /** The estimated error of the steps so far. */
     ErrorInTime error = {};
   };
 

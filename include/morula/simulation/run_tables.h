@@ -16,7 +16,7 @@ namespace Morula
   {
     std::string              name; // of the file, without ending
     std::vector<std::string> columns;
-    // A resumed run may have it although the run began without.
+    // A resumed run may have the table although the run began without it.
     bool may_begin_later = false;
   };
 

@@ -181,7 +181,7 @@ namespace Morula
     RunState    run_state;
     double      typical_stiffness = 0.; // kPa
 
-    // Of the present step.
+    // What follows belongs to the present step.
     DevelopmentOfStep<dim>           growth_of_step;
     std::vector<Birth<dim>>          births; // on this rank
     std::vector<CellEvent>           events; // likewise
@@ -205,7 +205,7 @@ namespace Morula
     bool told_of_path         = false; // once a run
     bool warned_of_misfit     = false; // likewise
 
-    // What acts, and warnings of a new run.
+    // A new run says what acts in it, and its warnings, when it has a log.
     std::vector<std::string>         warnings;
     std::optional<SplineSpace<dim>>  first_splines; // until the first step
     std::optional<SnapshotData<dim>> resumed_from;  // until run()

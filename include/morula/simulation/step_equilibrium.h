@@ -34,7 +34,7 @@ namespace Morula
       double                        t, t_next; // day
       const DevelopmentOfStep<dim> &growth;
       double                        typical_stiffness; // kPa
-      /** Before the step; nothing without a lumen. */
+      /** The lumen before the step. There is nothing without a lumen. */
       std::optional<LumenMemory> lumen;
       /** Whether half the step is to be tried, before a proximal path, where
        * the step is plainly too long. */
@@ -116,8 +116,8 @@ namespace Morula
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
-    /** Too weak to matter, but it decides where pieces go that loads push and
-     *  nothing holds: doc/theory.md (4.8f). */
+    /** A drag that is too weak to matter elsewhere. It decides where pieces go
+     *  that loads push and nothing holds: doc/theory.md (4.8f). */
     std::unique_ptr<Term<dim>>
     weak_drag(const double typical_stiffness) const;
     MassList

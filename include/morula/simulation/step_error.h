@@ -14,7 +14,8 @@ namespace Morula
   struct ErrorInTime
   {
     /** What the last step missed of flow, relative to the volume. It is known
-     *  at its end, growth only when the next one begins. */
+     * at the step's end, while what is missed of growth is known only when the
+     *  next step begins. */
     double flow = 0.;
     /** μ of the step before the last. */
     double last = 0.;
@@ -25,7 +26,8 @@ namespace Morula
     void
     add(const double mu);
 
-    /** Of the whole run: relative, as a volume or a strain. */
+    /** The error of the whole run, E of (5.10): relative, as a volume or a
+     *  strain. */
     double
     total() const;
   };

@@ -39,15 +39,17 @@ namespace Morula
                const SplineSpace<dim> &space,
                const double            t);
 
-    /** The other fields at the end of the step that begins at @p t; the tissue
-     *  is about to move. @throws InputError, StepFailed on all ranks */
+    /** Finds the transient fields at the end of the step that begins at @p t.
+     * The tissue is about to move, so the solver is forgotten. @throws
+     * InputError, StepFailed on all ranks */
     FieldsOfStep<dim>
     transient(const Tissue<dim>      &tissue,
               const SplineSpace<dim> &space,
               const double            t,
               const double            t_next);
 
-    /** Forgets the configuration: the splines will stand elsewhere. */
+    /** Forgets the solver of this configuration: the splines of the next one
+     * will stand elsewhere. */
     void
     forget_configuration();
 

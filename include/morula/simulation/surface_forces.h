@@ -20,10 +20,10 @@ namespace Morula
   template <int dim>
   struct SurfaceForces
   {
-    /** The same on all ranks. */
+    /** The rows of forces.csv: they are equal on all ranks. */
     std::vector<ForceRow> rows;
-    /** Of all conditions on each of this rank's boundary points, in the order
-     *  of the store, kPa µm^(dim-1). */
+    /** The sum of all conditions' forces on each of this rank's boundary
+     * points, in the order of the store, kPa µm^(dim-1). */
     std::vector<Tensor<1, dim>> of_points;
   };
 
@@ -33,8 +33,9 @@ namespace Morula
   set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
 
   /**
-   * Adds up the forces at the end of a step with this displacement: those of
-   * the terms whose residual Newton's method has made vanish, point by point.
+   * Adds up the forces at the end of a step with this displacement, point by
+   * point. They are those of the terms in whose sum Newton's method has found
+   * the equilibrium.
    * Keeps references to all that it is given.
    */
   template <int dim>
@@ -47,32 +48,38 @@ namespace Morula
               const TrilinosWrappers::MPI::Vector &u,
               const MPI_Comm                       comm);
 
-    /** A force on the cells: the sum over the splines of any term. */
+    /** Adds a row for a force on the cells. Any term will do, as the row is a
+     * sum over splines. */
     void
     add_force(const std::string &name, const Term<dim> &term);
 
-    /** The points that conditions hold, by the condition that wins. */
+    /** Adds a row for each condition that holds points, with the points at
+     * which it wins. */
     void
     add_held(const BoundaryConditions<dim> &conditions, const Term<dim> &term);
 
-    /** The conditions that load, at the end @p t (day) of the step. */
+    /** Adds rows for the conditions that load the surface, at the end @p t
+     * (day) of the step. */
     void
     add_loads(const BoundaryConditions<dim> &conditions,
               const LoadedPoints<dim>       &points,
               const double                   t);
 
-    /** A lumen at this pressure (kPa). @param gain of its volume */
+    /** Adds a row for a lumen at this pressure (kPa). @param gain the term of
+     * its change of volume */
     void
     add_lumen(const Lumen<dim> &lumen,
               const Term<dim>  &gain,
               const double      pressure);
 
-    /** Sums over all ranks. Collective. */
+    /** The rows as sums over all ranks, and this rank's forces of points.
+     *  Collective. */
     SurfaceForces<dim>
     result() const;
 
   private:
-    /** A row for the points of @p groups for which selects(p, force) holds.
+    /** Adds a row for the points of @p groups for which selects(p, force)
+     * holds.
      *  @param term of all of these points */
     void
     add_row(

@@ -13,8 +13,8 @@ namespace Morula
    * The time steps. Each step ends at a multiple of Step; the last one ends at
    * End time. A rejected step is halved inside its interval. After two halves
    * the next step is twice as long again. With Tolerance steps are Step/2^k, as
-   * long as adapt() finds: doc/theory.md, 5.6. Times are computed as multiples
-   * and never as sums, so that they do not drift.
+   * long as adapt() finds: doc/theory.md, section 5.11. Times are computed as
+   * multiples and never as sums, so that they do not drift.
    */
   class TimeSteps
   {
@@ -89,7 +89,7 @@ namespace Morula
     double
     at(const unsigned int part) const;
 
-    /** Cuts the next step in two. */
+    /** Cuts the next step in two. The present time stays as it is. */
     void
     halve();
 

@@ -90,7 +90,7 @@ namespace Morula
         row.magnitude += force.norm();
       }
 
-      /** Over all ranks. Collective. */
+      /** The sums and the box of all ranks. Collective. */
       AppliedCondition
       over_all_ranks(const MPI_Comm comm) const
       {
@@ -125,18 +125,18 @@ namespace Morula
   } // namespace
 
 
-  // Held points and loaded ones are looked at apart: of conditions that hold,
-  // one wins at a point; those that load act there together. The forces of a
-  // load are those that its own term has in a step in which nothing moves, at
-  // the end of the run. Each condition is summed over the points of this rank,
-  // then over all ranks, which is collective: all ranks go through the same
-  // list.
   template <int dim>
   std::vector<AppliedCondition>
   applied_conditions(const Scene               &scene,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm)
   {
+    // Held points and loaded ones are looked at apart: of conditions that hold,
+    // one wins at a point; those that load act there together. The forces of a
+    // load are those that its own term has in a step in which nothing moves, at
+    // the end of the run. Each condition is summed over the points of this
+    // rank, then over all ranks, which is collective: all ranks go through the
+    // same list.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
     std::vector<std::size_t> numbers;

@@ -42,8 +42,8 @@ namespace Morula
     check_kernel(const Key<std::string>   &kernel,
                  const MaterialParameters &material)
     {
-      // Which kernels can run depends on the processor, so the list of words is
-      // made here.
+      // The kernels that can run depend on the processor, so the list of words
+      // is made here.
       std::string runnable = "automatic, plain";
       bool        known    = kernel == "automatic" || kernel == "plain";
       for (const auto &kernels :

@@ -61,8 +61,8 @@ namespace Morula
     const SceneEffects<dim>         effects = effects_of<dim>(scene);
     const GrowthLaw<dim> *const     law     = effects.development.law.get();
     std::optional<Descendants<dim>> descendants;
-    // How many cells die is known only in the run; then divisions are not
-    // counted either.
+    // The number of cells that die is known only in the run; then divisions are
+    // not counted either.
     if (scene.has_proliferation() && !Scene::has_any(scene.catalogue.fates))
       descendants.emplace(scene.cell_cycle, t);
     SceneSize size;

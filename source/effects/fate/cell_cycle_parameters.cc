@@ -93,8 +93,13 @@ namespace Morula
     // evaluated once per founder; the others at an event of the clock, since a
     // cell in its cycle keeps what it began with. The words for the axis come
     // later: rules add their names, and fields their gradients.
+
+    // The limits below hold for numbers and for expressions, whose values are
+    // checked at cells.
     duration.positive("day", "Choose the duration of a cycle in days.");
     exit_rate.not_negative("1/day", "0 lets cells wait forever.");
+    // A concentration of zero is a uniform distribution in theory; here it
+    // means that there is none.
     axis_spread.not_negative(
       "(a concentration)",
       "0 means no spread; otherwise, the larger the "

@@ -218,8 +218,8 @@ namespace Morula
                    const CellView<dim, double> &row,
                    const double                 t) const
   {
-    // How long the cell shrinks, to what volume, and whether it stays are those
-    // of the moment of death.
+    // The times and volumes of the shrinking are those of the moment of death,
+    // and so is the decision whether the cell stays.
     row.set(time_, t);
     row.set(duration, cell.value(shrinking_time, t));
     row.set(least, cell.value(final_volume, t));

@@ -94,6 +94,7 @@ namespace Morula
   std::string
   DeathParameters::details() const
   {
+    // The text is what --explain says of death.
     return "rate = " + rate.text() + " /day, when = " + when.text() +
            ", shrinking time = " + shrinking_time.text() + " day";
   }

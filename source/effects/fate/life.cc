@@ -94,13 +94,13 @@ namespace Morula
        const double                 t1,
        std::vector<CellEvent>      &events)
   {
-    if (fates.empty())
-      return;
     // Each round takes the cell from one event to the next. All fates see the
     // cell as it was when the step began, but for its type and what they keep
     // of it: the row of the round's beginning is copied, as fates write into
     // `row` while they look for their events. The round without an event, or a
     // death or a division, is the last.
+    if (fates.empty())
+      return;
     double t = t0;
     Row    at_t;
     for (unsigned int n = 0; n < most_events; ++n)

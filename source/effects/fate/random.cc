@@ -143,7 +143,8 @@ namespace Morula::Random
         {
           const auto random_bits =
             bits(seed, key, draw + (trial << 16), Domain::lineage);
-          // z = cos(π u); 1 - f = (r - 1)(1 - z) / (r + z), c = κ (r - f)
+          // The formulas are z = cos(π u); 1 - f = (r - 1)(1 - z) / (r + z), c
+          // = κ (r - f)
           const double half_sine =
             std::sin(0.5 * numbers::PI * uniform(random_bits[0]));
           const double one_minus_z = 2. * half_sine * half_sine;

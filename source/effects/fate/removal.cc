@@ -41,6 +41,11 @@ namespace Morula
             const std::vector<unsigned int>   &gone,
             const std::vector<Column<double>> &carried)
     {
+      // The loop is over the grid cells of this rank. A first pass over the
+      // cells of each adds up the volume of those that go shrunken, with the
+      // amounts of the fields in it, and that of those that stay. A second one
+      // stretches the cells, so that the volume is conserved and the tissue
+      // draws together in the next step.
       const Cells<dim> &cells = tissue.cells();
       // Cells are stored grid cell by grid cell, and `gone` is sorted, so one
       // pointer runs along. All cells of a grid cell are on one rank: nothing

@@ -180,7 +180,7 @@ namespace Morula
   Relaxation<dim>::remember_motion(const CellView<dim, double> &cell,
                                    const Tensor<2, dim>        &f) const
   {
-    // Of the step's motion f only the stretch counts, as a rotation relaxes
+    // Only the stretch of the step's motion f counts, as a rotation relaxes
     // nothing.
     cell.set(motion, symmetrize(transpose(f) * f));
   }

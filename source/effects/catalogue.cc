@@ -26,7 +26,8 @@ namespace Morula
 {
   namespace
   {
-    /** Adds one of the library's own, whose keys know their full paths. */
+    /** Adds one of the library's own effects. Its section is empty, as its keys
+     *  know their full paths; an effect of a user's program gets a section. */
     template <template <int> class Effect, template <int> class Interface>
     void
     add(Choices<Interface> &choices, const std::string &name)
@@ -38,6 +39,10 @@ namespace Morula
 
   Catalogue::Catalogue()
   {
+    // The order of these lines is the order in which effects of a kind are
+    // made, declare their columns and stand in the printed parameters. Growth
+    // factors and flows are applied in it as well, so a new effect belongs at
+    // the end of its kind.
     add<IsotropicGrowth>(growth_laws, "isotropic");
     add<RateGrowth>(growth_laws, "rate");
     add<Contraction>(growth_factors, "contraction");
@@ -64,6 +69,9 @@ namespace Morula
   Catalogue
   Catalogue::with_defaults() const
   {
+    // The values of keys live in the choices, so a copy that is read into must
+    // begin with the defaults. Otherwise a scene would see what the one before
+    // it set.
     Catalogue copy(*this);
     copy.for_each([](auto &choice) { choice.reset(); });
     return copy;
@@ -73,6 +81,10 @@ namespace Morula
   void
   Catalogue::check_name(const std::string &name)
   {
+    // A name is a value in a parameter file and, with a large first letter, the
+    // name of a section. So only characters that are safe in both are allowed.
+    // Then the name must be free among the effects of all kinds, and must not
+    // be one of the words that mean the absence of a rule.
     const bool plain =
       !name.empty() && std::all_of(name.begin(), name.end(), [](const char c) {
         return std::islower(static_cast<unsigned char>(c)) || c == ' ' ||

@@ -39,6 +39,9 @@ namespace Morula
     , material(material)
     , random_seed(random_seed)
   {
+    // Rows are kept from of_step() to commit() where an effect has columns of
+    // its own, an expression reads the state, or tissue flows. Otherwise a row
+    // costs more memory than its second computation costs time.
     keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
                  !this->effects.flows.empty();
   }
@@ -55,6 +58,9 @@ namespace Morula
                       TissueMaterial(MaterialParameters()),
                       0)
   {
+    // This constructor is for tests and small programs: it has no types of
+    // cells, no deaths and no expressions of the state, and the seed of the
+    // cycle is its own.
     if (law)
       columns_.need_growth();
     effects.law = std::move(law);
@@ -133,6 +139,9 @@ namespace Morula
   CellReader<dim>
   CellDevelopment<dim>::reader(const double t, const PastStep &past) const
   {
+    // The reader has all that an expression may ask for besides the cell
+    // itself. It has no clock without a cell cycle; then every cell counts as
+    // its own founder.
     return {state_,
             material,
             effects.proliferation ? &effects.proliferation->columns() : nullptr,
@@ -167,6 +176,11 @@ namespace Morula
                                    const double                 step,
                                    const GivenState            &given) const
   {
+    // The order follows who reads what. The type comes first, as most
+    // expressions depend on it; then the cycle, whose lineage key is behind the
+    // noise; then what other effects keep. At last, if a step is given, each
+    // effect evaluates its expressions once, so that an error is reported
+    // before the run begins.
     const CellReader<dim> reader = this->reader(0.);
     const Point<dim>      X      = cell.founder_position();
     if (effects.types)
@@ -177,6 +191,7 @@ namespace Morula
       effects.proliferation->found(founder, cell, step, given.phase);
     for (const Effect<dim> *effect : effects.with_state)
       effect->begin(cell);
+    // Without a step only the row is wanted, for example for an estimate.
     if (!(step > 0.))
       return;
     for (const auto &fate : effects.fates)
@@ -209,20 +224,33 @@ namespace Morula
                                 std::vector<CellEvent>      &events,
                                 Errors                      &errors) const
   {
-    // What happens to the cell comes first: growth depends on it.
+    // The cell is seen twice: `before` is its committed state of t0 and is
+    // never written, `after` is a copy of its row that becomes the state of t1.
+    // Three passes follow: events and clocks, then what effects keep, then the
+    // product (8.7) of doc/theory.md. The step's equilibrium is sought
+    // afterwards with the new F_g, so F in `after` is still that of t0.
+
+    // What happens to the cell comes first, as growth depends on it: a cell
+    // that dies or enters S within the step grows otherwise from then on.
     errors.missed_growth       = 0.;
     const std::size_t n_events = events.size();
     const bool dead = is_dead_at(effects.fates, before, after, t0, events);
     if (!dead)
       {
         for (const auto &fate : effects.fates)
+          // The integral of a rate gets what the last step missed of it,
+          // doc/theory.md (5.9), before thresholds are looked for.
           fate->make_good(before, after);
-        // Nothing takes a clock back that no other fate can interrupt.
+        // A clock that no other fate can interrupt never has to be taken back,
+        // so it needs no search for the earliest event.
         if (effects.proliferation && effects.fates.size() == 1)
           effects.proliferation->run_clock(before, after, {t0, t1});
         else
           live(effects.fates, before, after, t0, t1, events);
         for (const auto &fate : effects.fates)
+          // An event in mid-step resets hazards, so that the next step could
+          // compare nothing: rates are remembered only of a step without
+          // events.
           fate->expect(before,
                        after,
                        0.5 * (t0 + t1),
@@ -235,9 +263,10 @@ namespace Morula
     if (!grows())
       return;
 
-    // Then the product of all that grows, of which the dead keep what they had,
-    // but for their shrinking; flows come last, as they take stress from what
-    // is left of F. doc/theory.md (8.7)
+    // The product of all that grows is doc/theory.md (8.7). A dead cell keeps
+    // the growth that it had and shrinks by (6.9); one that dies in this step
+    // grows until its death. Flows come last: they relax the stress of the
+    // elastic part, which is known only when all other factors are.
     Tensor<2, dim> F_g =
       dead ?
         before.cell().growth() :
@@ -261,13 +290,20 @@ namespace Morula
                                 const double       t1,
                                 const PastStep    &past) const
   {
+    // The loop is over the cells that this rank owns, in the order of the
+    // store, and no cell reads another one: nothing here is collective. The
+    // tissue is left as it is, because the step may fail and be repeated with
+    // half the length. The results are vectors in the same order, with the
+    // growth of t0 and of t1 for the first tangent, doc/theory.md (5.1).
     DevelopmentOfStep<dim> result;
     result.present = grows();
     result.past    = past;
     if (!present())
       return result;
-    const Cells<dim>     &cells      = tissue.cells();
-    const CellReader<dim> reader     = this->reader(t0, past);
+    const Cells<dim>     &cells  = tissue.cells();
+    const CellReader<dim> reader = this->reader(t0, past);
+    // Stiffness that depends on the state is that of the cell with its new type
+    // and age, so it is read with the time of the end.
     const CellReader<dim> after_step = this->reader(t1);
     if (keeps_rows)
       result.rows.reserve(cells.size() * columns_.n_numbers());
@@ -285,6 +321,7 @@ namespace Morula
                                       cells.id(p),
                                       cells.position(p),
                                       reader);
+        // One row serves all cells, so that the loop does not ask the heap.
         row.assign(cell.row().begin(), cell.row().end());
         const CellView<dim, double> after(make_array_view(row), columns_);
         develop(before, after, t0, t1, result.events, errors);
@@ -316,11 +353,15 @@ namespace Morula
                                const double                  t0,
                                const double                  t1) const
   {
+    // The equilibrium has converged, so the rows of t1 replace those of t0. F
+    // is not touched here: the motion of the step updates it afterwards. Rows
+    // that were not kept are computed again from the same committed state and
+    // the same times, and so come out the same to the last bit.
     if (!present())
       return;
     const CellReader<dim>  reader = this->reader(t0, of_step.past);
     std::vector<double>    row;
-    std::vector<CellEvent> events; // of_step has them already
+    std::vector<CellEvent> events; // not read: of_step has them already
     Errors                 errors;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
@@ -332,7 +373,7 @@ namespace Morula
             std::copy(kept, kept + columns_.n_numbers(), cell.row().begin());
             continue;
           }
-        // Rows take more memory than making them once more takes time.
+        // The row was not kept, as computing it again is cheap.
         row.assign(cell.row().begin(), cell.row().end());
         develop(present_cell(tissue, p, reader),
                 CellView<dim, double>(make_array_view(row), columns_),
@@ -355,13 +396,18 @@ namespace Morula
                                       const double                 t1,
                                       std::vector<CellEvent>      &events) const
   {
+    // A daughter begins as a copy of her mother. First she gets what is hers by
+    // birth, then she lives through the rest of the step, from her birth to t1,
+    // in which she may change her type or die. The type that is returned is the
+    // one she is born with, since the later change is an event of its own.
     if (state_.birth_time.exists())
       daughter.set(state_.birth_time, birth);
     for (const auto &fate : effects.fates)
       fate->inherit(daughter, state_, which, birth);
     const unsigned int own =
       state_.type.exists() ? daughter.get(state_.type) : 0;
-    // A clock alone goes on in the next step: its times are exact.
+    // Where the clock is the only fate there is nothing to do now: it has exact
+    // times, so the next step finds what happened since the birth.
     if (effects.fates.size() > 1)
       {
         const CellReader<dim>  reader = this->reader(t1);

@@ -3,7 +3,8 @@
 
 #include <morula/effects/development.h>
 
-// The parts of F_g and their product: doc/theory.md (8.7).
+// This file makes the parts of F_g and their product, doc/theory.md (8.7):
+// F_g = F_a F_law F_cycle F_r.
 
 namespace Morula
 {
@@ -20,6 +21,9 @@ namespace Morula
   CellDevelopment<dim>::growth_behind_law(
     const CellView<dim, const double> &cell, const double t) const
   {
+    // This is F_cycle F_r, all that stands to the right of the law's factor.
+    // Where there is a cell cycle it keeps F_r within its own growth before the
+    // cycle.
     if (effects.proliferation)
       return effects.proliferation->growth(cell, t);
     return effects.relaxed.exists() ?
@@ -33,6 +37,10 @@ namespace Morula
   CellDevelopment<dim>::growing(const PresentCell<dim> &cell,
                                 const double            t0) const
   {
+    // A law is told its own factor of t0 only, as it does not know the others.
+    // With contraction the factor has a column, because F_a does not commute
+    // with it; else it is what is left of F_g when the factors behind it are
+    // taken off.
     const CellView<dim, const double> &view  = cell.cell();
     Tensor<2, dim>                     at_t0 = view.growth();
     if (effects.law_growth.exists())
@@ -52,6 +60,10 @@ namespace Morula
                                       const double                 t1,
                                       double                      &missed) const
   {
+    // The product is built from right to left: the cycle and what has relaxed,
+    // then the law, then the active factors such as contraction. All factors
+    // are those of t1, or of the death of a cell that dies earlier; they are
+    // functions of the state of t0, so a failed step leaves nothing to undo.
     Tensor<2, dim> F_g = growth_behind_law(after, t1);
     if (effects.law)
       {
@@ -60,6 +72,9 @@ namespace Morula
         if (grows_by_law(before))
           of_law = effects.law->grow(growing, t0, t1, after);
         else
+          // A type that does not grow keeps F_law, but the law goes on
+          // observing the cell: otherwise its memory would be of an older step
+          // when the cell changes its type.
           effects.law->remember(growing, t0, t1, after);
         missed = of_law.missed;
         if (effects.law_growth.exists())
@@ -81,6 +96,10 @@ namespace Morula
                              const double                 t1,
                              std::vector<double>         &shares) const
   {
+    // Flows act one after the other on what is left of the elastic part. Each
+    // has a share that step_error uses to weigh what the flow's forecast
+    // missed; a share is pushed for every flow, whether it acts or not, since
+    // missed_flow() reads them by cell and number of the flow.
     shares.clear();
     Tensor<2, dim> at_t0 = before.cell().growth();
     for (const auto &flow : effects.flows)
@@ -89,6 +108,8 @@ namespace Morula
           flow->flow(before, after, at_t0, F_g, t0, t1);
         if (of_step.D)
           F_g = absorb(*of_step.D, F_g, after);
+        // A cell that forgets its stress has no elastic part of t0 any more, so
+        // the next flow must not weigh it in.
         if (of_step.begins_anew)
           at_t0 = F_g;
         shares.push_back(of_step.share);
@@ -103,11 +124,15 @@ namespace Morula
                                const Tensor<2, dim>        &F_g,
                                const CellView<dim, double> &after) const
   {
+    // F_g becomes D F_g, and the change is booked on the rightmost factor F_r,
+    // doc/theory.md (8.7). Then the cell goes on growing along its axes in the
+    // new configuration that is free of stress.
     if (effects.proliferation)
       effects.proliferation->absorb(D, F_g, after);
     else
       {
-        // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r).
+        // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r), so that K, which other
+        // effects compute, stays as it is.
         const Tensor<2, dim> K = F_g * invert(after.get(effects.relaxed));
         after.set(effects.relaxed, invert(K) * D * F_g);
       }
@@ -122,12 +147,16 @@ namespace Morula
                                     const double                end,
                                     const unsigned int          n_steps) const
   {
-    // Free of stress F is F_g. The law takes the cell through equal steps; the
-    // factors behind it are as they are at t = 0.
+    // The cell is thought of as free of stress, so F is F_g. The law takes it
+    // through equal steps and remembers what it would in a run; the factors
+    // behind the law stay as they are at t = 0, as the size by the law alone is
+    // asked for.
     double ratio = 1.;
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         const double t0 = n * end / n_steps, t1 = (n + 1) * end / n_steps;
+        // Two rows are needed: the law reads the state of t0 while it writes
+        // that of t1.
         std::vector<double>         next = row;
         const CellView<dim, double> cell(make_array_view(row), columns_);
         const CellView<dim, double> after(make_array_view(next), columns_);
@@ -181,6 +210,8 @@ namespace Morula
                                     const double                       t0,
                                     const double                       t1) const
   {
+    // Shares lie cell by cell, with one number for each flow. The sum is this
+    // cell's contribution to doc/theory.md (5.10).
     const std::size_t n      = effects.flows.size();
     double            missed = 0.;
     for (std::size_t k = 0; k < n; ++k)
@@ -197,6 +228,9 @@ namespace Morula
                                       const double       t0,
                                       const PastStep    &past) const
   {
+    // The loop is over the cells of this rank in the order of the store. The
+    // numbers are what step_error weighs with the cells' volumes, doc/theory.md
+    // (5.10). In the first step nothing is known, so the list is empty.
     std::vector<double> missed;
     if (!effects.law_follows_state() || !past.exists())
       return missed;

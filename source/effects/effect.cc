@@ -3,11 +3,16 @@
 
 #include <morula/effects/effect.h>
 
+// This file has the defaults of an effect and of its keys. An effect that says
+// nothing else acts always, keeps nothing, checks nothing and warns of nothing,
+// so a new effect overrides only what concerns it.
 namespace Morula
 {
   bool
   EffectKeys::is_on() const
   {
+    // Effects that a scene chooses by name are never asked; others have a
+    // switch.
     return true;
   }
 
@@ -55,6 +60,8 @@ namespace Morula
   std::string
   EffectKeys::details() const
   {
+    // The list begins with a comma since the name of the effect stands before
+    // it.
     std::string text;
     for (const AnyKey *key : list())
       text += ", " + key->short_name() + " = " + key->text();

@@ -3,6 +3,8 @@
 
 #include <morula/effects/step_effect.h>
 
+// An effect of whole steps that overrides one of these moments leaves the
+// others empty.
 namespace Morula
 {
   template <int dim>

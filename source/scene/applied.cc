@@ -14,9 +14,10 @@ namespace Morula
 {
   namespace
   {
-    /** The boundary points of t = 0 that conditions load, all in one grid cell:
-     *  the splines of a grid cell add up to 1 at any place, and so do the
-     *  forces. */
+    /** The boundary points of this rank that conditions load at t = 0. There is
+     *  no grid yet, so all are put into one grid cell: its splines add up to 1
+     *  at any place, and so the sum of the forces is right. @p numbers gets
+     *  their numbers in @p surface. */
     template <int dim>
     LoadedPoints<dim>
     loaded_at_start(const Scene                   &scene,
@@ -32,6 +33,8 @@ namespace Morula
           if (conditions.condition(X, N) != SurfaceCondition::loaded)
             continue;
           const double a = surface.areas[i];
+          // Nothing has moved, so the present position and area are the initial
+          // ones.
           loaded.points.push_back({X, X, N, X, a, a * N});
           numbers.push_back(i);
         }
@@ -54,6 +57,8 @@ namespace Morula
         row.name = name;
         for (unsigned int d = 0; d < 3; ++d)
           {
+            // The box begins empty, so that any point enlarges it, also over
+            // ranks.
             row.lower[d] = std::numeric_limits<double>::max();
             row.upper[d] = -row.lower[d];
           }
@@ -67,6 +72,8 @@ namespace Morula
         row.area += area;
         for (unsigned int d = 0; d < 3; ++d)
           {
+            // The index is valid in 2-D as well, where the third component is
+            // 0.
             const double x =
               d < dim ? X[std::min<unsigned int>(d, dim - 1)] : 0.;
             row.lower[d] = std::min(row.lower[d], x);
@@ -83,7 +90,7 @@ namespace Morula
         row.magnitude += force.norm();
       }
 
-      /** Over all ranks. Collective. */
+      /** The sums and the box of all ranks. Collective. */
       AppliedCondition
       over_all_ranks(const MPI_Comm comm) const
       {
@@ -106,6 +113,7 @@ namespace Morula
     std::string
     vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero)
     {
+      // Sums that cancel leave rounding: what is below `zero` is printed as 0.
       std::ostringstream text;
       text.precision(4);
       text << '(';
@@ -117,15 +125,18 @@ namespace Morula
   } // namespace
 
 
-  // Held points and loaded ones are looked at apart: of the first, one
-  // condition wins; of the second, all act together. A load's forces are those
-  // that its own term has in a step in which nothing moves.
   template <int dim>
   std::vector<AppliedCondition>
   applied_conditions(const Scene               &scene,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm)
   {
+    // Held points and loaded ones are looked at apart: of conditions that hold,
+    // one wins at a point; those that load act there together. The forces of a
+    // load are those that its own term has in a step in which nothing moves, at
+    // the end of the run. Each condition is summed over the points of this
+    // rank, then over all ranks, which is collective: all ranks go through the
+    // same list.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
     std::vector<std::size_t> numbers;
@@ -136,9 +147,11 @@ namespace Morula
       {
         const auto &[name, condition] = conditions.list()[k];
         if (condition->only_pushes())
-          continue; // obstacles, which act where they touch
+          continue; // Obstacles act where they touch, which is not known yet.
         Sums       sums(name);
         const bool loads = condition->kind() == SurfaceCondition::loaded;
+        // An expression may have no value at a point of one rank; then all
+        // ranks must throw.
         everywhere(comm, [&, &condition = condition]() {
           for (std::size_t i = 0; !loads && i < surface.positions.size(); ++i)
             if (conditions.winner(surface.positions[i], surface.normals[i]) ==
@@ -166,6 +179,8 @@ namespace Morula
   std::string
   text_of(const Scene &scene, const AppliedCondition &applied)
   {
+    // A component of the force counts as zero if it is small beside the sum of
+    // magnitudes.
     const bool         space = scene.dimension == 3;
     std::ostringstream text;
     text.precision(4);

@@ -8,16 +8,18 @@
 #include <algorithm>
 #include <optional>
 
-// What is unwise in what a scene applies, and numbers of another unit.
+// This file warns of what is unwise in what a scene applies, and of numbers
+// that look like those of another unit. Nothing here is refused.
 
 namespace Morula
 {
   namespace
   {
-    /** Patches of which a condition's area is known to a tenth. */
+    /** With fewer patches a condition's area is not known to a tenth. */
     constexpr std::uint64_t fewest_points = 10;
 
-    /** Part of the loads that must not be left over. */
+    /** A larger part of the loads than this is not left over by rounding and
+     * the patches of a curved surface. */
     constexpr double largest_rest = 0.01;
 
     /** Loads without a resultant, as surface tension and the pressure of a
@@ -28,7 +30,7 @@ namespace Morula
      *  some hundreds. */
     constexpr double softest = 0.005, stiffest = 500.;
 
-    /** Cell cycles are shorter, and so are relaxation times, day. */
+    /** Cell cycles and relaxation times are shorter than this, day. */
     constexpr double longest_cycle = 10., longest_relaxation = 2.;
 
     /** Lengths of cells, µm. */
@@ -43,6 +45,8 @@ namespace Morula
                   const std::string   &question,
                   Review              &review)
     {
+      // A key may have one number or one for each type; the largest is looked
+      // at. A zero switches something off and is no number of another unit.
       const std::optional<double> number = key.largest_number(3);
       if (number && *number > 0. && (*number < lower || *number > upper))
         review.warn(key.path(),
@@ -56,6 +60,8 @@ namespace Morula
                   const std::vector<AppliedCondition> &applied,
                   Review                              &review)
     {
+      // The key that says where the condition acts is named in the warning, so
+      // conditions without such a key are passed over.
       for (const AppliedCondition &one : applied)
         if (one.points > 0 && one.points < fewest_points)
           for (const auto &choice : scene.catalogue.boundary_conditions)
@@ -94,6 +100,9 @@ namespace Morula
                    const std::vector<AppliedCondition> &applied,
                    Review                              &review)
     {
+      // All forces that are known before the run are added up. If a part is
+      // left and nothing holds the tissue, doc/theory.md section 4.4 takes out
+      // the rigid motion, which the user may not expect.
       if (is_held(scene, applied))
         return;
       Tensor<1, 3> sum;
@@ -128,6 +137,9 @@ namespace Morula
                  const std::vector<AppliedCondition> &applied,
                  std::vector<std::string>            &warnings)
   {
+    // Conditions come first, then the numbers of material, time and length. The
+    // limits are wide: they are meant to catch a factor of 24 or 1000, not
+    // unusual tissue.
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     review_points(scene, applied, review);
     review_balance(scene, applied, review);

@@ -17,6 +17,10 @@ namespace Morula
     void
     check_founders(const Scene &scene, const Preview<dim> &at)
     {
+      // Every effect checks what it can say at the founders of this rank before
+      // there are cells. Effects are made anew for it, as they are for every
+      // use of a scene. An exception may come on one rank only; the caller
+      // takes care of that.
       for (const Point<dim> &X : at.founders)
         require_elastic(scene.material, X);
       const SceneEffects<dim> effects = effects_of<dim>(scene);
@@ -52,6 +56,7 @@ namespace Morula
       types::particle_index n     = 0;
       for (const Point<dim> &X : founders)
         n += where.value(X, 0.) > 0.;
+      // The sum is collective, so that all ranks refuse or none does.
       n = Utilities::MPI::sum(n, comm);
       if (n == 0)
         scene.cell_cycle.where.refuse(
@@ -69,6 +74,8 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
     {
+      // The numbers are sums over all ranks. A type without a condition of its
+      // own may be reached by transitions only, so it may have no founder.
       const auto n = founders_of_types(scene, founders, comm);
       for (unsigned int i = 0; i < n.size(); ++i)
         if (const ExpressionKey &where = scene.cell_types.types[i].where;
@@ -94,6 +101,11 @@ namespace Morula
                  const MaterialParameters      &material,
                  const Preview<dim>            &at)
     {
+      // The loop is over the boundary points of this rank. At a point one
+      // condition holds, but all loads act, so both counts are needed:
+      // `anywhere` tells whether a condition is of any use, `winning` on how
+      // many points it acts. A held point needs a stiffness there, since
+      // Nitsche's penalty follows from it.
       for (const auto &[name, condition] : conditions.list())
         condition->check(at);
       const std::size_t n = conditions.list().size();
@@ -150,6 +162,8 @@ namespace Morula
                     const MPI_Comm                   comm,
                     const std::vector<unsigned int> &given)
   {
+    // Types are those of the file, if it has any, or follow from the
+    // conditions. The sum is over all ranks.
     std::vector<types::particle_index> n(scene.cell_types.types.size(), 0);
     if (n.empty())
       return n;
@@ -168,6 +182,10 @@ namespace Morula
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm)
   {
+    // The checks at founders come first, as only they tell which expression has
+    // no value. Then numbers over all ranks are compared, which is collective.
+    // The memory comes last: its estimate evaluates expressions that have been
+    // checked by then.
     const std::vector<Point<dim>>     no_points;
     const std::vector<Tensor<1, dim>> no_normals;
     const Preview<dim>                at =
@@ -187,6 +205,10 @@ namespace Morula
                    const SurfacePatches<dim> &surface,
                    const MPI_Comm             comm)
   {
+    // Three checks follow one another: conditions at the points of this rank,
+    // the wall of a lumen, and fields at the surface. The lumen must be closed,
+    // for which its patches on all ranks are needed. Then the counts are added
+    // up over the ranks, and a condition that holds nowhere is refused.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
     const std::vector<Point<dim>> no_founders;
@@ -215,6 +237,7 @@ namespace Morula
       Utilities::MPI::sum<types::particle_index>(surface.positions.size(),
                                                  comm);
     counts.fixed = Utilities::MPI::sum(acting.fixed, comm);
+    // All ranks go through the same list, so that the sums in it match.
     for (const auto &choice : scene.catalogue.boundary_conditions)
       {
         types::particle_index &n = counts.acting[choice.name()];

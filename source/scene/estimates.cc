@@ -10,7 +10,7 @@ namespace Morula
 {
   namespace
   {
-    // What follows was fitted to runs of the first scenes of the table
+    // The constants below were fitted to runs of the first scenes of the table
     // "estimates" of doc/performance.md; contrib/upkeep/benchmark estimates
     // measures them anew. The seconds are those of one core of the processor
     // that the text there names, as explain.cc does: others differ by a factor
@@ -23,19 +23,20 @@ namespace Morula
     memory(const Scene &scene, const double n_cells, const double n)
     {
       constexpr double program = 180e6;
-      // position, reference position, id, place in the grid: about 200 bytes;
-      // and what a step makes of them
+      // A cell has its position, reference position, id and place in the grid,
+      // which are about 200 bytes, and its columns. The factor is for what a
+      // step makes of them.
       const double cell =
         (dim == 2 ? 2.7 : 2.3) *
         (8. * effects_of<dim>(scene).columns.n_numbers() + 200.);
-      // a row couples with 5^dim splines, 12 bytes an entry; matrix,
-      // preconditioner and positions of the entries
+      // A row couples with 5^dim splines, at 12 bytes an entry. The factor is
+      // for the matrix, the preconditioner and the positions of the entries.
       const double row     = 2.6 * 12. * dim * std::pow(5., dim);
       const double factors = scene.solver.linear_solver != "direct" ? 0. :
                              dim == 2 ? 370. * n * std::log(n) :
                                         1000. * std::pow(n, 4. / 3.);
-      // boundary points hold less than cells; without a wished number they are
-      // fewer, too
+      // Boundary points hold less than cells; without a wished number they are
+      // fewer, too.
       return program + (n_cells + scene.tissue.boundary_points) * cell +
              n * row + factors;
     }
@@ -59,6 +60,9 @@ namespace Morula
     double
     step_seconds(const Scene &scene, const double n_cells, const double n)
     {
+      // A step without anything that drives it only updates its cells. Else
+      // each iteration of Newton's method goes over all quadrature points, all
+      // equations and, with a direct solver, the factors.
       if (!is_driven<dim>(scene))
         return 2e-6 * n_cells;
       constexpr double newton_iterations = 4.;
@@ -79,6 +83,8 @@ namespace Morula
     double
     n_equations(const Scene &scene, const double volume)
     {
+      // A cube of this volume is covered by splines: its edge in grid spacings
+      // plus two, since quadratic B-splines reach out by one on either side.
       const double dim = scene.dimension;
       return dim *
              std::pow(std::pow(volume, 1. / dim) / scene.grid.spacing + 2.,
@@ -104,6 +110,9 @@ namespace Morula
                  const unsigned int           n_unknowns,
                  const std::optional<double> &free_growth)
   {
+    // The number of equations is estimated for the beginning and the end, and
+    // scaled if the true one is known. Then memory is that of the end, and the
+    // time is that of a mean step.
     SceneSize last = expected_size(scene, founders.positions, comm);
     last.volume *= free_growth.value_or(1.);
     const double first_volume =
@@ -115,10 +124,13 @@ namespace Morula
       n_unknowns > 0 ? n_unknowns : n_equations(scene, first_volume);
     size.unknowns = size.unknowns_at_start * n_equations(scene, last.volume) /
                     n_equations(scene, first_volume);
+    // The slack keeps a quotient like 10.0000000001 from counting as eleven
+    // steps.
     size.steps  = std::ceil(scene.time.end_time / scene.time.step - 1e-9);
     size.memory = memory<dim>(scene, size.cells, size.unknowns);
 
-    // the means over a time in which both grow exponentially
+    // This is the mean over a time in which a number grows exponentially from a
+    // to b. Where both are nearly equal the quotient loses its digits.
     const auto mean = [](const double a, const double b) {
       return std::abs(b - a) < 1e-3 * a ? a : (b - a) / std::log(b / a);
     };

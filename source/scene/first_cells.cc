@@ -9,7 +9,8 @@ namespace Morula
 {
   namespace
   {
-    /** What the founder's file says of it. */
+    /** What the file says of founder number @p i of this rank. Lists that the
+     *  file does not have are empty. */
     template <int dim>
     GivenState
     given_state(const Founders<dim> &founders, const std::size_t i)
@@ -31,6 +32,8 @@ namespace Morula
                   const SurfacePatches<dim> &patches,
                   const MPI_Comm             comm)
   {
+    // The search is collective, and whether it is needed is the same on all
+    // ranks.
     if (!state.needs_surface())
       return {};
     return near_surface(founders.positions,
@@ -49,6 +52,10 @@ namespace Morula
               const std::size_t                    i,
               const double                         step)
   {
+    // The row begins with the defaults of all columns. What the surface and the
+    // file tell is set first, then fields, since expressions of effects may
+    // read all of these; the development comes last. The file's ids are global:
+    // the first of this rank plus i.
     const CellColumns<dim>  &columns = development.columns();
     const StateColumns<dim> &state   = development.state();
     std::vector<double>      row =
@@ -90,6 +97,7 @@ namespace Morula
   std::vector<double>
   FirstCells<dim>::row(const std::size_t i) const
   {
+    // The step is 0, so that nothing is checked: that is done elsewhere.
     return founder_row(development_, effects.fields, founders, surface, i, 0.);
   }
 

@@ -15,9 +15,11 @@ namespace Morula
 {
   namespace
   {
-    /** Of a law, for all cells of a rank: some hundredths of a second. */
+    /** So many evaluations of a law take some hundredths of a second. They are
+     *  shared by all cells of a rank. */
     constexpr double most_evaluations = 2e4;
-    /** Rates are taken at the beginning of a step: an error of some percent. */
+    /** Rates are taken at the beginning of a step. With 64 steps that is an
+     * error of some percent, which is enough for an estimate. */
     constexpr double most_steps = 64.;
   } // namespace
 
@@ -29,6 +31,9 @@ namespace Morula
               const SurfacePatches<dim> &surface,
               const MPI_Comm             comm)
   {
+    // Some founders of this rank, at equal distances in their list, are taken
+    // through the run free of stress. Sums and extremes are then those of all
+    // ranks: collective, also for a rank without founders.
     if (!scene.has_growth())
       return {};
     FreeGrowth growth;

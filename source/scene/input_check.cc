@@ -18,6 +18,8 @@ namespace Morula
     void
     refuse_far_away(const Key<std::vector<double>> &place, const double h)
     {
+      // Far from the origin, places have too few digits within a grid cell. The
+      // negated comparison refuses NaN as well.
       for (const double x : place)
         if (!(std::abs(x) <= farthest_place * h))
           place.refuse("at most " + as_text(farthest_place) +
@@ -40,6 +42,8 @@ namespace Morula
     check_kernel(const Key<std::string>   &kernel,
                  const MaterialParameters &material)
     {
+      // The kernels that can run depend on the processor, so the list of words
+      // is made here.
       std::string runnable = "automatic, plain";
       bool        known    = kernel == "automatic" || kernel == "plain";
       for (const auto &kernels :
@@ -61,6 +65,7 @@ namespace Morula
                      const std::string &allowed,
                      const std::string &remedy)
     {
+      // A type has a copy of every key of cells; it is found by its path.
       for (const CellTypeKeys &type : scene.cell_types.types)
         for (const ExpressionKey &own : type.overrides)
           if (!own.empty() && own.path() == type.path_of(key))
@@ -95,7 +100,8 @@ namespace Morula
     check_material(const MaterialParameters &material, const unsigned int dim)
     {
       material.check_each(dim);
-      // W is the weight of a cell in the grid cell's volume, too.
+      // The weight W of a cell in the energy is also that in the grid cell's
+      // volume, which is the sum of the grown volumes.
       if (material.volumetric_form() == VolumetricStrain::pooled &&
           !material.per_grown_volume())
         material.energy_per.refuse(
@@ -111,6 +117,8 @@ namespace Morula
     void
     try_effect(const Scene &scene, const Choice<Interface> &choice)
     {
+      // An effect is made with columns of its own, which are thrown away.
+      // Growth is needed in them, since effects may ask for its column.
       choice.keys().check_each(dim);
       CellColumns<dim>  columns;
       StateColumns<dim> state(scene.cell_types.name_list(),
@@ -141,11 +149,15 @@ namespace Morula
                            "Set " + switch_key.path() + " = " + choice.name());
     }
 
-    /** The same for effects that their keys switch on. */
+    /** Checks the effects that their keys switch on and makes them, for what
+     * they refuse; refuses values of those that are off. */
     template <int dim, template <int> class Interface>
     void
     check_switched(const Scene &scene, const Choices<Interface> &choices)
     {
+      // An effect that is on is made and checked with the material. One that is
+      // off must not have values that do nothing: first each is checked for
+      // itself, so that a mistake in it is reported as what it is.
       for (const auto &choice : choices)
         {
           const AnyKey *const switch_key = choice.keys().switch_key();
@@ -170,6 +182,10 @@ namespace Morula
     void
     check_proliferation(const Scene &scene)
     {
+      // Without proliferation all its keys have to be at their defaults, those
+      // of rules and of types, too. With it, keys that shape an axis are
+      // refused where the axis is that by chance; then the cycle and the rules
+      // are made, for what they refuse.
       const CellCycleParameters &cycle = scene.cell_cycle;
       if (!scene.has_proliferation())
         {
@@ -236,6 +252,9 @@ namespace Morula
     void
     check_fields(const Scene &scene)
     {
+      // Fields are checked each, then against the surface, then by the names of
+      // all columns: the names are those of a table, which refuses two that are
+      // equal.
       for (const FieldKeys &field : scene.fields.fields)
         field.check(dim);
       if (!scene.fields.present())
@@ -263,6 +282,8 @@ namespace Morula
     void
     check_boundary_conditions(const Scene &scene)
     {
+      // Cells from a file may have no surface. Then each condition would act
+      // nowhere, which is refused before conditions are made.
       for (const auto &choice : scene.catalogue.boundary_conditions)
         if (choice.keys().is_on() && scene.tissue.has_no_surface())
           {
@@ -282,11 +303,14 @@ namespace Morula
     void
     check_scene(const Scene &scene)
     {
+      // The order is that in which a mistake is easiest to understand: time,
+      // space and material, then cells and what they do, then what acts on
+      // them. Types of cells come before effects, which are made with them.
       scene.time.check();
       check_grid(scene.grid, dim);
       check_lengths(scene.tissue,
                     scene.grid.spacing,
-                    dim); // first: the next looks through all places of cells
+                    dim); // This is first: the next one visits all places.
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);

@@ -25,13 +25,18 @@ namespace Morula
   std::vector<double>
   volumes_of_surfaces(const std::vector<SurfaceTriangle> &triangles)
   {
+    // Each round takes a triangle that was not seen and walks over its
+    // neighbours until the closed surface is complete. The volume is a sum of
+    // tetrahedra with one apex; it is negative where the normals point inwards,
+    // as those of a cavity do.
     std::vector<double> volumes;
     std::vector<bool>   seen(triangles.size(), false);
     for (std::size_t first = 0; first < triangles.size(); ++first)
       {
         if (seen[first])
           continue;
-        // All that hang together with this one.
+        // The apex lies on the surface itself: far from the origin that loses
+        // fewer digits.
         const Point<3>           apex = triangles[first].vertices[0];
         std::vector<std::size_t> open = {first};
         seen[first]                   = true;

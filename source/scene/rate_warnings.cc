@@ -16,7 +16,8 @@ namespace Morula
 {
   namespace
   {
-    /** Of a rate times a step. */
+    /** A rate times a step above this has an error that is seen: the change of
+     *  other cells is felt a step late. */
     constexpr double largest_part = 0.3;
     /** From here on a rate is a switch: cells change in the next step. */
     constexpr double switch_part = 10.;
@@ -44,13 +45,13 @@ namespace Morula
                          });
     }
 
-    /** A rate that is looked at. */
+    /** A rate that depends on what other cells do. */
     struct CoupledRate
     {
       Expression rate;
-      /** Of the cells that it is for; none: of all cells. */
+      /** The type of the cells that it is for; none: all cells. */
       std::optional<unsigned int> type;
-      /** Over all founders, 1/day. */
+      /** The largest value over all founders of this rank, 1/day. */
       double largest = 0.;
     };
 
@@ -58,6 +59,8 @@ namespace Morula
     std::vector<CoupledRate>
     coupled_rates(const DevelopmentEffects<dim> &effects)
     {
+      // Types have rates of their own, so they are asked type by type; other
+      // fates have one list for all cells.
       std::vector<CoupledRate> list;
       const auto               add = [&list](const Expression                 &rate,
                                const std::optional<unsigned int> type) {
@@ -101,12 +104,15 @@ namespace Morula
                const MPI_Comm             comm,
                Review                    &review)
   {
+    // The rates are evaluated at all founders of this rank in their state at t
+    // = 0; then the largest over all ranks is compared with the step. A rate
+    // far above it is a switch, whose delay of a step is meant.
     std::vector<CoupledRate> rates =
       coupled_rates(effects_of<dim>(scene).development);
     if (rates.empty())
       return;
     const FirstCells<dim> cells(scene, founders, surface, comm);
-    // An expression may have no value at some founder.
+    // An expression may have no value at some founder; then all ranks throw.
     everywhere(comm, [&]() {
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {

@@ -22,7 +22,8 @@ namespace Morula
       list.insert(list.end(), more.begin(), more.end());
     }
 
-    /** Those keys whose expressions speak of cells. */
+    /** The keys of a list whose expressions speak of cells: a type may have its
+     *  own value of them. */
     std::vector<ExpressionKey *>
     keys_of_cells(const KeyList &list)
     {
@@ -36,8 +37,8 @@ namespace Morula
 
     /**
      * Whether a key that two statements set at these places ("file:line: ") is
-     * set twice by mistake. Who includes a file may set its keys anew, and the
-     * command line those of all files.
+     * set twice by mistake. A file that includes another may set its keys anew,
+     * and the command line those of all files.
      * @param scene the file that is read first
      */
     bool
@@ -45,6 +46,8 @@ namespace Morula
                  const std::string &now,
                  const std::string &scene)
     {
+      // A place ends with ": " behind the line number. The colon before the
+      // number is the last one that is found from the number's last digit on.
       const auto file_of = [](const std::string &place) {
         const auto line = place.rfind(':', place.size() - 3);
         return place.substr(0, line);
@@ -58,6 +61,8 @@ namespace Morula
     void
     find_files(Scene &scene)
     {
+      // A path that exists in the working directory keeps its meaning; only one
+      // that does not is tried in the scene's folder.
       namespace files   = std::filesystem;
       const auto folder = files::path(scene.file).parent_path();
       for (AnyKey *key : scene.list())
@@ -112,6 +117,9 @@ namespace Morula
                         {"none|cell cycle"})
     , catalogue(catalogue)
   {
+    // The words that name effects are those of the catalogue, which a program
+    // may have extended. So they are added here, and not where the keys are
+    // declared.
     add_words(growth_law, catalogue.growth_laws);
     add_words(cell_cycle.division_axis, catalogue.division_rules);
     if (std::any_of(catalogue.division_rules.begin(),
@@ -125,6 +133,8 @@ namespace Morula
   std::string
   Scene::law_of_growth() const
   {
+    // A scene has one law. If it is not set for all cells, the first type that
+    // has one tells.
     if (growth_law != "none")
       return growth_law;
     for (const CellTypeKeys &type : cell_types.types)
@@ -202,6 +212,10 @@ namespace Morula
   void
   Scene::declare_sections(const std::map<std::string, std::string> &names)
   {
+    // Some keys exist only because others name them: fields, types and bodies
+    // have a section each. The order follows who needs whom. Fields come first,
+    // as axes may be their gradients; then types, which have a copy of each key
+    // of cells, fields' keys included; bodies at last.
     const auto names_in = [&names](const AnyKey &key) {
       const auto found = names.find(key.path());
       return found == names.end() ? "" : found->second;
@@ -227,12 +241,15 @@ namespace Morula
   void
   Scene::apply_types()
   {
+    // Expressions learn the names of fields in any case. With types, values
+    // that a type overrides go into the keys of all cells.
     for (ExpressionKey *key : keys_of_cells(list()))
       key->set_fields(fields.name_list());
     if (!cell_types.present())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));
-    // Cells of a type that does not proliferate stay in G0.
+    // Cells of a type that does not proliferate stay in G0: their rate of
+    // leaving it is set to 0, so that one cell cycle serves all types.
     if (!has_proliferation())
       return;
     for (unsigned int i = 0; i < cell_types.types.size(); ++i)
@@ -264,6 +281,8 @@ namespace Morula
   KeyList
   Scene::list_without_types()
   {
+    // The order is that of the printed parameters. Types are left out because
+    // their keys are copies of those in this list.
     KeyList list = {&method, &dimension, &output_directory, &random_seed};
     for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
       append(list, section->list());
@@ -285,7 +304,8 @@ namespace Morula
       append(list, trait.keys().list());
     for (auto &effect : catalogue.step_effects)
       append(list, effect.keys().list());
-    // Nitsche's term belongs to the library's own conditions.
+    // Nitsche's keys follow the library's own conditions, to which they belong;
+    // conditions of a user's program come after both.
     for (auto &condition : catalogue.boundary_conditions)
       if (!condition.has_section())
         append(list, condition.keys().list());
@@ -306,11 +326,18 @@ namespace Morula
               const std::vector<std::string> &overrides,
               const Catalogue                &catalogue)
   {
+    // There are four passes. All statements are read, with those of the command
+    // line last, so that they count. Keys that are names are looked up first,
+    // as they say which sections there are. Then each statement sets its key,
+    // and where it was set is kept for messages. At last come values that
+    // follow from others: defaults of the method, values of types, files beside
+    // the scene, the output directory.
     Scene                  scene(catalogue);
     std::vector<Statement> statements = read_statements(file);
     for (const std::string &text : overrides)
       statements.push_back(read_override(text));
-    // Names first: they say which sections there are.
+    // The names are taken from the last statement of each path, as the values
+    // are later.
     std::map<std::string, std::string> names;
     for (const Statement &statement : statements)
       if (statement.kind == Statement::set)
@@ -357,7 +384,9 @@ namespace Morula
   std::string
   Scene::located(const std::string &message) const
   {
-    // "SECTION/KEY (cells.csv, line 3) = '...'": the key comes first
+    // A message begins with the path of its key, as in "SECTION/KEY = '...'" or
+    // "SECTION/KEY (cells.csv, line 3) = '...'"; the place of the key is put
+    // before it.
     const auto place = places.find(
       message.substr(0, std::min(message.find(" = '"), message.find(" ("))));
     return place == places.end() ? message : place->second + message;
@@ -367,6 +396,9 @@ namespace Morula
   std::string
   Scene::parameters() const
   {
+    // deal.II's ParameterHandler prints the keys in the order of their
+    // declaration. It sets a value only within its section, so each path is
+    // entered and left.
     ParameterHandler prm;
     Scene            copy(*this);
     copy.declare(prm);

@@ -12,13 +12,14 @@
 #include <utility>
 #include <vector>
 
-// All effects of a scene are made here.
+// This file makes all effects of a scene. Each use makes them anew, before the
+// run and in it: effects of equal scenes are equal, and have equal columns.
 
 namespace Morula
 {
   namespace
   {
-    /** Where the tissue has its centre, µm. */
+    /** The centre of the tissue, µm: the origin for cells from a file. */
     template <int dim>
     Point<dim>
     center_of(const TissueParameters &tissue)
@@ -36,6 +37,8 @@ namespace Morula
               const Make               &make,
               Proliferation<dim>       &proliferation)
     {
+      // Types may share an axis, so each rule is made once, by its name, and
+      // types point to it. The random axis is no rule: it is a null pointer.
       typename Proliferation<dim>::Rules               list;
       std::vector<const DivisionRule<dim> *>           of_type;
       std::map<std::string, const DivisionRule<dim> *> rules;
@@ -64,6 +67,12 @@ namespace Morula
   SceneEffects<dim>
   effects_of(const Scene &scene)
   {
+    // The order decides the columns of a cell, which snapshots and outputs
+    // list, so it is fixed. Types come first, because expressions compare
+    // `type`; then the cycle, law, rules and factors; flows after them, since
+    // they need to know whether a cycle keeps what has relaxed. Columns of the
+    // state itself come last, when it is known which variables any expression
+    // reads.
     SceneEffects<dim> effects;
     effects.state =
       StateColumns<dim>(scene.cell_types.name_list(), scene.fields.name_list());
@@ -87,8 +96,10 @@ namespace Morula
                                      effects.columns,
                                      effects.state,
                                      center_of<dim>(scene.tissue)};
-    const auto               make = [&](const auto &choice) {
-      const unsigned int n = effects.columns.n_numbers();
+    // An effect that has declared columns is told of every cell's begin and
+    // advance.
+    const auto make = [&](const auto &choice) {
+      const unsigned int n      = effects.columns.n_numbers();
       auto               effect = choice.template make<dim>(setting);
       if (effects.columns.n_numbers() > n)
         development.with_state.push_back(effect.get());
@@ -117,6 +128,7 @@ namespace Morula
       development.factors.push_back(std::move(factor));
     });
     const auto identity = Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    // A factor left of F_law hides it in the product, so it needs a column.
     if (scene.has_growth() && !development.factors.empty())
       development.law_growth = effects.columns.template add<Tensor<2, dim>>(
         {"law_growth", "", "F_g of the growth law", identity});
@@ -128,12 +140,14 @@ namespace Morula
     make_all(catalogue.flows, [&](const auto &, auto flow) {
       development.flows.push_back(std::move(flow));
     });
+    // With a cell cycle F_r is a factor of the growth before the cycle.
     if (!development.flows.empty() && !proliferation)
       development.relaxed = effects.columns.template add<Tensor<2, dim>>(
         {"relaxed", "", "F_r, what has relaxed of F_g", identity});
 
-    // Of two events at the same time that of the later fate happens: a change
-    // of type before a death, both before the division.
+    // The order of fates decides between two events at the same time: that of
+    // the later fate happens. So a change of type comes before a death, and
+    // both before the division.
     if (proliferation)
       development.proliferation =
         development.add_fate(std::move(proliferation));
@@ -166,6 +180,8 @@ namespace Morula
   Tables<dim>
   SceneEffects<dim>::tables() const
   {
+    // The order is that of the columns of the tables. Types are a fate, too,
+    // but their columns come first.
     Tables<dim> tables;
     if (development.types != nullptr)
       development.types->declare(tables);

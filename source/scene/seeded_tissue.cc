@@ -12,6 +12,9 @@ namespace Morula
   bool
   has_surface(const Scene &scene)
   {
+    // Only cells from a file of points may lack a surface. Then one is made if
+    // something acts on it or reads the distance to it; else it would be work
+    // for nothing.
     if (!scene.tissue.is_points())
       return true;
     if (scene.tissue.points_surface != "automatic")
@@ -47,6 +50,9 @@ namespace Morula
   SeededTissue<dim>
   seed_tissue(const Scene &scene, const MPI_Comm comm)
   {
+    // Founders come first, since a surface around points is made from them.
+    // Both are checked before anything is applied or warned of: warnings
+    // evaluate expressions that must have a value. All of it is collective.
     SeededTissue<dim> tissue;
     tissue.founders =
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));

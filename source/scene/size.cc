@@ -34,6 +34,8 @@ namespace Morula
   SceneSize
   initial_size(const Scene &scene)
   {
+    // This is known without seeding a cell, so scenes that are far too large
+    // are refused before their cells are made. A file has its cells already.
     if (scene.tissue.is_from_file())
       return {};
     const double volume = scene.dimension == 2 ?
@@ -51,12 +53,16 @@ namespace Morula
                 const std::vector<Point<dim>> &founders,
                 const MPI_Comm                 comm)
   {
+    // The loop is over the founders of this rank. Each stands for its
+    // descendants at the end, if no death is in the scene, and for the growth
+    // of its law. Sums are those of all ranks.
     const double t = scene.time.end_time;
     const double V = std::pow(scene.tissue.cell_spacing.value(), dim);
     const SceneEffects<dim>         effects = effects_of<dim>(scene);
     const GrowthLaw<dim> *const     law     = effects.development.law.get();
     std::optional<Descendants<dim>> descendants;
-    // How many die, only the run can tell.
+    // The number of cells that die is known only in the run; then divisions are
+    // not counted either.
     if (scene.has_proliferation() && !Scene::has_any(scene.catalogue.fates))
       descendants.emplace(scene.cell_cycle, t);
     SceneSize size;
@@ -69,6 +75,8 @@ namespace Morula
     size.cells  = Utilities::MPI::sum(size.cells, comm);
     size.volume = Utilities::MPI::sum(size.volume, comm);
 
+    // A run stops when it has the wished number of cells, after a step that may
+    // at most double it.
     const double limit =
       std::max(2. * scene.time.stop_at_cells,
                Utilities::MPI::sum(1. * founders.size(), comm));
@@ -81,6 +89,8 @@ namespace Morula
   double
   physical_memory(const MPI_Comm comm)
   {
+    // Ranks of one machine share its memory, so only the first of each counts
+    // it. The split is collective.
     MPI_Comm machine;
     MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     const bool first = Utilities::MPI::this_mpi_process(machine) == 0;
@@ -93,8 +103,9 @@ namespace Morula
   void
   check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm)
   {
-    // Measured: 430 bytes of a triangulation in 2-D, 700 in 3-D, with the
-    // tables of one rank. Ranks' windows overlap.
+    // The bytes of a grid cell are measured: 430 in 2-D and 700 in 3-D for a
+    // triangulation with the tables of one rank. Windows of several ranks
+    // overlap, which takes 100 more.
     const double grid_cell =
       (scene.dimension == 2 ? 330. : 600.) +
       (Utilities::MPI::n_mpi_processes(comm) > 1 ? 200. : 100.);
@@ -124,6 +135,9 @@ namespace Morula
   SeedingLimits<dim>
   seeding_limits(const Scene &scene, const MPI_Comm comm)
   {
+    // Seeding calls the function when it knows how many cells and grid cells
+    // there would be, before it makes them. The scene is copied into it, as the
+    // function may outlive it.
     SeedingLimits<dim> limits = seeding_limits<dim>(
       scene.tissue,
       scene.grid.spacing,

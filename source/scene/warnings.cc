@@ -14,11 +14,15 @@ namespace Morula
 {
   namespace
   {
-    /** Method = paper in a file that sets, to other values, all that it
-     *  stands for, as one made of the output of --parameters does. */
+    /** Warns of a method that changes nothing, because the scene itself sets
+     * all keys that it stands for, to other values. A file made of the output
+     * of
+     *  --parameters does so. */
     void
     review_method(const Scene &scene, Review &review)
     {
+      // One key that the scene does not set, or sets to the method's value,
+      // gives the method a meaning.
       const std::string method = scene.method;
       std::string       paths;
       for (const AnyKey *key : scene.list())
@@ -60,6 +64,10 @@ namespace Morula
                  const ConditionCounts     &counts,
                  const MPI_Comm             comm)
   {
+    // The order is that of the messages: names of keys, units, grid, then
+    // effects in the order in which they act, then the surface, and at last the
+    // outputs. Many reviews are collective, so all ranks pass through all of
+    // them, with the same list of effects.
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     for (const std::string &text : scene.renamed)
       review.warnings.push_back("Warning: " + text + '.');

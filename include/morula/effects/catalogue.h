@@ -151,7 +151,7 @@ namespace Morula
       return const_cast<Catalogue *>(this)->keys<Parameters>();
     }
 
-    /** The same effects with their defaults. */
+    /** A copy whose keys have their defaults. */
     Catalogue
     with_defaults() const;
 

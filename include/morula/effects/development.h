@@ -39,8 +39,8 @@ namespace Morula
     std::vector<CellEvent> events;
     /** The step before. */
     PastStep past = {};
-    /** Which part of an error of the forecast motion is an error of what flows,
-     *  by cell and flow. */
+    /** An error of the forecast motion times this is an error of what flows; a
+     *  number for each cell and flow. */
     std::vector<double> flow_shares = {};
     /** |missed| of the step before, by cell, if growth follows the state; else
      *  empty. */
@@ -60,18 +60,18 @@ namespace Morula
   template <int dim>
   struct DevelopmentEffects
   {
-    /** In the order in which they are asked. */
+    /** The fates, in the order in which they are asked. */
     Fates<dim> fates;
-    /** Those of the fates that others speak to, or null. */
+    /** Two of the fates, to which other parts speak, or null. */
     const Proliferation<dim> *proliferation = nullptr;
     const CellTypes<dim>     *types         = nullptr;
-    /** Or null. */
+    /** The law of growth, or null. */
     std::unique_ptr<const GrowthLaw<dim>> law;
     /** Whether cells grow by the law, by type; empty: all do. */
     std::vector<bool> grows = {};
     /** Factors of F_g left of the law, from the right. */
     std::vector<std::unique_ptr<const GrowthFactor<dim>>> factors;
-    /** In the order in which they act. */
+    /** The flows, in the order in which they act. */
     std::vector<std::unique_ptr<const Flow<dim>>> flows;
     /** F_law, if there are factors to its left. */
     Column<Tensor<2, dim>> law_growth;
@@ -184,7 +184,7 @@ namespace Morula
             const double       t1,
             const PastStep    &past = {}) const;
 
-    /** By how much the step that led to the state at @p t0 missed the growth
+    /** How much the step that led to the state at @p t0 missed of the growth
      *  of each cell, |missed| of doc/theory.md (5.9), in the order of the
      *  cells; empty where nothing that grows follows the state. */
     std::vector<double>
@@ -279,7 +279,7 @@ namespace Morula
     {
       /** |missed| of the step before. */
       double missed_growth = 0.;
-      /** Which part of an error of the motion is one of the flow, by flow. */
+      /** An error of the motion times this is one of the flow; by flow. */
       std::vector<double> flow_shares = {};
     };
 

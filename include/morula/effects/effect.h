@@ -99,7 +99,7 @@ namespace Morula
   {
     /** Initial positions, µm. */
     const std::vector<Point<dim>> &founders;
-    /** On all ranks. */
+    /** Number of founders on all ranks. */
     types::particle_index n_founders;
     /** Initial positions, µm. */
     const std::vector<Point<dim>> &boundary_points;
@@ -107,7 +107,7 @@ namespace Morula
     const std::vector<Tensor<1, dim>> &normals;
     /** Whether some boundary points are fixed. */
     bool is_clamped;
-    /** Of the run, day. */
+    /** End of the run, day. */
     double end_time;
     /** Length of a step, day. */
     double step;

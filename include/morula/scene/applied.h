@@ -21,7 +21,7 @@ namespace Morula
   /** What a condition acts on at t = 0, over all ranks. */
   struct AppliedCondition
   {
-    /** Of the condition in the catalogue. */
+    /** Name of the condition in the catalogue. */
     std::string name;
     /** Boundary points on which it acts, those excepted on which another one
      *  wins, and their area, µm^(dim-1). */
@@ -57,7 +57,7 @@ namespace Morula
   std::string
   material_text(const Scene &scene);
 
-  /** The same for the log of a run: material and conditions, a line each. */
+  /** The lines of a run's log: one for the material, one for each condition. */
   std::vector<std::string>
   applied_texts(const Scene                         &scene,
                 const std::vector<AppliedCondition> &applied);

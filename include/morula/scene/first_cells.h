@@ -57,12 +57,12 @@ namespace Morula
     std::vector<double>
     row(const std::size_t i) const;
 
-    /** The same founder as its expressions see it. @param row its columns,
+    /** Founder number @p i as its expressions see it. @param row its columns,
      *  which must outlive the result, like this */
     PresentCell<dim>
     cell(std::vector<double> &row, const std::size_t i) const;
 
-    /** What becomes of them. */
+    /** The rules by which the founders develop. */
     const CellDevelopment<dim> &
     development() const;
 

@@ -13,7 +13,7 @@
 
 namespace Morula
 {
-  /** By which factors growth makes the volumes of founders larger. */
+  /** The factors by which growth makes the volumes of founders larger. */
   struct FreeGrowth
   {
     double mean = 1., least = 1., most = 1.;
@@ -23,8 +23,8 @@ namespace Morula
   };
 
   /**
-   * By which factors a growth law makes the founders larger until End time, if
-   * nothing presses them: each grows free of stress where it stands, of the
+   * The factors by which a growth law makes the founders larger until End time,
+   * if nothing presses them: each grows free of stress where it stands, of the
    * type that it has, in the fields of t = 0. Nothing without a law. Where
    * there are many founders, only some are asked. Collective.
    */

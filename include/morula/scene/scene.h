@@ -69,7 +69,9 @@ namespace Morula
      */
     std::map<std::string, std::string> as_written;
 
-    /** Where they were written, "file:line: " or "-s: ", by full path. */
+    /** The places where keys were written, "file:line: " or "-s: ", by full
+     * path.
+     */
     std::map<std::string, std::string> places;
 
     /** The file that read() has read; empty if there is none. */

@@ -13,7 +13,7 @@ namespace Morula
 {
   namespace
   {
-    /** (I + amount n⊗n) F. */
+    /** (I + amount n⊗n) F, the growth along n of doc/theory.md (6.2). */
     template <int dim>
     Tensor<2, dim>
     stretched_along(const Tensor<1, dim> &n,
@@ -45,6 +45,8 @@ namespace Morula
   double
   CellAt<dim>::value(const Expression &expression, const double when) const
   {
+    // An expression of X alone keeps the founder's value, also where there is
+    // no cell with a state, as before the run.
     return depends_on_more_than_place(expression) ?
              cell->value(expression, when) :
              expression.value(X, 0.);
@@ -56,6 +58,9 @@ namespace Morula
   CellCycle<dim>::founder(const types::particle_index id,
                           const CellAt<dim>          &at) const
   {
+    // The phase stays `never` outside of Where. All random numbers of a cell
+    // follow from its key, which is drawn from the seed and its id: they do not
+    // depend on ranks or on the order in which founders are made.
     CycleState<dim> state;
     state.growth_pre = unit_symmetric_tensor<dim>();
     state.key        = Random::founder_key(seed, id);
@@ -64,10 +69,11 @@ namespace Morula
       return state;
 
     state.phase = CyclePhase::waiting;
-    // Types that do not proliferate have a rate of 0, and do not start.
+    // Types that do not proliferate have the rate 0: they wait for ever instead
+    // of starting together with the others.
     if (start_together && !(has_own_hazard() && at.value(exit_rate) == 0.))
-      // A wait that ends at once: the checkpoint, where there is one that a
-      // cell at rest does not pass, holds.
+      // This is a wait that ends at once. A cell that starts has J_e = 1; where
+      // the checkpoint is above that, the cell is held.
       return advance(state, at, 0., 0., {1.});
 
     wait(state, at, 0.);
@@ -81,6 +87,10 @@ namespace Morula
                                    const CellAt<dim>          &at,
                                    const unsigned int          phase) const
   {
+    // A file says the phase of this founder. Phase 9 never proliferates and
+    // phase 0 waits; else the cell is on its way, and where in its phase it
+    // stands is drawn, doc/theory.md (6.2a). The onset of S then lies before t
+    // = 0.
     CycleState<dim> state;
     state.growth_pre = unit_symmetric_tensor<dim>();
     state.key        = Random::founder_key(seed, id);
@@ -96,11 +106,15 @@ namespace Morula
     const double T = at.value(duration);
     if (has_own_duration())
       state.duration = T;
+    // S and G2 take a quarter of the cycle each, and G1 the second half. M is
+    // the moment of division, in the middle.
     const double before = phase == 1 ? 0. : phase == 2 ? 0.25 : 0.5;
     const double length = phase == 4 ? 0.5 : 0.25;
     state.phase = phase == 4 ? CyclePhase::divided : CyclePhase::growing;
     state.event_time =
       -(before + length * Random::part_of_phase(seed, state.key)) * T;
+    // A founder in G1 is a daughter whose axis was her mother's. Its own key is
+    // for its next cycle, so the axis gets another one.
     const std::uint64_t key =
       phase == 4 ? Random::past_key(seed, state.key) : state.key;
     state.axis = Random::direction<dim>(seed, key);
@@ -113,6 +127,9 @@ namespace Morula
   CellCycle<dim>::begin_growth(CycleState<dim>   &state,
                                const CellAt<dim> &at) const
   {
+    // The cell has at t = 0 the volume of the file and is at rest, so F_g is I.
+    // Hence the growth before the cycle is the inverse of what the cycle has
+    // done until then, doc/theory.md (6.2a).
     state.growth_pre = unit_symmetric_tensor<dim>();
     state.growth_pre = invert(growth(state, at, 0.));
   }
@@ -126,13 +143,20 @@ namespace Morula
                           const double       t1,
                           const ElasticSize &size) const
   {
+    // Two passes take the clock through [t0, t1]. The first ends a cycle that
+    // is due, or goes on with the wait. The second starts S if the wait has
+    // ended and the checkpoint lets the cell pass; it may do so in the same
+    // step. Division is not done here: it needs the other cells, and a growing
+    // cell only says that it is due.
     if (state.phase == CyclePhase::divided)
       {
         // G1 is (T/2, T]: a cycle that ends at t1 is left in the next step.
         const double cycle_end = state.event_time + cycle_duration(state, at);
         if (cycle_end < t1 - slack)
           {
-            // doc/theory.md (6.3)
+            // The stretch of the whole cycle becomes part of the growth before
+            // the next one, doc/theory.md (6.3), and G0 begins at the exact
+            // end.
             state.growth_pre =
               stretched_along(state.axis, 1., state.growth_pre);
             state.axis  = Tensor<1, dim>();
@@ -153,6 +177,8 @@ namespace Morula
         state.event_time = begin;
         if (has_own_duration())
           {
+            // The duration is that of the moment of the onset: a cell that is
+            // on its way keeps its clock, whatever becomes of its state.
             state.duration = at.value(duration, begin);
             check_step(state.duration, t1 - t0);
           }
@@ -169,6 +195,7 @@ namespace Morula
                           const CellAt<dim>     &at,
                           const double           t1) const
   {
+    // The slack admits rounding: a division at t1 belongs to this step.
     return state.phase == CyclePhase::growing &&
            division_time(state, at) <= t1 + slack;
   }
@@ -190,11 +217,14 @@ namespace Morula
                          const CellAt<dim>     &at,
                          const double           t) const
   {
+    // This is doc/theory.md (6.2) with θ - 1 = (t - t_S)/T. It is the same
+    // before and after the division, so that division changes no stress.
     if (state.phase != CyclePhase::growing &&
         state.phase != CyclePhase::divided)
       return state.growth_pre;
 
-    // The clamp cuts off nothing but what the slack admits.
+    // The quotient is within [0, 1] but for the slack of times, which the clamp
+    // cuts off.
     const double theta_minus_1 =
       std::clamp((t - state.event_time) / cycle_duration(state, at), 0., 1.);
     return stretched_along(state.axis, theta_minus_1, state.growth_pre);
@@ -205,6 +235,8 @@ namespace Morula
   std::pair<CycleState<dim>, CycleState<dim>>
   CellCycle<dim>::daughters(const CycleState<dim> &mother) const
   {
+    // Both daughters go on with the mother's clock, axis and growth. Only their
+    // keys are new, so that their later draws differ.
     Assert(mother.phase == CyclePhase::growing, ExcInternalError());
 
     std::pair<CycleState<dim>, CycleState<dim>> states(mother, mother);
@@ -223,6 +255,8 @@ namespace Morula
   CellCycle<dim>::placement_axis(const CycleState<dim> &state,
                                  const Tensor<2, dim>  &F_e) const
   {
+    // The axis is one of the reference configuration. It is taken along by the
+    // elastic part if the scene says so.
     if (!axis_follows_rotation)
       return state.axis;
 
@@ -283,6 +317,9 @@ namespace Morula
                                const CellAt<dim>     &at,
                                const double           t) const
   {
+    // These are the numbers of the outputs: 0 is G0, 1 S, 2 G2, 3 M, 4 G1, and
+    // 9 never proliferates. M has no length, so it is the state at the moment
+    // of the division.
     if (state.phase == CyclePhase::never)
       return 9;
     if (state.phase == CyclePhase::waiting)
@@ -317,6 +354,11 @@ namespace Morula
                         const double           t1,
                         const ElasticSize     &size) const
   {
+    // The wait ends at t_e, which may lie in this step or, for a cell that was
+    // held, before it. J_e is known at the beginnings of steps only and is
+    // thought to go on as in the step before. Without a checkpoint the wait
+    // alone decides; then S may begin at a time before t0 only by rounding,
+    // which the maximum removes.
     const double never = std::numeric_limits<double>::infinity();
     const double t_e   = state.event_time;
     if (t_e > t1 + slack)
@@ -324,19 +366,22 @@ namespace Morula
     if (!has_checkpoint())
       return std::max(t_e, t0);
     if (t_e > t0)
-      { // J_e goes on as it came.
+      { // The wait ends within this step: J_e goes on with the last one's
+        // slope.
         const double J_e = size.J_e + size.slope * (t_e - t0);
         return passes_checkpoint(at, J_e, t_e) ? t_e : never;
       }
     if (!passes_checkpoint(at, size.J_e, t0))
       return never;
-    // It was held, and has passed since the last step began.
+    // The cell was held and passes now: J_e rose past the threshold since the
+    // last step began, doc/theory.md (6.3g).
     const double since = std::max(t_e, std::min(size.since, t0));
     const double above = size.J_e - at.value(size_checkpoint, t0);
     if (!(size.slope > 0. && size.since < t0))
       return since;
-    // In parts of the step that are far longer than rounding: cells that are
-    // equal have equal times, on any ranks, and so their daughters equal ids.
+    // The time is rounded to parts of the step that are far longer than the
+    // rounding of J_e. So cells that are equal have equal times on any ranks,
+    // and their daughters are numbered in the same order.
     constexpr double n_parts = 1u << 20;
     const double     part    = (t0 - size.since) / n_parts;
     const double     n       = std::round(above / size.slope / part);
@@ -359,6 +404,9 @@ namespace Morula
                        const CellAt<dim> &at,
                        const double       t) const
   {
+    // A wait with a constant rate ends at a time that is drawn at once.
+    // Otherwise the end is unknown, and integrate_hazard() finds it step by
+    // step with the same draw.
     state.hazard    = 0.;
     state.exit_rate = not_expected;
     state.event_time =
@@ -375,9 +423,11 @@ namespace Morula
                                    const double       t0,
                                    const double       t1) const
   {
+    // The rate is taken at the middle of the stretch, which makes what depends
+    // on time alone exact to second order. An end that is known already stays.
     if (!has_own_hazard() || std::isfinite(state.event_time))
       return;
-    // doc/theory.md (6.8)
+    // This is doc/theory.md (6.8).
     const Hazard hazard{at.value(exit_rate, 0.5 * (t0 + t1)),
                         state.hazard,
                         Random::exponential(seed, state.key, 1.)};
@@ -408,6 +458,8 @@ namespace Morula
                             const CellAt<dim> &at,
                             const PastStep    &past) const
   {
+    // A negative rate says that the last step expected none: then nothing was
+    // missed.
     if (state.is_drawn_by_hazard() && state.exit_rate >= 0.)
       state.hazard = with_missed(state.hazard,
                                  exit_rate_at(at),

@@ -17,7 +17,7 @@ namespace Morula
 {
   namespace
   {
-    /** What an expression is at a cell, for the end of "what is allowed". */
+    /** The text that ends "what is allowed" with the value at one cell. */
     template <int dim>
     std::string
     value_at(const double value, const Point<dim> &X)
@@ -35,6 +35,10 @@ namespace Morula
                     const Preview<dim>        &scene,
                     Review                    &review)
   {
+    // The shortest cycle of all founders that proliferate is compared with the
+    // step. A duration that depends on the state or the time is left to the
+    // run. All ranks return there together, as the expression is the same on
+    // all, so the minimum is reached by all or none.
     const Expression &duration = parameters.duration.expression(dim);
     const Expression &where    = parameters.where.expression(dim);
     if (depends_on_more_than_place(duration))
@@ -44,6 +48,8 @@ namespace Morula
       if (where.value(X, 0.) > 0.)
         shortest = std::min(shortest, duration.value(X, 0.));
     shortest = Utilities::MPI::min(shortest, scene.comm);
+    // Without any proliferating founder the minimum is huge and nothing is
+    // said.
     if (scene.step > (0.25 + 1e-9) * shortest)
       review.warn(TimeParameters::step_path,
                   as_text(scene.step) + " day",
@@ -89,6 +95,8 @@ namespace Morula
     , stay_inside(parameters.stay_inside)
     , seed(seed)
     , slack(slack)
+    // The flags are kept, as they are asked for each cell in each step: whether
+    // an expression needs the state decides which columns the cycle has.
     , own_duration(depends_on_more_than_place(duration))
     , own_hazard(depends_on_more_than_place(exit_rate))
     , exit_rate_follows_state(exit_rate.follows_state())
@@ -100,6 +108,8 @@ namespace Morula
   CellCycle<dim>::check(const std::vector<Point<dim>> &founders,
                         const double                   step) const
   {
+    // This is the check before there are cells: only expressions of X can be
+    // evaluated.
     double shortest = std::numeric_limits<double>::infinity();
     for (const Point<dim> &X : founders)
       if (where.value(X, 0.) > 0.)
@@ -113,6 +123,8 @@ namespace Morula
   CellCycle<dim>::check_cell(const CellAt<dim> &founder,
                              const double       step) const
   {
+    // This is the check at a founder with its state, for all expressions that
+    // need it.
     const Point<dim> X = founder.present()->cell().founder_position();
     if (!(where.value(X, 0.) > 0.))
       return;
@@ -128,7 +140,10 @@ namespace Morula
                                    const Point<dim>  &X,
                                    const bool         in_its_state) const
   {
-    // What depends on its state is left to check_cell(), the rest to check().
+    // Two callers share this function. check() has no cell and evaluates the
+    // expressions of X alone; check_cell() has one and evaluates the rest. An
+    // expression that is not this caller's is NaN, with which every comparison
+    // below is false.
     const auto value = [&](const Expression &expression) {
       return depends_on_more_than_place(expression) == in_its_state ?
                at.value(expression) :
@@ -157,6 +172,7 @@ namespace Morula
                        "a volume ratio that is not negative" +
                          value_at(threshold, X),
                        "Use 0 for no checkpoint.");
+    // A duration that is not known here must not shorten the step.
     return std::isnan(T) ? std::numeric_limits<double>::infinity() : T;
   }
 
@@ -165,6 +181,9 @@ namespace Morula
   void
   CellCycle<dim>::check_step(const double shortest, const double step) const
   {
+    // A cell divides T/2 after the onset and could divide twice in a longer
+    // step; only one division per step is provided for. The slack admits a step
+    // of T/2 with rounding.
     if (step <= 0.5 * shortest + slack)
       return;
     std::ostringstream value, limit;

@@ -11,7 +11,7 @@ namespace Morula
       " An expression of X, Y, Z (um), evaluated at the founder's initial "
       "position and inherited by all its descendants.";
 
-    /** Path of a key of this section. */
+    /** The full path of a key of this section. */
     std::string
     path(const std::string &name)
     {
@@ -89,13 +89,23 @@ namespace Morula
         "true: daughters are placed inside the whole surface; false: only "
         "inside what is held of it, as in the paper.")
   {
+    // By default the axis is random and there is no checkpoint. Where is
+    // evaluated once per founder; the others at an event of the clock, since a
+    // cell in its cycle keeps what it began with. The words for the axis come
+    // later: rules add their names, and fields their gradients.
+
+    // The limits below hold for numbers and for expressions, whose values are
+    // checked at cells.
     duration.positive("day", "Choose the duration of a cycle in days.");
     exit_rate.not_negative("1/day", "0 lets cells wait forever.");
+    // A concentration of zero is a uniform distribution in theory; here it
+    // means that there is none.
     axis_spread.not_negative(
       "(a concentration)",
       "0 means no spread; otherwise, the larger the "
       "number, the nearer are axes to what Division axis "
       "says.");
+    // A ratio of the larger to the smaller stretch cannot be below 1.
     least_anisotropy.require(
       [](const double ratio) { return ratio >= 1.; },
       "a ratio of at least 1",
@@ -109,6 +119,7 @@ namespace Morula
   KeyList
   CellCycleParameters::list()
   {
+    // The order is that of the printed parameters.
     return {&start,
             &duration,
             &exit_rate,

@@ -10,6 +10,7 @@ namespace Morula
 {
   namespace
   {
+    // All keys of a type stand in the section of its name below this one.
     const std::string section_of_types = "Cell types/";
   } // namespace
 
@@ -47,6 +48,11 @@ namespace Morula
                     "empty: that of all.",
                     {"|" + laws.division_axes})
   {
+    // The names of types are the user's, so their keys are made while the file
+    // is read. A type has some keys of its own, one rate for each other type,
+    // and a copy of every key of cells in the scene, which is empty unless the
+    // type differs from the others. Paths are completed at the end: place_in()
+    // puts the section before them.
     for (const std::string &other : others)
       {
         transitions.emplace_back("Transitions/To " + other,
@@ -119,6 +125,9 @@ namespace Morula
     const LawsOfCells                        &laws,
     const std::vector<std::string>           &fields)
   {
+    // The text is that of the key Names, which is read before all others. First
+    // all names are checked, then each type gets its keys: it has to know the
+    // others, since they are what it may become.
     const std::vector<std::string> list =
       declared_names(names, text, [&](const std::string &name) {
         return std::find(fields.begin(), fields.end(), name) != fields.end() ?
@@ -140,6 +149,10 @@ namespace Morula
   void
   CellTypesParameters::apply(const std::vector<ExpressionKey *> &of_cells)
   {
+    // First every expression learns the names of types as numbers, as it may
+    // compare `type` with them. Then what a type overrides is put into the key
+    // of all cells, by the type's number; an empty key leaves the scene's
+    // value. The overrides of a type are in the order of `of_cells`.
     std::map<std::string, double> numbers;
     for (unsigned int i = 0; i < types.size(); ++i)
       numbers[types[i].name] = i;
@@ -163,6 +176,8 @@ namespace Morula
   std::pair<unsigned int, unsigned int>
   CellTypesParameters::daughters(const unsigned int type) const
   {
+    // An empty key stands for two daughters of the mother's type. The result
+    // has numbers of types, the daughter at -n_s first.
     const Key<std::string>        &key  = types[type].daughters;
     const std::vector<std::string> both = split_names(key);
     if (both.empty())

@@ -19,6 +19,11 @@ namespace Morula
     : names(parameters.name_list())
     , random_seed(setting.random_seed)
   {
+    // First the ways out of each type are collected: only rates that the scene
+    // sets, with the number of the type to which they lead. Then the columns
+    // are declared. A cell has one type at a time, so ways are numbered within
+    // its type and all types share the columns: as many as the type with the
+    // most ways needs.
     std::size_t most = 0;
     for (unsigned int type = 0; type < parameters.types.size(); ++type)
       {
@@ -29,6 +34,7 @@ namespace Morula
         for (unsigned int k = 0; k < keys.transitions.size(); ++k)
           if (!keys.transitions[k].is_default())
             transitions.back().push_back(
+              // The list of a type leaves the type itself out, hence the shift.
               {k < type ? k : k + 1, setting.state.use(keys.transitions[k])});
         most = std::max(most, transitions.back().size());
       }
@@ -68,6 +74,8 @@ namespace Morula
   unsigned int
   CellTypes<dim>::founder_type(const Point<dim> &X) const
   {
+    // The last type whose condition holds counts, so the search goes backwards.
+    // Type 0 is that of all others and is not asked.
     for (unsigned int type = where.size(); type-- > 1;)
       if (where[type] && where[type]->value(X, 0.) > 0.)
         return type;
@@ -81,6 +89,11 @@ namespace Morula
                           const CellView<dim, const double> &row,
                           const Stretch                     &stretch) const
   {
+    // This finds which way out comes first in the stretch, doc/theory.md (6.6)
+    // and (6.7). Rates are read from the cell's state of the step's beginning,
+    // with the time of the stretch's middle. Each way is asked only for an
+    // event before the earliest so far. Thresholds follow from the lineage key
+    // and the number of changes, so asking again gives the same answer.
     const std::vector<Transition> &ways = transitions[cell.type()];
     Outlook                        outlook;
     if (ways.empty())
@@ -112,6 +125,8 @@ namespace Morula
                             const double                 s,
                             const CellView<dim, double> &row) const
   {
+    // All ways are integrated until the same time, that of the event or the
+    // end.
     for (std::size_t k = 0; k < outlook.ways.size(); ++k)
       row.set(hazards[k], outlook.ways[k].integral_at(stretch.begin, s));
   }
@@ -123,6 +138,8 @@ namespace Morula
                        const CellView<dim, double> &row,
                        const Stretch               &stretch) const
   {
+    // The integrals are written as if this event happened. If another fate
+    // comes first, pass() sets them again.
     const Outlook outlook = this->outlook(cell, row, stretch);
     integrate(outlook, stretch, outlook.time.value_or(stretch.end), row);
     return outlook.time;
@@ -136,6 +153,8 @@ namespace Morula
                        const Stretch               &stretch,
                        const double                 s) const
   {
+    // Integrals are read from `cell`, the row of the round's beginning, because
+    // next() has already changed `row`.
     integrate(outlook(cell, cell.cell(), stretch), stretch, s, row);
   }
 
@@ -148,6 +167,8 @@ namespace Morula
                          const double                 s,
                          std::vector<CellEvent>      &events) const
   {
+    // A new type has other ways out, so all integrals begin anew, and the count
+    // of changes gives it new thresholds.
     const unsigned int       to      = *outlook(cell, cell.cell(), stretch).to;
     const StateColumns<dim> &columns = cell.reader().columns;
     events.push_back({s, cell.id(), CellEvent::transition, cell.type(), to});
@@ -168,6 +189,8 @@ namespace Morula
                           const unsigned int           which,
                           const double                 birth) const
   {
+    // A daughter of her mother's type keeps the time since when she has it; one
+    // of another type gets it at birth.
     const unsigned int type = daughter.get(columns.type);
     const unsigned int own =
       which == 0 ? daughters_[type].first : daughters_[type].second;
@@ -184,6 +207,9 @@ namespace Morula
   CellTypes<dim>::make_good(const PresentCell<dim>      &cell,
                             const CellView<dim, double> &row) const
   {
+    // What the last step missed of each integral is added, doc/theory.md (5.9),
+    // for the rates that follow the state. The column is -1 after a birth or a
+    // change of type, and then nothing is added.
     const PastStep                &past = cell.reader().past;
     const std::vector<Transition> &ways = transitions[cell.type()];
     if (!past.exists())
@@ -205,6 +231,8 @@ namespace Morula
                          const double                 t,
                          const bool                   is_whole) const
   {
+    // The rates that this step sees are kept for the next one. Columns beyond
+    // the ways of this type say that nothing is expected.
     const std::vector<Transition> &ways = transitions[cell.type()];
     for (std::size_t k = 0; k < expected.size(); ++k)
       if (expected[k].exists())

@@ -12,6 +12,9 @@ namespace Morula
                                   const bool        exit_rate_follows_state,
                                   const bool        checkpoint)
   {
+    // The first five columns are always there. The others are numbers that only
+    // some scenes need, so each is declared on its condition; load() puts a
+    // default in its place.
     columns.need_growth();
     columns.need_lineage();
     phase = columns.template add<CyclePhase>(
@@ -57,6 +60,7 @@ namespace Morula
   CycleState<dim>
   CycleColumns<dim>::load(const CellView<dim, const double> &cell) const
   {
+    // The order is that of the members of CycleState.
     return {cell.get(phase),
             cell.get(event_time),
             cell.get(lineage_key_),
@@ -73,6 +77,7 @@ namespace Morula
   CycleColumns<dim>::store(const CycleState<dim>       &state,
                            const CellView<dim, double> &cell) const
   {
+    // What has no column is the same for all cells, or is not used.
     cell.set(phase, state.phase);
     cell.set(event_time, state.event_time);
     cell.set(lineage_key_, state.key);
@@ -92,6 +97,8 @@ namespace Morula
   CycleColumns<dim>::size(const CellView<dim, const double> &cell,
                           const PastStep                    &past) const
   {
+    // The slope is that of the last step, doc/theory.md (6.3g). In the first
+    // step there is none, and J_e counts as constant.
     const double J_e = cell.elastic_volume_ratio();
     if (!J_e_before.exists() || !past.exists())
       return {J_e};
@@ -104,6 +111,8 @@ namespace Morula
   CycleColumns<dim>::remember_size(const CellView<dim, const double> &before,
                                    const CellView<dim, double> &after) const
   {
+    // `before` is the cell at the beginning of this step: for the next step
+    // that is the beginning of the step before.
     if (J_e_before.exists())
       after.set(J_e_before, before.elastic_volume_ratio());
   }

@@ -14,7 +14,8 @@ namespace Morula
 {
   namespace
   {
-    /** The death time of cells that live. */
+    /** The column of the time of death has this value while a cell lives. No
+     * cell dies before t = 0, so -1 is free. */
     constexpr double never = -1.;
   } // namespace
 
@@ -32,6 +33,11 @@ namespace Morula
     , random_seed(setting.random_seed)
     , slack(setting.slack)
   {
+    // Expressions are announced first, as they decide which columns the state
+    // has. Without a rate there is no integral, and a rate that does not follow
+    // the state misses nothing, so these two columns are optional. What is
+    // fixed at the moment of death is stored with the cell, as the expressions
+    // go on changing.
     CellColumns<dim> &columns = setting.columns;
     columns.need_growth();
     if (has_rate)
@@ -99,6 +105,7 @@ namespace Morula
   bool
   Death<dim>::strikes(const PresentCell<dim> &cell, const double t) const
   {
+    // The last member marks the event as a death by a condition, not by a rate.
     return has_condition && cell.value(when, t) > 0.;
   }
 
@@ -122,6 +129,8 @@ namespace Morula
                      const CellView<dim, const double> &row,
                      const Stretch                     &stretch) const
   {
+    // A cell has one threshold for its whole life: a change of its type changes
+    // the rate and keeps the integral, doc/theory.md section 6.9.
     return {cell.value(rate_, 0.5 * (stretch.begin + stretch.end)),
             row.get(integral),
             Random::death_threshold(random_seed, cell.lineage_key())};
@@ -134,6 +143,8 @@ namespace Morula
                    const CellView<dim, double> &row,
                    const Stretch               &stretch) const
   {
+    // The integral is written as if nothing else happened; pass() sets it again
+    // if another fate comes first.
     if (!has_rate)
       return {};
     const Hazard hazard = this->hazard(cell, row, stretch);
@@ -151,6 +162,8 @@ namespace Morula
                    const Stretch               &stretch,
                    const double                 s) const
   {
+    // The integral of the round's beginning is in `cell`, since next() has
+    // changed `row`.
     if (has_rate)
       row.set(integral,
               hazard(cell, cell.cell(), stretch).integral_at(stretch.begin, s));
@@ -205,6 +218,8 @@ namespace Morula
                    const CellView<dim, double> &row,
                    const double                 t) const
   {
+    // The times and volumes of the shrinking are those of the moment of death,
+    // and so is the decision whether the cell stays.
     row.set(time_, t);
     row.set(duration, cell.value(shrinking_time, t));
     row.set(least, cell.value(final_volume, t));
@@ -217,10 +232,12 @@ namespace Morula
   Death<dim>::shrink(const CellView<dim, double> &row, const double t) const
   {
     const double whole = row.get(duration);
-    // What goes at once does not collapse first.
+    // A cell that is removed at the end of this step is whole until then: a
+    // collapse before would pull at its neighbours.
     if (whole == 0. && row.get(stays) == 0)
       return 1.;
-    // doc/theory.md (6.9)
+    // This is s of doc/theory.md (6.9), as a ratio to what the last step left:
+    // F_g has the former shrinking in it already.
     const double part =
       whole > 0. ? std::clamp((t - row.get(time_)) / whole, 0., 1.) : 1.;
     const double before = row.get(remaining);
@@ -234,6 +251,7 @@ namespace Morula
   double
   Death<dim>::removal_time(const CellView<dim, const double> &cell) const
   {
+    // Cells that live, and debris, are never removed.
     return is_dead(cell) && cell.get(stays) == 0 ?
              cell.get(time_) + cell.get(duration) :
              std::numeric_limits<double>::infinity();
@@ -244,6 +262,9 @@ namespace Morula
   bool
   Death<dim>::may_strike() const
   {
+    // This says whether a condition may take cells at once. A shrinking time
+    // that is a positive constant rules it out; an expression may be zero
+    // somewhere.
     return has_condition && !(shrinking_time.is_constant() &&
                               shrinking_time.number().value_or(0.) > 0.);
   }
@@ -278,6 +299,8 @@ namespace Morula
   void
   Death<dim>::declare(Tables<dim> &tables) const
   {
+    // The numbers of pieces are known to the run only; here the column is
+    // announced.
     tables.record_events(true);
     tables.add_sum("dying", [this](const PresentCell<dim> &cell) {
       return is_dead(cell.cell()) ? 1. : 0.;

@@ -38,6 +38,9 @@ namespace Morula
                   "true if it is > 0.",
                   Evaluated::event)
   {
+    // Rate and condition are evaluated in each step; all others once, at the
+    // death of a cell. A final volume of zero is refused, as F_g would be
+    // singular.
     rate.not_negative("1/day", "0 lets cells live.");
     shrinking_time.not_negative("day", "0 removes cells at once.");
     final_volume.require(
@@ -50,6 +53,7 @@ namespace Morula
   bool
   DeathParameters::is_on() const
   {
+    // Death has two switches: a rate or a condition that may ever hold.
     return !(rate.expression(3).is_always(0.) &&
              when.expression(3).is_always(0.));
   }
@@ -72,7 +76,9 @@ namespace Morula
   void
   DeathParameters::check_with(const MaterialParameters &material) const
   {
-    // Cells that go at once are never in the balance of momentum as dead ones.
+    // Cells that go at once are never part of the balance of momentum as dead
+    // ones, so they may have any weight. A cell that shrinks needs a weight
+    // that shrinks with it.
     const bool shrink = !shrinking_time.expression(3).is_always(0.) ||
                         !keep_debris.is_default() ||
                         keep_debris.differs_by_type();
@@ -88,6 +94,7 @@ namespace Morula
   std::string
   DeathParameters::details() const
   {
+    // The text is what --explain says of death.
     return "rate = " + rate.text() + " /day, when = " + when.text() +
            ", shrinking time = " + shrinking_time.text() + " day";
   }

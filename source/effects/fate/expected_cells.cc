@@ -15,11 +15,15 @@ namespace Morula
                  const double t,
                  const bool   together)
   {
+    // The sum goes over generations: the k-th division of a lineage adds
+    // 2^(k-1) cells. It comes after (k - 1/2) T in cycles and the waits in G0
+    // before them. The sum of k exponential waits has a gamma distribution,
+    // whose function is the share of lineages that have come so far.
     double n = 1.;
     for (unsigned int k = 1; (k - 0.5) * T <= t && std::isfinite(n); ++k)
       {
-        // the k-th division comes after k waits, without the first if all
-        // start together
+        // The k-th division comes after k waits, without the first if all start
+        // together.
         const unsigned int waits = together ? k - 1 : k;
         const double       share =
           waits == 0 ?
@@ -51,6 +55,9 @@ namespace Morula
   double
   Descendants<dim>::expected(const Point<dim> &X)
   {
+    // Where the run alone can tell, the answer is 1, a lower bound.
+    // Neighbouring founders often have the same duration and rate, so the last
+    // result is kept.
     if (!(where.value(X, 0.) > 0.))
       return 1.;
     for (const Expression *expression : {&duration, &rate, &checkpoint})

@@ -5,7 +5,9 @@
 
 #include <limits>
 
-// What a fate does unless it says otherwise: nothing.
+// A fate that says nothing else does nothing: it has no events, no deaths and
+// no rates, and nothing is inherited. A new fate overrides only what concerns
+// it.
 
 namespace Morula
 {
@@ -96,6 +98,8 @@ namespace Morula
   double
   Fate<dim>::time_of_death(const CellView<dim, const double> &) const
   {
+    // No death is an infinite time, so that the earliest of all fates is a
+    // minimum.
     return std::numeric_limits<double>::infinity();
   }
 
@@ -104,6 +108,7 @@ namespace Morula
   double
   Fate<dim>::shrink(const CellView<dim, double> &, const double) const
   {
+    // This is a factor of lengths: 1 leaves F_g as it is.
     return 1.;
   }
 

@@ -10,6 +10,10 @@ namespace Morula
   std::optional<double>
   Hazard::event(const double t0, const double t1) const
   {
+    // The rate is constant in the stretch, so the integral reaches the
+    // threshold at the time of doc/theory.md (6.7). A threshold that was passed
+    // by what the last step missed is passed at once. The negated comparison
+    // leaves out rates that are NaN.
     const double left = threshold - integral;
     if (left <= 0.)
       return t0;
@@ -32,6 +36,8 @@ namespace Morula
               const double expected,
               const double dt)
   {
+    // This is doc/theory.md (5.9). An expected rate below zero means that there
+    // is nothing to compare. The integral of a rate is never negative.
     return expected >= 0. ?
              std::max(0., integral + 0.5 * dt * (rate - expected)) :
              integral;

@@ -17,11 +17,12 @@ namespace Morula
 {
   namespace
   {
-    /** More events of a cell in a step are a mistake in some rate. */
+    /** A cell with more events in a step has a rate that is a mistake: without
+     * a limit the loop would not end. */
     constexpr unsigned int most_events = 1000;
 
-    /** A copy of a cell's row, and a number for each fate: as a rule without
-     *  memory from the heap. */
+    /** A copy of a cell's row, and a number for each fate. Up to these sizes
+     * they lie on the stack: live() is called for each cell in each step. */
     using Row          = boost::container::small_vector<double, 128>;
     using NumberOfFate = boost::container::small_vector<double, 8>;
 
@@ -45,6 +46,9 @@ namespace Morula
       NextEvent first{NumberOfFate(fates.size()), t1, {}};
       for (std::size_t k = 0; k < fates.size(); ++k)
         {
+          // A fate is asked for events up to the earliest so far. At equal
+          // times the later fate has the event, as it is asked up to and with
+          // that time.
           first.asked_until[k] = first.time;
           if (const auto time = fates[k]->next(cell, row, {t, first.time}))
             {
@@ -67,6 +71,8 @@ namespace Morula
            std::vector<CellEvent>      &events)
     {
       for (std::size_t k = 0; k < fates.size(); ++k)
+        // A fate that was asked beyond the event has gone too far and is set
+        // back to its time.
         if (k != *event.fate && event.asked_until[k] > event.time)
           fates[k]->pass(cell, row, {t, event.asked_until[k]}, event.time);
       const LifeAfter after = fates[*event.fate]->happen(
@@ -88,10 +94,13 @@ namespace Morula
        const double                 t1,
        std::vector<CellEvent>      &events)
   {
+    // Each round takes the cell from one event to the next. All fates see the
+    // cell as it was when the step began, but for its type and what they keep
+    // of it: the row of the round's beginning is copied, as fates write into
+    // `row` while they look for their events. The round without an event, or a
+    // death or a division, is the last.
     if (fates.empty())
       return;
-    // Each round takes the cell from one event to the next. All fates see it as
-    // it was when the step began, but for its type and what they keep of it.
     double t = t0;
     Row    at_t;
     for (unsigned int n = 0; n < most_events; ++n)
@@ -126,6 +135,9 @@ namespace Morula
              const double                 t,
              std::vector<CellEvent>      &events)
   {
+    // A condition strikes at the beginning of the step, before all other
+    // events. The first fate that strikes has the cell; all fates then learn
+    // that its life has ended.
     if (is_dead(fates, before.cell()))
       return true;
     for (const auto &fate : fates)

@@ -60,6 +60,8 @@ namespace Morula
   const DivisionRule<dim> *
   Proliferation<dim>::rule(const unsigned int type) const
   {
+    // Without types of cells there is at most one rule; null stands for the
+    // random axis.
     if (!rule_of_type.empty())
       return rule_of_type[type];
     return rules_.empty() ? nullptr : rules_.front().get();
@@ -90,7 +92,12 @@ namespace Morula
                             const double                       step,
                             const std::optional<unsigned int> &phase) const
   {
-    // The key first: it is behind the noise that expressions read.
+    // The order follows who reads what. The key is stored first; then the clock
+    // is made, with a phase if the file has one; then the axis of a cell that
+    // is already growing, as a rule may read the state. At last the growth
+    // before the cycle is set, which needs the axis.
+
+    // The noise that expressions read follows from this key.
     CycleState<dim> state;
     state.key = Random::founder_key(random_seed, founder.id());
     set_clock(row, state);
@@ -111,6 +118,8 @@ namespace Morula
   Proliferation<dim>::choose_first_axis(const PresentCell<dim>      &founder,
                                         const CellView<dim, double> &row) const
   {
+    // Founders get their axis before the steady fields are known. It is chosen
+    // again when they are, from the same random direction.
     CycleState<dim> state = clock(row);
     if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
       return;
@@ -135,7 +144,9 @@ namespace Morula
                              const Tensor<2, dim>        &F_g,
                              const CellView<dim, double> &row) const
   {
-    // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r).
+    // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r), doc/theory.md (8.7). F_r
+    // is a factor of the growth before the cycle, so the running cycle is part
+    // of K.
     CycleState<dim>      state = clock(row);
     const Tensor<2, dim> K     = F_g * invert(state.growth_pre);
     state.growth_pre           = invert(K) * D * F_g;
@@ -148,11 +159,15 @@ namespace Morula
   Proliferation<dim>::placement_axis(const CellView<dim, const double> &cell,
                                      const unsigned int type) const
   {
+    // An axis that was chosen in the reference configuration is placed as the
+    // cycle says. One that named a present direction is carried to the present
+    // configuration.
     const CycleState<dim>          state = clock(cell);
     const DivisionRule<dim> *const rule  = this->rule(type);
     if (rule == nullptr || rule->frame() == AxisFrame::reference)
       return cycle_.placement_axis(state, cell.elastic_deformation());
-    // The running cycle stretches n_s along itself.
+    // The running cycle stretches n_s along itself, so what is behind it in F_g
+    // is taken off and the direction is F F_pre⁻¹ n_s.
     const Tensor<1, dim> carried =
       cell.F() * (invert(state.growth_pre) * state.axis);
     return carried / carried.norm();
@@ -192,6 +207,8 @@ namespace Morula
                            const CellView<dim, double> &row,
                            const Stretch               &stretch) const
   {
+    // Division is not carried out here. Its time says when the cell's own life
+    // ends in this step; the daughters are made after the equilibrium.
     const CycleState<dim> state = run_clock(cell, row, stretch);
     const CellAt<dim>     at(cell, stretch.begin);
     if (!cycle_.divides(state, at, stretch.end))
@@ -207,6 +224,8 @@ namespace Morula
                            const Stretch               &stretch,
                            const double                 s) const
   {
+    // The clock of the round's beginning is in `cell`; it is run again, only to
+    // the time of the other fate's event.
     set_clock(row, next_clock(cell, clock(cell.cell()), stretch.begin, s));
   }
 
@@ -230,6 +249,9 @@ namespace Morula
                              const double                 t,
                              const bool                   is_whole) const
   {
+    // A rate is expected only of a cell that waited at both ends of the step:
+    // otherwise the wait began or ended in it, and the integral is of another
+    // time.
     if (!cycle_.keeps_exit_rate())
       return;
     CycleState<dim> state = clock(row);
@@ -248,7 +270,8 @@ namespace Morula
                                   const CellView<dim, double> &row,
                                   const double                 s) const
   {
-    // It keeps the size that it has, and never divides.
+    // A dead cell keeps the size that it has, half-way through its cycle or
+    // not, and never divides.
     CycleState<dim> state = clock(row);
     state.growth_pre      = cycle_.growth(state, CellAt<dim>(cell, s), s);
     state.phase           = CyclePhase::never;
@@ -303,9 +326,14 @@ namespace Morula
                                   const double            t,
                                   CycleState<dim>        &after) const
   {
+    // A rule is asked once, at the onset of S, or for a founder that is on its
+    // way. It gives the mean direction; then the spread is drawn around it,
+    // doc/theory.md (6.3d). Rules that speak of the present configuration are
+    // followed by the pull-back to n_s. Without a rule the random axis of the
+    // clock stays.
     const bool begins =
       before.phase != CyclePhase::growing && after.phase == CyclePhase::growing;
-    // a founder whose file says that it is in G1
+    // This is a founder whose file says that it is in G1.
     const bool has_begun =
       before.phase == CyclePhase::never && after.phase == CyclePhase::divided;
     const DivisionRule<dim> *const rule = this->rule(cell.type());
@@ -326,7 +354,8 @@ namespace Morula
                                       has_begun ? Random::past_key(random_seed,
                                                                    after.key) :
                                                   after.key);
-    // doc/theory.md (6.3e): through all growth but the cycle's.
+    // A present direction is pulled back through all growth but the cycle's,
+    // doc/theory.md (6.3e), since the cycle's stretch acts before that.
     if (rule->frame() == AxisFrame::present)
       {
         Tensor<2, dim>        F_g   = view.growth();

@@ -20,7 +20,8 @@ namespace Morula::Random
 
   namespace
   {
-    /** Fourth counter word: keeps founder ids apart from lineage keys. */
+    /** The fourth word of the counter. It keeps the ids of founders apart from
+     *  lineage keys, which may be equal numbers. */
     enum class Domain : std::uint32_t
     {
       lineage,
@@ -37,6 +38,8 @@ namespace Morula::Random
          const std::uint32_t draw,
          const Domain        domain)
     {
+      // A generator by counters has no state: the same numbers come from the
+      // same arguments, on any rank, in any order and after a restart.
       const auto low = [](const std::uint64_t x) {
         return static_cast<std::uint32_t>(x);
       };
@@ -98,6 +101,7 @@ namespace Morula::Random
           n[1]                = radius * std::sin(angle);
           n[2]                = 2. * u - 1.;
         }
+      // The norm is 1 but for rounding, which is removed.
       return n / n.norm();
     }
 
@@ -111,6 +115,8 @@ namespace Morula::Random
                      const std::uint64_t seed,
                      const std::uint64_t key)
     {
+      // The number is in [0, 1), doc/theory.md (6.3d). The cosine is computed
+      // as 1 minus this result, so small angles keep their digits.
       const double u = 1. - uniform(bits(seed, key, Draw::axis_spread)[0]);
       return std::min(2., -std::log1p(u * std::expm1(-2. * kappa)) / kappa);
     }
@@ -130,14 +136,15 @@ namespace Morula::Random
       const double tau  = 1. + root;
       const double rho  = 2. * kappa * std::sqrt(tau) /
                          ((std::sqrt(tau) + std::sqrt(2.)) * (root + 1.));
-      // r - 1 of their r
+      // This is r - 1 for the r of Best and Fisher.
       const double excess = (1. - rho) * (1. - rho) / (2. * rho);
       const auto   draw   = static_cast<std::uint32_t>(Draw::axis_spread);
       for (std::uint32_t trial = 0;; ++trial)
         {
           const auto random_bits =
             bits(seed, key, draw + (trial << 16), Domain::lineage);
-          // z = cos(π u); 1 - f = (r - 1)(1 - z) / (r + z), c = κ (r - f)
+          // The formulas are z = cos(π u); 1 - f = (r - 1)(1 - z) / (r + z), c
+          // = κ (r - f)
           const double half_sine =
             std::sin(0.5 * numbers::PI * uniform(random_bits[0]));
           const double one_minus_z = 2. * half_sine * half_sine;
@@ -145,6 +152,7 @@ namespace Morula::Random
             excess * one_minus_z / (2. + excess - one_minus_z);
           const double c = kappa * (excess + one_minus_f);
           const double u = uniform(random_bits[1]);
+          // The first test accepts most trials without a logarithm.
           if (c * (2. - c) > u || std::log(c / u) + 1. >= c)
             return one_minus_f;
         }
@@ -175,6 +183,7 @@ namespace Morula::Random
               const std::uint64_t key,
               const double        rate)
   {
+    // A rate of zero never ends the wait.
     if (rate == 0.)
       return std::numeric_limits<double>::infinity();
     return exponential_of(bits(seed, key, Draw::wait)) / rate;
@@ -187,6 +196,9 @@ namespace Morula::Random
                        const unsigned int  n_changes,
                        const unsigned int  which)
   {
+    // Each change of type and each way out has a draw of its own. The words of
+    // different numbers of changes do not overlap as long as there are fewer
+    // ways than the value of Draw::transition.
     const std::uint32_t draw =
       static_cast<std::uint32_t>(Draw::transition) * (1 + n_changes) + which;
     return exponential_of(bits(seed, key, draw, Domain::lineage));
@@ -218,6 +230,9 @@ namespace Morula::Random
                const std::uint64_t key,
                const unsigned int  n)
   {
+    // A program's own fate draws by its name. The checksum of the name and the
+    // number makes a word, and the bit of Draw::named keeps it apart from the
+    // library's own draws.
     boost::crc_32_type word;
     word.process_bytes(name.data(), name.size());
     word.process_bytes(&n, sizeof(n));
@@ -229,6 +244,7 @@ namespace Morula::Random
   double
   noise(const std::uint64_t seed, const std::uint64_t key)
   {
+    // The half keeps the number within (0, 1), without the ends.
     const std::uint64_t random_bits = bits(seed, key, Draw::noise)[0];
     return std::ldexp(static_cast<double>(random_bits >> 11) + 0.5, -53);
   }
@@ -250,8 +266,9 @@ namespace Morula::Random
                    const std::uint64_t   key)
   {
     Assert(concentration > 0., ExcInternalError());
-    // Below, the distribution is uniform, above, a spread of a millionth of a
-    // radian: no use needs more, and the formulas hold in between.
+    // Below 1e-8 the distribution is uniform, and above 1e12 the spread is a
+    // millionth of a radian: no use needs more, and the formulas hold in
+    // between.
     const double kappa         = std::clamp(concentration, 1e-8, 1e12);
     const double one_minus_cos = dim == 2 ? von_mises(kappa, seed, key) :
                                             von_mises_fisher(kappa, seed, key);

@@ -19,7 +19,7 @@ namespace Morula
 {
   namespace
   {
-    /** Whether some fate is like this. */
+    /** Whether the condition holds for some fate. */
     template <int dim, typename Condition>
     bool
     any_of(const Fates<dim> &fates, const Condition &condition)
@@ -41,8 +41,16 @@ namespace Morula
             const std::vector<unsigned int>   &gone,
             const std::vector<Column<double>> &carried)
     {
+      // The loop is over the grid cells of this rank. A first pass over the
+      // cells of each adds up the volume of those that go shrunken, with the
+      // amounts of the fields in it, and that of those that stay. A second one
+      // stretches the cells, so that the volume is conserved and the tissue
+      // draws together in the next step.
       const Cells<dim> &cells = tissue.cells();
-      auto              next  = gone.begin();
+      // Cells are stored grid cell by grid cell, and `gone` is sorted, so one
+      // pointer runs along. All cells of a grid cell are on one rank: nothing
+      // is sent.
+      auto next = gone.begin();
       for (const auto &grid_cell : cells.grid_cells())
         {
           const auto          first = next;
@@ -65,14 +73,18 @@ namespace Morula
               to += cells.volume(p);
           if (from == 0. || to == 0.)
             continue;
-          // doc/theory.md (6.9b)
+          // This is doc/theory.md (6.9b). The ratio has a limit of 2: a single
+          // cell that stays among many that go would be blown up.
           const double ratio   = 1. + std::min(1., from / to);
           const double stretch = std::pow(ratio, 1. / dim);
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             {
+              // Cells that go are stretched, too; they are taken out
+              // afterwards.
               const CellView<dim, double> cell = tissue.cell(p);
               cell.set(cell.columns().deformation, stretch * cell.F());
-              // doc/theory.md (6.9d)
+              // The amount of each transient field goes to those that stay, and
+              // their larger volume dilutes it: doc/theory.md (6.9d).
               for (std::size_t k = 0; k < carried.size(); ++k)
                 cell.set(carried[k],
                          (cell.get(carried[k]) + amounts[k] / to) / ratio);
@@ -93,6 +105,8 @@ namespace Morula
         Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(),
                                            tissue.communicator());
       std::vector<unsigned int> left;
+      // Without any cell in the whole tissue no point has anything within
+      // reach.
       if (n == 0)
         {
           left.resize(tissue.boundary_points().size());
@@ -120,13 +134,16 @@ namespace Morula
         {
           if (!fate->strikes(cell, t))
             continue;
+          // The death is tried on a copy: whether the cell is removed at once
+          // follows from what its death writes into the row.
           std::vector<double>         row(cell.cell().row().begin(),
                                   cell.cell().row().end());
           const CellView<dim, double> after(make_array_view(row),
                                             cell.cell().columns());
           std::vector<CellEvent>      events;
           fate->strike(cell, after, t, events);
-          // The first that strikes a cell has it.
+          // The first fate that strikes a cell has it, whatever others would
+          // do.
           return fate->is_due_for_removal(after, t) ? fate.get() : nullptr;
         }
       return nullptr;
@@ -138,6 +155,8 @@ namespace Morula
     std::vector<unsigned int>
     points_of(const Tissue<dim> &tissue, const std::vector<unsigned int> &cells)
     {
+      // The nearest cell may be on another rank, so each cell's answer is given
+      // as a number that can be sent: 1 if it goes.
       std::vector<double> goes(tissue.cells().size(), 0.);
       for (const unsigned int p : cells)
         goes[p] = 1.;
@@ -181,8 +200,9 @@ namespace Morula
       return list;
     }
 
-    /** The same after a step. Where a condition has no value, the next step
-     *  says so. Collective. */
+    /** Living cells of this rank that a condition takes at the end of a step.
+     *  Where a condition has no value nothing is taken, and the next step
+     *  reports the error. Collective. */
     template <int dim>
     std::vector<Taken<dim>>
     cells_to_cut(const Tissue<dim>     &tissue,
@@ -211,6 +231,12 @@ namespace Morula
                     const double                       t,
                     const std::vector<Column<double>> &carried)
   {
+    // There are four passes. Conditions that take cells at once strike at the
+    // end of the step. Then all cells that are due are collected, with their
+    // events. Their volume is handed to those that stay, while all are still in
+    // the store. At last cells are taken out, and the boundary points that
+    // stand alone after it; whether this is done is decided by all ranks
+    // together, as it is collective.
     const Cells<dim>         &cells  = tissue.cells();
     const Fates<dim>         &fates  = development.fates();
     const CellReader<dim>     reader = development.reader(t);
@@ -223,6 +249,8 @@ namespace Morula
         if (fate->is_due_for_removal(cells[p], t))
           {
             const unsigned int type = present_cell(tissue, p, reader).type();
+            // The list is sorted by the place in the store, on which hand_on()
+            // relies.
             gone.push_back(p);
             events.push_back({fate->removal_time(cells[p]),
                               cells.id(p),
@@ -242,6 +270,10 @@ namespace Morula
   std::vector<CellEvent>
   carve(Tissue<dim> &tissue, const CellDevelopment<dim> &development)
   {
+    // This is done once, before the first row of the outputs. Points leave with
+    // their nearest cell, for which both must still be there. So cells and
+    // points are removed in one call, and no volume is handed on: the gap is
+    // meant.
     const CellReader<dim>     reader = development.reader(0.);
     std::vector<unsigned int> gone;
     std::vector<CellEvent>    events;

@@ -41,6 +41,9 @@ namespace Morula
   bool
   ContractionParameters::is_on() const
   {
+    // The keys have no switch of their own: contraction is on if the stretch
+    // may ever differ from 1. Dimension 3 admits all variables, and only the
+    // text counts here.
     return !stretch.expression(3).is_always(1.);
   }
 
@@ -80,6 +83,9 @@ namespace Morula
                 const double          gamma,
                 const bool            keep_volume)
   {
+    // This is doc/theory.md (9.1). The exponent makes the determinant 1: there
+    // are dim - 1 directions across, which share what the length along `a`
+    // gives up.
     const double across = keep_volume ? std::pow(gamma, -1. / (dim - 1)) : 1.;
     return across * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
            (gamma - across) * outer_product(a, a);
@@ -93,6 +99,8 @@ namespace Morula
     , direction(parameters.direction, setting)
     , keep_volume(parameters.keep_volume)
   {
+    // The column is written for the outputs only; the factor is computed anew
+    // in each step and never from its value before.
     setting.columns.need_growth();
     column = setting.columns.template add<double>(
       {"contraction",
@@ -112,6 +120,9 @@ namespace Morula
                            const double,
                            const double t1) const
   {
+    // The active strain is that of the end of the step, doc/theory.md (9.1),
+    // with the state of its beginning. It is not multiplied by that of the step
+    // before, so it goes back to the identity as the stretch returns to 1.
     const double gamma = before.value(stretch, t1);
     after.set(column, gamma);
     return active_strain(direction.of(before, t1), gamma, keep_volume);
@@ -123,6 +134,7 @@ namespace Morula
   Contraction<dim>::check_cell(const PresentCell<dim> &founder,
                                const double            step) const
   {
+    // Both expressions are evaluated once, for the errors that they throw.
     founder.value(stretch, step);
     direction.of(founder, step);
   }
@@ -132,7 +144,13 @@ namespace Morula
   void
   Contraction<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    // What depends on the state, only the run can tell.
+    // The loop goes through all steps of the run for some founders of this rank
+    // and looks for the largest change of the stretch in a step. The number of
+    // evaluations has a limit, so that the review takes a fraction of a second
+    // in large scenes. The maximum over all ranks is collective, so every rank
+    // reaches it, whether it looped or not.
+
+    // A stretch that depends on the state is known only in the run.
     constexpr double most_evaluations = 2e5;
     const double     n_steps =
       std::ceil(scene.end_time / scene.step * (1. - time_slack));
@@ -155,6 +173,8 @@ namespace Morula
           }
       }
     largest = Utilities::MPI::max(largest, scene.comm);
+    // A change by 0.1 deforms like growth by the factor 1.1, the step that is
+    // enough beside a clamp. The slack admits rounding in the differences.
     if (largest > 0.1 + 1e-9)
       review.warn(TimeParameters::step_path,
                   as_text(scene.step) + " day",

@@ -3,6 +3,8 @@
 
 #include <morula/effects/growth/flow.h>
 
+// A flow that says nothing else keeps no motion and forecasts nothing, so it
+// has no error of a forecast either.
 namespace Morula
 {
   template <int dim>

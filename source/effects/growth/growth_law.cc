@@ -14,8 +14,9 @@ namespace Morula
 {
   namespace
   {
-    /** The largest stretch of a tensor near a multiple of the identity: an
-     *  upper bound that is exact without shear. */
+    /** The largest stretch of a tensor near a multiple of the identity. The
+     * norm of F Fᵀ bounds its largest eigenvalue from above and is that without
+     *  shear. */
     template <int dim>
     double
     largest_stretch(const Tensor<2, dim> &F)
@@ -32,9 +33,16 @@ namespace Morula
     double
     largest_growth(const GrowthLaw<dim> &law, const Preview<dim> &scene)
     {
+      // Some founders of this rank are taken through all steps of the run, free
+      // of stress, so that F_e is the identity. Each step is compared with the
+      // one before in both directions, as withering deforms the tissue like
+      // growth. A law that depends on the past needs all steps in turn, so
+      // cells are left out instead of steps.
       constexpr double most_evaluations = 2e5;
       const double     n_steps =
         std::ceil(scene.end_time / scene.step * (1. - time_slack));
+      // Not even one cell could be taken through all steps: then nothing is
+      // said.
       if (n_steps > most_evaluations)
         return 1.;
       const std::size_t every = std::max<std::size_t>(
@@ -87,6 +95,8 @@ namespace Morula
                        const double                 t1,
                        const CellView<dim, double> &after) const
   {
+    // By default a law misses nothing: its growth does not follow the state. A
+    // law for which growth() and remember() compute the same overrides this.
     const Tensor<2, dim> F = growth(cell, t0, t1);
     remember(cell, t0, t1, after);
     return {F};
@@ -113,6 +123,9 @@ namespace Morula
   void
   GrowthLaw<dim>::check(const Preview<dim> &scene) const
   {
+    // The law is evaluated for all founders of this rank, at the beginning, in
+    // the first step and at the end, for the errors that it throws. The values
+    // are not used.
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
     const double         first_step = std::min(scene.step, scene.end_time);
     for (const Point<dim> &X : scene.founders)
@@ -128,6 +141,9 @@ namespace Morula
   void
   GrowthLaw<dim>::review(const Preview<dim> &scene, Review &review) const
   {
+    // The search may throw on one rank only. So the exception is caught before
+    // the collective maximum, which all ranks must reach.
+
     // A law may have no value at some time in mid-run; then the run says so
     // when it gets there.
     double ratio = 1.;
@@ -138,6 +154,9 @@ namespace Morula
     catch (const std::exception &)
       {}
     ratio = Utilities::MPI::max(ratio, scene.comm);
+    // A clamp does not grow with the tissue, so steps have to be shorter beside
+    // it. The two limits are the largest steps that were measured; 1e-9 is for
+    // rounding.
     if (ratio > (scene.is_clamped ? 1.2 : 1.4) + 1e-9)
       review.warn(TimeParameters::step_path,
                   as_text(scene.step) + " day",

@@ -14,6 +14,8 @@ namespace Morula
                         const double          along,
                         const double          across)
   {
+    // This is L of doc/theory.md (10.1) without H: `across` in all directions,
+    // and the difference added along the unit vector.
     return across * unit_symmetric_tensor<dim>() +
            (along - across) * symmetrize(outer_product(a, a));
   }
@@ -25,6 +27,9 @@ namespace Morula
         const SymmetricTensor<2, dim> &L,
         const double                   dt)
   {
+    // This is the exponential of doc/theory.md (10.1), by the eigenvectors of
+    // the symmetric L. It is exact for a constant L, however long the step is.
+
     // Without a direction the factor is a number, and shape stays as it is.
     if (deviator(L).norm() <= 1e-15 * L.norm())
       return std::exp(dt * trace(L) / dim) * before;
@@ -71,6 +76,8 @@ namespace Morula
                  const GrowthFeedback &all,
                  const double          widening)
   {
+    // The mean rate over the step is doc/theory.md (10.5), in the form for two
+    // parts: each falls as its own damping says, by the excess of the sum.
     return part.rate -
            part.damping * (all.rate - seen(all, widening)) * delay(all.damping);
   }
@@ -81,6 +88,8 @@ namespace Morula
                 const GrowthFeedback &all,
                 const double          widening)
   {
+    // This is the rate at the end of the step, doc/theory.md (10.5a). The next
+    // step compares it with what the rate has become.
     return part.rate - part.damping * (all.rate - seen(all, widening)) *
                          mean_of_decay(all.damping);
   }
@@ -92,12 +101,17 @@ namespace Morula
                    const double squeezed,
                    const double dt)
   {
+    // This is doc/theory.md (10.6). The first step knew nothing of how the
+    // tissue gives way, and withheld growth. Now `relief` says which part of
+    // the growth found room: 1 in free tissue, 0 in a rigid box. What was
+    // withheld is due in that proportion.
+    // Without growth in the first step there is no measure of relief.
     if (std::abs(grown) <= 0. || dt <= 0.)
       return {};
     const double relief =
       std::min(std::max(1. - squeezed / grown, 0.), 1.); // alpha
     const double c = withheld / grown;
-    // What the step would have grown with this in mind.
+    // This is what the step would have grown if it had known the relief.
     const double would_be = (grown + withheld) / (1. + c * (1. - relief));
     return {would_be - grown, relief * would_be / dt};
   }

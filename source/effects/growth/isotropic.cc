@@ -52,6 +52,8 @@ namespace Morula
                                 const Point<dim> &X,
                                 const double      t) const
   {
+    // A stretch that is not positive would turn the cell inside out. NaN fails
+    // the comparison and is refused, too.
     if (value > 0.)
       return value;
     std::ostringstream place;
@@ -79,11 +81,14 @@ namespace Morula
                                const double /*t0*/,
                                const double t1) const
   {
+    // This is doc/theory.md (6.1): a function of the end of the step alone, so
+    // growth has no error in time.
     const Tensor<2, dim> I(unit_symmetric_tensor<dim>());
     const Point<dim>    &X = cell.founder_position;
     if (!theta.depends_on_state())
       return stretch(X, t1) * I;
-    // Before there are cells, nobody knows.
+    // An estimate before the run has no cells with a state; it counts on no
+    // growth.
     return cell.present == nullptr ?
              I :
              checked(cell.present->value(theta, t1), X, t1) * I;
@@ -103,6 +108,8 @@ namespace Morula
   IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
                                               const double      t) const
   {
+    // A volume has dim lengths that grow alike. A stretch that is not known
+    // before the run counts as no growth, a lower bound as a rule.
     return is_known_before() ? std::pow(stretch(X, t), dim) : 1.;
   }
 

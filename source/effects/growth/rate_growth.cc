@@ -14,11 +14,13 @@ namespace Morula
 {
   namespace
   {
-    /** By which det F_g is larger where the predictor asks how the rate answers
-     *  to growth. */
+    /** The predictor asks how the rate answers if det F_g is larger by this
+     * part. 1e-4 is small enough for a derivative, and the difference still
+     * keeps twelve of sixteen digits. */
     constexpr double probe = 1e-4;
 
-    /** det F_law of a cell of which nothing is left. */
+    /** A cell with a smaller det F_law counts as withered to nothing: its rate
+     *  has no end, and the equilibrium would fail with a worse message. */
     constexpr double least_volume_ratio = 1e-6;
 
     /** Whether the expression's value changes if a cell grows in its place. */
@@ -58,7 +60,8 @@ namespace Morula
       return text.str();
     }
 
-    /** The components of σ in the space of the tissue. */
+    /** The components of σ in the space of the tissue. In plane strain σ_zz is
+     *  left out, as cells do not grow across the plane. */
     template <int dim>
     SymmetricTensor<2, dim>
     in_tissue(const SymmetricTensor<2, 3> &stress)
@@ -79,6 +82,11 @@ namespace Morula
     , predictor(parameters.predictor)
     , slack(setting.slack)
   {
+    // The constructor reads the keys and declares the columns that this scene
+    // needs. The memory of the place is for rates that fall under pressure,
+    // doc/theory.md (10.6); what a step expected is for rates that follow the
+    // state at all, (5.9). The latter is a tensor where the direction of growth
+    // can turn, else one number.
     if (!parameters.direction.empty())
       direction.emplace(parameters.direction, setting);
     if (!parameters.share_along.empty())
@@ -92,6 +100,7 @@ namespace Morula
                                   "1/3 or empty without Growth/Rate/Direction",
                        "Say along which Direction, or leave both empty for "
                        "isotropic growth.");
+    // The coefficient is read in any case, since a type of cells may set it.
     homeostasis = setting.state.use(parameters.homeostasis);
     if (homeostasis->is_always(0.))
       homeostasis.reset();
@@ -145,6 +154,8 @@ namespace Morula
   bool
   RateGrowth<dim>::is_known_before() const
   {
+    // Only the size has to be known, so a direction that follows the state does
+    // no harm.
     return !rate.depends_on_state() && !homeostasis &&
            (!share || !share->depends_on_state());
   }
@@ -165,17 +176,26 @@ namespace Morula
                          const double            t0,
                          const double            t1) const
   {
+    // Two rates are read from the cell's state of t0 with the time of the
+    // middle of the step: that of the volume and the stress-regulated one. Each
+    // gets its damping, by which the predictor foresees how growth in a
+    // confined place lowers it. `dt` is 0 where only the rates are compared,
+    // and no damping is needed then.
     const double t = (t0 + t1) / 2., dt = t1 - t0;
     Rates        rates;
     rates.of_rate.rate = cell.value(rate, t);
     if (predictor && follows_stress && dt > 0.)
-      { // doc/theory.md (10.4)
+      { // This is doc/theory.md (10.4), as a difference at the same F. A rate
+        // that
+        // rises with growth is not damped: that would make it run away.
         const double grown = cell.value_if_grown(rate, t, 1. + probe);
         rates.of_rate.damping =
           std::max(0., dt * (rates.of_rate.rate - grown) / std::log1p(probe));
       }
     if (homeostasis)
-      { // doc/theory.md (10.3)
+      { // This is doc/theory.md (10.3). Stress is in the present configuration
+        // and L acts before F_e does, so it is rotated back by R. Growth in a
+        // place that does not give way changes the stress by the moduli below.
         const double         kappa  = cell.value(*homeostasis, t);
         const double         target = cell.value(*homeostatic_stress, t);
         const Tensor<2, dim> R =
@@ -203,6 +223,9 @@ namespace Morula
                             const PresentCell<dim> *cell,
                             const double            t) const
   {
+    // The rate k of the volume is shared by doc/theory.md (10.2). The share is
+    // checked at each cell, since it may be any expression; outside of [0, 1] a
+    // cell would shrink in one direction while it grows in another.
     if (!share || !direction)
       return k / dim * unit_symmetric_tensor<dim>();
     if (cell == nullptr) // any direction does for the size of a step
@@ -232,6 +255,8 @@ namespace Morula
                              const PresentCell<dim> &cell,
                              const double            t) const
   {
+    // This is L of doc/theory.md (10.1): the rate of the volume in its
+    // directions, and H as deviator and trace.
     return directed(now.of_rate.rate, &cell, t) + now.shape +
            now.of_homeostasis.rate / dim * unit_symmetric_tensor<dim>();
   }
@@ -245,13 +270,19 @@ namespace Morula
                                   const double                   t0,
                                   const double                   t1) const
   {
+    // First the predictor replaces both rates by their means over the step,
+    // doc/theory.md (10.5). Then L is made of them. At last what the last step
+    // missed is added, (5.9), with the same damping as growth has: added in
+    // full, it would make a stiff feedback unstable. The trace and the deviator
+    // have dampings of their own.
     const double         t   = (t0 + t1) / 2.;
     const GrowthFeedback all = now.all();
     const double         k = now.of_rate.rate, h = now.of_homeostasis.rate;
     if (memory)
       {
         const FirstStep past = seen_at_first_step(cell, t0);
-        // Made good by each part as it contributes.
+        // What the first step withheld is made good by each part in proportion
+        // to its rate.
         const double sum  = std::abs(k) + std::abs(h);
         const double of_k = sum > 0. ? std::abs(k) / sum : 0.;
         const double due  = past.due / (t1 - t0);
@@ -266,8 +297,9 @@ namespace Morula
     const SymmetricTensor<2, dim> L = tensor_of(now, *cell.present, t);
     if (!expected || !cell.present->reader().past.exists())
       return L;
-    // What is added now is answered by the stress as all growth is.
+    // The stress answers what is added now as it answers all growth.
     const double of_volume = mean_of_decay(all.damping) / (t1 - t0);
+    // A correction of the volume alone goes along and across as the rate does.
     if (expected->volume.exists())
       return L + directed(of_volume * trace(missed), cell.present, t);
     return L + of_volume / dim * trace(missed) * unit_symmetric_tensor<dim>() +
@@ -281,11 +313,13 @@ namespace Morula
                                  const double            t0,
                                  const double            t1) const
   {
+    // This is called only for the message of an error: it finds the key that
+    // the user should look at, the one behind the larger contribution.
     if (!homeostasis || cell.present == nullptr)
       return rate;
     const double t   = (t0 + t1) / 2.;
     const Rates  now = rates(*cell.present, t0, t1);
-    // a rate that is no number counts as the larger one
+    // A rate that is no number counts as the larger one: it is the cause.
     if (std::abs(now.of_rate.rate) >= std::abs(now.of_homeostasis.rate))
       return rate;
     const double of_target = dim * cell.present->value(*homeostasis, t) *
@@ -303,6 +337,8 @@ namespace Morula
                             const double                   t0,
                             const double                   t1) const
   {
+    // The upper limit catches an exponential that overflows. The negated
+    // comparison catches NaN as well.
     const Tensor<2, dim> F     = grown(cell.growth, L, t1 - t0);
     const double         ratio = determinant(F);
     if (!(ratio >= least_volume_ratio && std::isfinite(ratio)))
@@ -327,6 +363,8 @@ namespace Morula
                           const double            t0,
                           const double            t1) const
   {
+    // A law is asked without a cell for sizes before the run; then a rate of X
+    // and t serves. With a cell, the whole tensor of its state does.
     if (t1 <= t0)
       return cell.growth;
     if (cell.present == nullptr)
@@ -357,6 +395,9 @@ namespace Morula
                         const double                 t1,
                         const CellView<dim, double> &after) const
   {
+    // Rates are the costly part, with stresses and eigenvectors, and are
+    // computed once for all that follows. What is remembered is written into
+    // `after` and read from `cell`, so the order of the calls does not matter.
     if (t1 <= t0)
       return GrowthLaw<dim>::grow(cell, t0, t1, after);
     const Rates                   now = rates(*cell.present, t0, t1);
@@ -377,7 +418,9 @@ namespace Morula
   {
     if (!is_known_before())
       return 1.;
-    constexpr unsigned int n_steps = 64; // midpoint rule
+    // The midpoint rule with 64 intervals has an error of some 1e-4 for a rate
+    // that changes smoothly: an estimate of the size needs no more.
+    constexpr unsigned int n_steps = 64;
     double                 growth  = 0.;
     const unsigned int     n       = rate.depends_on_time() ? n_steps : 1;
     for (unsigned int i = 0; i < n; ++i)
@@ -400,6 +443,8 @@ namespace Morula
   RateGrowth<dim>::check_cell(const PresentCell<dim> &founder,
                               const double            step) const
   {
+    // The cell is taken through the first step from F_law = I, so that every
+    // expression of the law is evaluated.
     const auto &view = founder.cell();
     growth({view.founder_position(),
             Tensor<2, dim>(unit_symmetric_tensor<dim>()),

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-// What growth by rates keeps of the past: doc/theory.md (5.9) and section 10.2.
+// This file has what growth by rates keeps of the past: what it expected, for
+// doc/theory.md (5.9), and how its place widened, for section 10.2.
 
 namespace Morula
 {
@@ -16,8 +17,12 @@ namespace Morula
   RateGrowth<dim>::seen_at_first_step(const GrowingCell<dim> &cell,
                                       const double            t0) const
   {
+    // There are three cases. In the first step nothing is known, and the place
+    // is taken as rigid. In the second the first step's answer is evaluated,
+    // doc/theory.md (10.6). Later the widening is the mean rate of ln (J_e det
+    // F_law) over the step before.
     const double dt = t0 - cell.cell->get(memory->time);
-    if (dt <= slack) // the first step: as if held
+    if (dt <= slack) // This is the first step: the cell counts as held.
       return {};
     const double withheld = cell.cell->get(memory->withheld);
     const double grown    = std::log(determinant(cell.growth));
@@ -32,9 +37,14 @@ namespace Morula
   SymmetricTensor<2, dim>
   RateGrowth<dim>::missed_tensor(const GrowingCell<dim> &cell) const
   {
+    // This is doc/theory.md (5.9): half of the last step times the difference
+    // between the rate of the present state, with the time of the last step's
+    // middle, and what that step expected. It is a function of the committed
+    // state, so a halved step finds the same.
     const PastStep &past = cell.present->reader().past;
     if (!expected || !past.exists() ||
-        // The second step makes good what the first withheld, and all else.
+        // In the second step after_first_step() makes good all that the first
+        // missed; adding this would count it twice.
         (memory && cell.cell->get(memory->withheld) != 0.))
       return {};
     const double t    = past.middle();
@@ -72,6 +82,9 @@ namespace Morula
                           const double                 t1,
                           const CellView<dim, double> &after) const
   {
+    // What the rates are expected to be at the end of this step is kept for the
+    // next one: by doc/theory.md (10.5a) with feedback. Where the direction
+    // cannot turn, the rate of the volume is enough.
     const GrowthFeedback all = now.all();
     const double widening = memory ? seen_at_first_step(cell, t0).widening : 0.;
     const double k        = expected_rate(now.of_rate, all, widening);
@@ -95,6 +108,8 @@ namespace Morula
                             const double                 t1,
                             const CellView<dim, double> &after) const
   {
+    // A type that does not grow now comes here, too; a growing cell has done
+    // the same in grow().
     if (!expected && !memory)
       return;
     const Rates now = rates(*cell.present, t0, t1);
@@ -113,6 +128,9 @@ namespace Morula
                                   const double                 t1,
                                   const CellView<dim, double> &after) const
   {
+    // The three branches are the first step, the second and all later ones.
+    // What was withheld is stored as a number that is not zero, which tells the
+    // second step that it is the second.
     if (t0 <= slack)
       {
         const GrowthFeedback all = now.all();
@@ -120,8 +138,8 @@ namespace Morula
                   (t1 - t0) * (all.rate - predicted_rate(all, all, 0.)));
       }
     else if (cell.cell->get(memory->withheld) != 0.)
-      // The second step made it good: the place is measured from t = 0 once
-      // more.
+      // The second step has made it good. Place and time stay those of t = 0,
+      // so the third step measures the widening over the first two.
       after.set(memory->withheld, 0.);
     else
       {

@@ -47,6 +47,9 @@ namespace Morula
                          "cell's state. Units: kPa.",
                          Evaluated::step)
   {
+    // The rate itself may be negative, as cells may wither; a negative
+    // coefficient of homeostasis would drive the stress away from its target
+    // and is refused. Expressions are evaluated once in each step.
     rate.symbol("k");
     homeostasis.not_negative("1/(day kPa)", "0 is no growth by stress.");
   }
@@ -55,6 +58,7 @@ namespace Morula
   KeyList
   RateGrowthParameters::list()
   {
+    // The order is that of the printed parameters.
     return {&rate,
             &share_along,
             &direction,

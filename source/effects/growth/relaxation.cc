@@ -17,12 +17,16 @@ namespace Morula
 {
   namespace
   {
-    /** The stretch U of fᵀf, to the power @p n. */
+    /** U to the power @p n, where U is the stretch whose square is fᵀf, given
+     * as
+     *  @p squared. */
     template <int dim>
     SymmetricTensor<2, dim>
     stretch(const SymmetricTensor<2, dim> &squared, const double n)
     {
-      // The binomial series of (I + x)^(n/2) needs no axes.
+      // Most steps move little. Then the binomial series of (I + x)^(n/2) is
+      // faster than eigenvectors. With a norm of at most 0.05 and n of at most
+      // 2, what is left out after eight terms is below 1e-12.
       constexpr double     small   = 0.05;
       constexpr int        n_terms = 8;
       const Tensor<2, dim> I(unit_symmetric_tensor<dim>());
@@ -71,6 +75,8 @@ namespace Morula
   bool
   RelaxationParameters::is_on() const
   {
+    // A time of zero stands for elastic tissue, though the limit would be a
+    // fluid.
     return !time.expression(3).is_always(0.);
   }
 
@@ -97,6 +103,8 @@ namespace Morula
     , yield_stress(setting.state.use(parameters.yield_stress))
     , keys(parameters)
   {
+    // The motion of the last step is kept for the forecast (8.3b) of
+    // doc/theory.md.
     setting.columns.need_growth();
     motion = setting.columns.template add<SymmetricTensor<2, dim>>(
       {"motion_of_step",
@@ -115,6 +123,11 @@ namespace Morula
                         const double          t0,
                         const double          t1) const
   {
+    // The flow acts before the equilibrium is sought. So it takes the elastic
+    // part of the step's beginning, and that of its end if the tissue went on
+    // as in the last step, doc/theory.md (8.3b), with the growth of all other
+    // effects. Their weighted mean (8.3a) relaxes, and D of (8.4) comes back. F
+    // in `cell` is that of t0.
     const double t = 0.5 * (t0 + t1);
     FlowLaw      flow{cell.value(time, t)};
     if (flow.relaxation_time == 0.)
@@ -126,19 +139,22 @@ namespace Morula
       Tensor<2, dim>(forecast(view, cell.reader().past, t1 - t0)) * F;
     const Tensor<2, dim> end = F_then * invert(F_g);
     flow.passes              = keys.passes;
-    // Of τ = V σ / W.
+    // The law works with Kirchhoff's stress τ = V σ / W, where W is the grown
+    // or the initial volume, so the yield stress is scaled as σ is.
     flow.yield_stress =
       cell.value(yield_stress, t) *
       (material.per_grown_volume() ? determinant(end) : determinant(F_then));
 
-    // doc/theory.md (8.3a). The beginning and the end are weighted such that
-    // held shear and steady creep are exact; with a yield stress the end
-    // counts.
+    // The weights of doc/theory.md (8.3a) make held shear and steady creep
+    // exact. With a yield stress the end counts alone, so that long steps end
+    // at the yield stress.
     const double         gamma = (t1 - t0) / flow.relaxation_time;
     const double         w = flow.yield_stress > 0. ? 1. : weight_of_end(gamma);
     const Tensor<2, dim> F_e = end + (1. - w) * (F * invert(before) - end);
     const Tensor<2, dim> D(
       flow_of_step<dim>(F_e, cell.lame(), material.material(), flow, t1 - t0));
+    // Below the yield stress D is the identity exactly; then F_g need not be
+    // changed.
     const bool flows = D != Tensor<2, dim>(unit_symmetric_tensor<dim>());
     return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
             w * -std::expm1(-gamma)};
@@ -151,6 +167,9 @@ namespace Morula
                             const PastStep                    &past,
                             const double                       dt) const
   {
+    // This is doc/theory.md (8.3b). The power makes up for steps of other
+    // lengths. In the first step nothing is known, and the tissue is taken as
+    // at rest.
     return past.exists() ? stretch(cell.get(motion), dt / past.length()) :
                            unit_symmetric_tensor<dim>();
   }
@@ -161,6 +180,8 @@ namespace Morula
   Relaxation<dim>::remember_motion(const CellView<dim, double> &cell,
                                    const Tensor<2, dim>        &f) const
   {
+    // Only the stretch of the step's motion f counts, as a rotation relaxes
+    // nothing.
     cell.set(motion, symmetrize(transpose(f) * f));
   }
 
@@ -180,6 +201,8 @@ namespace Morula
                                      const PastStep                    &past,
                                      const double dt) const
   {
+    // Only the deviator matters, because volume does not relax. This is called
+    // after the equilibrium is found, with the motion that took place.
     const auto U = stretch(symmetrize(transpose(f) * f), 1.);
     return deviator(U - forecast(cell, past, dt)).norm();
   }
@@ -199,6 +222,10 @@ namespace Morula
   void
   Relaxation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
+    // Passes without a yield stress are ignored, which is said. Then the
+    // shortest relaxation time of all founders and types is compared with the
+    // step; the minimum over the ranks is collective, and the return before it
+    // depends on what all ranks share.
     if (keys.passes > 1 && keys.yield_stress.expression(3).is_always(0.))
       review.warn(keys.passes.path(),
                   keys.passes.text(),
@@ -207,7 +234,7 @@ namespace Morula
                   "Leave it out.");
     if (!scene.is_loaded)
       return;
-    // What depends on the state, only the run can tell.
+    // A time that depends on the state is known only in the run.
     constexpr double none     = std::numeric_limits<double>::max();
     double           shortest = none;
     const auto       consider = [&](const double tau) {

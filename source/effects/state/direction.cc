@@ -25,6 +25,8 @@ namespace Morula
     DirectionKind
     kind_of(const std::string &text)
     {
+      // A field may have any name, so its prefix is looked for before the fixed
+      // words.
       if (!field_of_gradient(text).empty())
         return DirectionKind::gradient;
       const auto word = words.find(text);
@@ -32,7 +34,9 @@ namespace Morula
     }
 
 
-    /** What the expression is where a word stands, which nobody evaluates. */
+    /** The text for the expression behind the key. Where the key holds a word
+     *  there is no expression, but the base class wants one: it gets a constant
+     *  vector, which is never evaluated. */
     std::string
     as_expression(const std::string &text)
     {
@@ -55,6 +59,8 @@ namespace Morula
   std::string
   field_of_gradient(const std::string &text)
   {
+    // An empty result means that the text is no gradient, as no field has an
+    // empty name.
     return boost::starts_with(text, gradient) ?
              boost::trim_copy(text.substr(gradient.size())) :
              "";
@@ -123,6 +129,8 @@ namespace Morula
   void
   CellDirectionKey::assign(const std::string &text)
   {
+    // The text as the user wrote it is kept beside the expression: --parameters
+    // prints it, and kind() decides by it.
     written = text;
     ExpressionKey::assign(as_expression(text));
   }
@@ -133,6 +141,8 @@ namespace Morula
                                  const std::string &path,
                                  const std::string &text)
   {
+    // A type may have a word where the scene has an expression, or the reverse.
+    // So both forms are kept for each type.
     of_types[type] = {path, text};
     ExpressionKey::set_for_type(type, path, as_expression(text));
   }
@@ -142,6 +152,8 @@ namespace Morula
   CellDirectionKey::check_field(const std::string &path,
                                 const std::string &text) const
   {
+    // The names of fields are known only after the whole file is read, so this
+    // cannot be checked when the key is assigned.
     const std::string name = field_of_gradient(text);
     const auto       &all  = field_names();
     if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end())
@@ -156,6 +168,10 @@ namespace Morula
   void
   CellDirectionKey::check(const unsigned int dim) const
   {
+    // First the words: a gradient has to be that of a field of the scene. Then
+    // the expressions, by their own check. A vector that is constant is
+    // evaluated here, since zero has no direction; one with variables is
+    // checked at each cell when it is used.
     check_field(path(), written);
     for (const auto &[type, own] : of_types)
       check_field(own.path, own.text);
@@ -185,6 +201,9 @@ namespace Morula
     , key(key)
     , center(setting.center)
   {
+    // The state is told what directions will read, for all types of cells. Then
+    // it declares the columns for it, and nothing is stored that no expression
+    // needs.
     if (key.has(DirectionKind::surface_normal))
       setting.state.need_surface_normal();
     for (const std::string &text : key.texts())
@@ -197,6 +216,10 @@ namespace Morula
   Tensor<1, dim>
   DirectionOfCell<dim>::of(const PresentCell<dim> &cell, const double t) const
   {
+    // All kinds give a direction in the body as it was at t = 0, which is where
+    // growth and contraction take their axes. A direction that happens to be
+    // undefined, at the centre or where a field is flat, becomes the x axis; a
+    // vector that the user wrote as zero is a mistake and is refused.
     Tensor<1, dim> direction;
     switch (key.kind(cell.type()))
       {
@@ -209,7 +232,8 @@ namespace Morula
           direction = cell.surface_normal();
           break;
         case DirectionKind::gradient:
-          // Along which the field rises in the body as it was at t = 0.
+          // The gradient is a covector of the present configuration. Pulled
+          // back it is Fᵀ ∇c: the field rises along it in the body of t = 0.
           direction = cell.gradient(fields.at(key.text_of(cell.type()))) *
                       cell.cell().F();
           if (direction.norm() == 0.)
@@ -234,6 +258,8 @@ namespace Morula
   bool
   DirectionOfCell<dim>::follows_state() const
   {
+    // A radial direction and the normal are fixed at t = 0; a gradient turns as
+    // the field changes.
     return !fields.empty() || expression.follows_state();
   }
 

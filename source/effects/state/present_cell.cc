@@ -13,7 +13,8 @@ namespace Morula
 {
   namespace
   {
-    /** The von Mises stress. */
+    /** The von Mises stress. It has all components in plane strain, too: σ_zz
+     * is not zero there. */
     double
     von_mises(const SymmetricTensor<2, 3> &sigma)
     {
@@ -26,6 +27,7 @@ namespace Morula
   unsigned int
   CellReader<dim>::phase(const CellView<dim, const double> &cell) const
   {
+    // This is the number that the outputs have for cells outside any cycle.
     constexpr unsigned int does_not_proliferate = 9;
     return cycle == nullptr ? does_not_proliferate :
                               cycle->phase_number(clock->load(cell),
@@ -82,6 +84,8 @@ namespace Morula
   unsigned int
   PresentCell<dim>::type() const
   {
+    // Without types in the scene there is no column, and all cells are of type
+    // 0.
     return reader_.columns.type.exists() ? cell_.get(reader_.columns.type) : 0;
   }
 
@@ -90,7 +94,8 @@ namespace Morula
   std::uint64_t
   PresentCell<dim>::lineage_key() const
   {
-    // Without a cell cycle every cell is its own founder.
+    // Without a cell cycle nothing divides, so every cell is its own founder
+    // and its key follows from its id.
     return reader_.clock != nullptr ?
              reader_.clock->lineage_key(cell_) :
              Random::founder_key(reader_.random_seed, id_);
@@ -117,7 +122,9 @@ namespace Morula
   void
   PresentCell<dim>::set_field(const unsigned int field, const double value)
   {
-    // No other variable depends on fields.
+    // The value is put where provide() would put it, and counts as known. No
+    // other variable depends on fields, so nothing else has to be computed
+    // again.
     const auto variable = static_cast<unsigned int>(field_variable(field));
     values[variable]    = value;
     known |= std::uint64_t(1) << variable;
@@ -136,6 +143,9 @@ namespace Morula
   Lame
   PresentCell<dim>::lame() const
   {
+    // Moduli that depend on X alone are those of the founder and need no state.
+    // Else they are expressions of the present cell; they cannot read the
+    // stress, which needs them.
     const TissueMaterial &material = reader_.material;
     if (!material.depends_on_state())
       return material.lame_at(cell_.founder_position());
@@ -148,6 +158,8 @@ namespace Morula
   CellScalars
   PresentCell<dim>::scalars() const
   {
+    // If the stress was computed before, the scalars are part of it; otherwise
+    // the cheaper computation without the tensors is enough.
     return has_quantities ?
              quantities_ :
              cell_scalars(cell_, reader_.material.material(), lame());
@@ -158,6 +170,9 @@ namespace Morula
   const CellQuantities &
   PresentCell<dim>::quantities() const
   {
+    // Stress and energy are computed at most once for a cell, as several
+    // expressions may ask for them. A PresentCell is made anew for each cell
+    // and step, so they cannot become stale.
     if (!has_quantities)
       quantities_ = cell_quantities(cell_,
                                     reader_.material.material(),
@@ -207,6 +222,9 @@ namespace Morula
                                    const double      t,
                                    const double      ratio) const
   {
+    // The cell is copied with a larger F_g and the same F, as if it had grown
+    // in a place that does not give way: doc/theory.md (10.4). The volume of
+    // growth is multiplied by `ratio`, so each length by its root.
     const CellColumns<dim>     &columns = cell_.columns();
     std::vector<double>         row(cell_.row().begin(), cell_.row().end());
     const CellView<dim, double> grown(make_array_view(row), columns);
@@ -220,9 +238,13 @@ namespace Morula
   PresentCell<dim>::provide(const std::vector<Variable> &variables,
                             const double                 t) const
   {
+    // Variables are computed when an expression asks for them and kept in
+    // `values`, with one bit in `known` for each. X and t are cheap and are
+    // always set; ages and t follow the time and are set anew.
     if (variables.empty())
       return;
-    // Messages give them in any case.
+    // Messages of errors name X in any case, whether the expression uses it or
+    // not.
     const Point<dim> X = cell_.founder_position();
     for (unsigned int d = 0; d < 3; ++d)
       values[d] = d < dim ? X[d] : 0.;
@@ -234,7 +256,8 @@ namespace Morula
                          << static_cast<unsigned int>(variable);
         if (variable <= Variable::t)
           continue;
-        // Ages have changed if the time has.
+        // Ages depend on the time of this call, so what is known of them may be
+        // of another time.
         if ((known & bit) != 0 && variable != Variable::age &&
             variable != Variable::type_age)
           continue;
@@ -248,6 +271,10 @@ namespace Morula
   double
   PresentCell<dim>::compute(const Variable variable, const double t) const
   {
+    // Positions are present ones, while X is the founder's. Stresses are Cauchy
+    // stresses per present area; pressure is positive where tissue is squeezed.
+    // Columns that are read exist, because the expression announced its
+    // variables to StateColumns.
     const StateColumns<dim> &columns = reader_.columns;
     if (is_field(variable))
       return cell_.get(columns.fields[field_number(variable)]);
@@ -258,6 +285,8 @@ namespace Morula
         case Variable::y:
           return position_[1];
         case Variable::z:
+          // The index is valid in 2-D as well, where this branch is compiled
+          // but not taken.
           return dim == 3 ? position_[dim - 1] : 0.;
         case Variable::generation:
           return cell_.generation();
@@ -278,6 +307,8 @@ namespace Morula
         case Variable::pressure:
           return -trace(quantities().stress) / 3.;
         case Variable::tension:
+          // deal.II sorts eigenvalues in descending order: the first is the
+          // most tensile.
           return eigenvalues(quantities().stress)[0];
         case Variable::shear:
           return von_mises(quantities().stress);
@@ -300,6 +331,7 @@ namespace Morula
                const unsigned int     p,
                const CellReader<dim> &reader)
   {
+    // The number p is that of the store of this rank; the id is global.
     const Cells<dim> &cells = tissue.cells();
     return {cells[p], cells.id(p), cells.position(p), reader};
   }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+// Effects say in their constructors which variables their expressions read. The
+// columns are declared after all of them are made, and only those that
+// something reads.
 namespace Morula
 {
   template <int dim>
@@ -20,6 +23,8 @@ namespace Morula
   Expression
   StateColumns<dim>::use(const ExpressionKey &key)
   {
+    // The list stays sorted, as uses() searches it by halves and any_in_use()
+    // looks at its last entry.
     const Expression &expression = key.expression(dim);
     for (const Variable variable : expression.used())
       if (!uses(variable))
@@ -44,7 +49,8 @@ namespace Morula
     const unsigned int k =
       std::find(names_of_fields.begin(), names_of_fields.end(), field) -
       names_of_fields.begin();
-    // Where an effect is only tried there are no fields.
+    // An effect that is only made to check its keys may have no fields around
+    // it; then the number is past the end and is never used.
     if (k < needs_gradient.size())
       needs_gradient[k] = true;
     return k;
@@ -55,6 +61,9 @@ namespace Morula
   void
   StateColumns<dim>::declare_fields(CellColumns<dim> &columns)
   {
+    // Each field has a column, as its value belongs to the cell and moves with
+    // it. The gradient is computed once a step and stored only where a
+    // direction reads it.
     gradients.resize(names_of_fields.size());
     for (unsigned int k = 0; k < names_of_fields.size(); ++k)
       {
@@ -80,6 +89,8 @@ namespace Morula
   void
   StateColumns<dim>::declare_types(CellColumns<dim> &columns)
   {
+    // The column of the type comes first of all, before effects are made: their
+    // expressions may compare it.
     if (!types.empty())
       type = columns.template add<unsigned int>(
         {"type", "", "number of the cell's type", 0, AtDivision::copied, true});
@@ -90,6 +101,9 @@ namespace Morula
   void
   StateColumns<dim>::declare(CellColumns<dim> &columns)
   {
+    // Times are stored instead of ages, so that a column changes only at an
+    // event. Depth and normal are taken once at t = 0 and inherited by all
+    // descendants.
     if (uses(Variable::type_age))
       type_since = columns.template add<double>(
         {"type_since", "day", "when the cell got its type", 0.});
@@ -130,6 +144,8 @@ namespace Morula
   bool
   StateColumns<dim>::any_in_use() const
   {
+    // X, Y, Z and t come first in the order of variables and need no row of the
+    // cell. So the last of the sorted variables decides.
     return !types.empty() || (!used.empty() && used.back() > Variable::t);
   }
 

@@ -22,6 +22,11 @@ namespace Morula
                const std::vector<Tensor<1, dim>> &normals,
                const MPI_Comm                     comm)
   {
+    // Each rank has some patches of the surface and some places, and the patch
+    // nearest to a place may be on any rank. So all patches are gathered on
+    // every rank, which is collective, and a tree of them answers for the
+    // places of this rank. Only the surface of t = 0 is asked, so this is no
+    // cost of a step.
     namespace bgi = boost::geometry::index;
     using Patches =
       std::pair<std::vector<Point<dim>>, std::vector<Tensor<1, dim>>>;
@@ -36,6 +41,8 @@ namespace Morula
                           part.second.begin(),
                           part.second.end());
       }
+    // The parts are in the order of the ranks. An entry keeps the number of its
+    // patch, by which its normal is found.
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < all.first.size(); ++i)
       entries.emplace_back(all.first[i], i);
@@ -46,6 +53,8 @@ namespace Morula
       {
         std::vector<Entry> nearest;
         tree.query(bgi::nearest(places[k], 1), std::back_inserter(nearest));
+        // Without any surface all is infinitely deep, and the normal stays
+        // zero.
         if (nearest.empty())
           {
             result[k].depth = std::numeric_limits<double>::infinity();
@@ -53,6 +62,9 @@ namespace Morula
           }
         result[k].normal = all.second[nearest[0].second];
         result[k].depth =
+          // The depth is measured along the normal to the plane of the patch,
+          // so that it does not jump with the spacing of patches. A cell just
+          // outside that plane has depth 0.
           std::max(0., (nearest[0].first - places[k]) * result[k].normal);
       }
     return result;

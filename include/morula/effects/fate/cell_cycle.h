@@ -95,7 +95,7 @@ namespace Morula
    *  size checkpoint. */
   struct ElasticSize
   {
-    /** Without further arguments: there was no step. */
+    /** A size without slope and time says that there was no step before. */
     ElasticSize(const double J_e,
                 const double slope = 0.,
                 const double since = std::numeric_limits<double>::infinity())
@@ -105,9 +105,9 @@ namespace Morula
     {}
 
     double J_e;
-    /** Its slope in the last step, 1/day. */
+    /** The slope of J_e in the last step, 1/day. */
     double slope;
-    /** When that step began, day. */
+    /** The time at which that step began, day. */
     double since;
   };
 
@@ -129,7 +129,7 @@ namespace Morula
       : X(X)
     {}
 
-    /** For a cell at time @p t (day). Both must outlive this. */
+    /** A cell with its state, at time @p t (day). It must outlive this. */
     CellAt(const PresentCell<dim> &cell, const double t);
 
     /** The value of an expression. @throws InputError */

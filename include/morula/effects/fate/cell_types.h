@@ -27,7 +27,7 @@ namespace Morula
   class CellTypes : public Fate<dim>
   {
   public:
-    /** Only with at least one type. @throws InputError */
+    /** The scene must have at least one type. @throws InputError */
     CellTypes(const CellTypesParameters &parameters,
               const EffectSetting<dim>  &setting);
 
@@ -121,7 +121,8 @@ namespace Morula
     std::vector<std::vector<Transition>>               transitions; // by type
     Column<unsigned int>                               n_changes;
     std::vector<Column<double>>                        hazards;
-    /** Where the rate of some type's way of this number follows the state. */
+    /** Rates that the last step saw, by the number of the way; a column exists
+     *  if the rate of some type's way of this number follows the state. */
     std::vector<Column<double>> expected;
   };
 } // namespace Morula

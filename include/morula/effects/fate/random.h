@@ -50,23 +50,23 @@ namespace Morula::Random
               const std::uint64_t key,
               const double        rate);
 
-  /** Exponentially distributed with mean 1: when the hazard of transition
-   * number
-   *  @p which of the cell's type ends it, after @p n_changes of type. */
+  /** The threshold of the hazard of transition number @p which out of the
+   *  cell's type, after @p n_changes of type: exponentially distributed with
+   *  mean 1. */
   double
   transition_threshold(const std::uint64_t seed,
                        const std::uint64_t key,
                        const unsigned int  n_changes,
                        const unsigned int  which);
 
-  /** Exponentially distributed with mean 1: when the hazard of death ends the
-   *  cell's life. */
+  /** The threshold at which the hazard of death ends the cell's life:
+   *  exponentially distributed with mean 1. */
   double
   death_threshold(const std::uint64_t seed, const std::uint64_t key);
 
-  /** Exponentially distributed with mean 1, for an effect of this name: when
-   *  the hazard number @p n that it has of the cell brings its event. Draws of
-   *  other names and numbers are independent of it. */
+  /** The threshold at which hazard number @p n of an effect of this name brings
+   *  its event: exponentially distributed with mean 1. Draws of other names and
+   *  numbers are independent of it. */
   double
   threshold_of(const std::string  &name,
                const std::uint64_t seed,

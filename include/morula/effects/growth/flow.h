@@ -19,7 +19,7 @@ namespace Morula
   {
     /** D of (8.4) in F_g <- D F_g; nothing if nothing flows. */
     std::optional<Tensor<2, dim>> D = {};
-    /** Which part of an error in the shear of the forecast is one of D. */
+    /** An error in the shear of the forecast times this is an error of D. */
     double share = 0.;
     /** Whether the cell begins the step without stress, for the next flows. */
     bool begins_anew = false;

@@ -26,7 +26,8 @@ namespace Morula
     {
       if (after.get(cell.reader().columns.type) == cell.type())
         return {};
-      // With the growth of t0 nothing would be left of F_e.
+      // All of F_e becomes growth, so that none of it is left with the growth
+      // of t0.
       return {cell.elastic(), 0., true};
     }
   };

@@ -25,7 +25,7 @@ namespace Morula
     Tensor<2, dim> elastic;
     /** The cell with all its columns; null before there are cells. */
     const CellView<dim, const double> *cell = nullptr;
-    /** Its state, for expressions; null before there are cells. */
+    /** The state of the cell, for expressions; null before there are cells. */
     const PresentCell<dim> *present = nullptr;
   };
 

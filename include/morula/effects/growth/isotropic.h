@@ -34,8 +34,7 @@ namespace Morula
     /** @throws InputError for an expression that cannot be parsed */
     explicit IsotropicGrowth(const Parameters &parameters);
 
-    /** With a stretch that may depend on the cells' state. @throws InputError
-     */
+    /** The stretch may depend on the cells' state here. @throws InputError */
     IsotropicGrowth(const Parameters         &parameters,
                     const EffectSetting<dim> &setting);
 

@@ -93,7 +93,7 @@ namespace Morula
       GrowthFeedback of_rate, of_homeostasis;
       /** The deviator of H, 1/day. */
       SymmetricTensor<2, dim> shape;
-      /** By how much it falls, times Δt, per unit of the shear that grows. */
+      /** The fall of `shape`, times Δt, per unit of the shear that grows. */
       double shape_damping = 0.;
 
       /** Both. */

@@ -23,7 +23,7 @@ namespace Morula
   {
     /** The vector of an expression. */
     expression,
-    /** From Tissue/Center to the founder. */
+    /** The direction from Tissue/Center to the founder. */
     radial,
     /** The outward normal of the surface near the founder, at t = 0. */
     surface_normal,

@@ -28,11 +28,11 @@ namespace Morula
     const StateColumns<dim> &columns;
     /** The cells' material. */
     const TissueMaterial &material;
-    /** Their clocks; null without a cell cycle. */
+    /** The columns of the cells' clocks; null without a cell cycle. */
     const CycleColumns<dim> *clock;
-    /** Null without a cell cycle. */
+    /** The cell cycle, or null. */
     const CellCycle<dim> *cycle;
-    /** Of the scene. */
+    /** The seed of the scene. */
     std::uint64_t random_seed;
     /** The time of the cells' state, day. */
     double time;

@@ -23,7 +23,8 @@ namespace Morula
     constexpr double largest_rest = 0.01;
 
     /** Loads without a resultant, as surface tension and the pressure of a
-     *  lumen, have one of rounding: less than this stress on their area, kPa. */
+     *  lumen, have one of rounding: less than this stress on their area, kPa.
+     */
     constexpr double rounding_stress = 1e-9;
 
     /** Young's moduli of soft tissue, kPa: brain has some tenths, cartilage

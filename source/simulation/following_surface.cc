@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace Morula
 {
@@ -36,6 +37,15 @@ namespace Morula
     /** The largest change of q/q₀ in doc/theory.md (4.12f): of the part of the
      *  cells' volume that the surface of flowing tissue encloses. */
     constexpr double largest_misfit = 0.01;
+
+    /** A misfit that the volumes of growing cells can have. A larger one is a
+     *  hole, or a surface that has left its cells. */
+    constexpr double slight_misfit = 0.05;
+
+    /** In this time, day, the volumes of cells that grow and flow are brought
+     * in line with their space: slowly beside the flow, which must carry the
+     *  pressure away, and fast beside a cell cycle. */
+    constexpr double evening_time = 0.5;
 
     /** Whether a boundary point of any rank has a larger |F| than that.
      *  Collective. */
@@ -63,6 +73,7 @@ namespace Morula
     , comm(comm)
     , longest_edge(0.5 * model.scene.grid.spacing)
     , flows(model.scene.flows())
+    , grows(model.scene.has_active_tissue())
     , exists_(has_surface<dim>(model.scene))
   {}
 
@@ -169,7 +180,30 @@ namespace Morula
           throw;
       }
     if (restores(share))
-      restore_fit(tissue, *share, is_torn);
+      {
+        if (grows)
+          change_volumes(tissue, [&]() {
+            relax_volumes_to_space(tissue,
+                                   space.occupancy(),
+                                   std::min(1., dt / evening_time));
+          });
+        restore_fit(tissue, *share, is_torn);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FollowingSurface<dim>::change_volumes(
+    Tissue<dim> &tissue, const std::function<void()> &change) const
+  {
+    std::vector<double> before;
+    if (model.fields.present())
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        before.push_back(tissue.cells().volume(p));
+    change();
+    for (std::size_t p = 0; p < before.size(); ++p)
+      model.fields.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
   }
 
 
@@ -192,11 +226,29 @@ namespace Morula
     // smaller than a cell is a feature of the surface.
     const double length =
       std::max(longest_edge, std::pow(fit.cells / n, 1. / dim));
+    const double misfit = fit.share() / share;
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
-        std::abs(fit.share() / share - 1.) > largest_misfit)
-      renew(tissue,
-            tissue.boundary_points().copy(),
-            {0., length, share * fit.cells});
+        std::abs(misfit - 1.) > largest_misfit)
+      {
+        // Where tissue grows and flows, the volumes of its cells are integrals
+        // over many steps, but the surface stands where the tissue ends: then a
+        // slight misfit is one of the volumes. A surface that gave way to them
+        // would leave its outermost cells behind.
+        const bool follow_surface = grows && !is_torn && fit.enclosed > 0. &&
+                                    std::abs(misfit - 1.) < slight_misfit;
+        if (follow_surface)
+          change_volumes(tissue, [&]() {
+            const double stretch = std::pow(misfit, 1. / dim);
+            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+              {
+                const CellView<dim, double> cell = tissue.cell(p);
+                cell.set(cell.columns().deformation, stretch * cell.F());
+              }
+          });
+        renew(tissue,
+              tissue.boundary_points().copy(),
+              {0., length, follow_surface ? fit.enclosed : share * fit.cells});
+      }
     pull_to_cells(tissue, length);
   }
 

@@ -10,6 +10,7 @@
 #include <deal.II/base/timer.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace Morula
@@ -82,6 +83,11 @@ namespace Morula
            const double                 dt);
 
   private:
+    /** Lets @p change write the deformation of the cells, while the amounts of
+     *  fields in them stay. */
+    void
+    change_volumes(Tissue<dim>                 &tissue,
+                   const std::function<void()> &change) const;
     bool
     renews() const;
     void
@@ -112,6 +118,7 @@ namespace Morula
     const MPI_Comm          comm;
     const double            longest_edge; // of a patch, µm
     const bool              flows;        // whether shear relaxes
+    const bool              grows;        // whether cells grow or divide
     const bool              exists_;
   };
 } // namespace Morula

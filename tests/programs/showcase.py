@@ -27,9 +27,17 @@ COARSE = {"Tissue/Cell spacing": "20", "Grid/Spacing": "60",
 
 class Showcase(ProgramTest):
     def test_spheroid(self):
+        # The necrotic core of so few cells differs from seed to seed by a third
+        # of the limit: means are compared.
         series = all_series()[0]
-        self.execute(SCENE, *overrides(COARSE))
-        times, found = radii_of_run(self.work / "output")
+        runs = []
+        for seed in range(1, 6):
+            output = self.work / f"seed-{seed}"
+            self.execute(SCENE, *overrides({**COARSE, "Random seed": f"{seed}"}),
+                         output=output)
+            runs.append(radii_of_run(output))
+        times = runs[0][0]
+        found = numpy.mean([radii for _, radii in runs], axis=0)
         exact = series.greenspan(times + series.days[0])
         off = (found - exact)[:, 1:] / exact[0, 1:]
         print("R, R_n, R_i off, of R:", abs(off).max(axis=1))

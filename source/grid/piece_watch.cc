@@ -150,15 +150,17 @@ namespace Morula
     std::optional<Point<dim>> place;
     if (n_pieces > 1) // else nothing can join
       {
-        std::map<unsigned int, unsigned int> former; // by grid cell
+        // by grid cell and body
+        std::map<std::pair<unsigned int, unsigned int>, unsigned int> former;
         for (const Former &one : former_pieces(grid))
-          former[box.number(one.grid_cell)] = one.piece;
+          former[{box.number(one.grid_cell), one.body}] = one.piece;
         std::vector<Kept<dim>> kept;
         for (const auto &grid_cell : space.grid_cells())
-          if (const auto found = former.find(grid_cell.number);
+          if (const auto found =
+                former.find({grid_cell.number, grid_cell.body});
               found != former.end())
             kept.push_back({box.index(grid_cell.number),
-                            space.piece(grid_cell.number),
+                            space.piece(grid_cell.number, grid_cell.body),
                             found->second});
         const auto joined = pieces_that_joined(kept, space.n_pieces(), comm);
         if (std::find(joined.begin(), joined.end(), true) != joined.end())
@@ -181,7 +183,9 @@ namespace Morula
     n_pieces = space.n_pieces();
     for (const auto &grid_cell : space.grid_cells())
       remembered.push_back(
-        {box.index(grid_cell.number), space.piece(grid_cell.number)});
+        {box.index(grid_cell.number),
+         space.piece(grid_cell.number, grid_cell.body),
+         grid_cell.body});
     return place;
   }
 
@@ -189,12 +193,12 @@ namespace Morula
   unsigned int
   pieces_with_cells(const SplineSpace<dim> &space, const MPI_Comm comm)
   {
-    const Occupancy<dim>     &occupancy = space.occupancy();
     std::vector<unsigned int> holds_cells(space.n_pieces(), 0);
     for (const auto &grid_cell : space.grid_cells())
-      if (occupancy.n_particles(
+      if (const Occupancy<dim> &occupancy = space.occupancy(grid_cell.body);
+          occupancy.n_particles(
             occupancy.boxes().number(space.box().index(grid_cell.number))) > 0)
-        holds_cells[space.piece(grid_cell.number)] = 1;
+        holds_cells[space.piece(grid_cell.number, grid_cell.body)] = 1;
     Utilities::MPI::max(holds_cells, comm, holds_cells);
     return std::count(holds_cells.begin(), holds_cells.end(), 1);
   }

@@ -44,6 +44,8 @@ namespace Morula
     count(grid.communicator());
     numbers = UnknownNumbers<dim>(copies, own_unknowns(), small_pieces, grid);
     numbers.ask(copies_of_others(), copies, grid);
+    owned_  = numbers.owned();
+    pieces_ = numbers.pieces();
     express_grid_cells();
     find_relevant();
   }
@@ -264,7 +266,7 @@ namespace Morula
                   grid_cell.unknowns.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    relevant_ = IndexSet(numbers.n());
+    relevant_ = IndexSet(n_unknowns());
     relevant_.add_indices(used.begin(), used.end());
     relevant_.add_indices(owned());
     relevant_.compress();
@@ -283,6 +285,8 @@ namespace Morula
     // affine fields. Small pieces have unknowns of their polynomial: the value
     // at its centre and the slopes per grid spacing, doc/theory.md (3.4);
     // quadratic ones are 0.
+    if (is_parted())
+      return affine_coefficients_of_body(piece, a, gradient);
     std::vector<double> coefficients(owned().n_elements(), 0.);
     const auto set = [&](const unsigned int unknown, const double value) {
       if (owned().is_element(unknown))
@@ -310,7 +314,7 @@ namespace Morula
   const std::vector<unsigned int> &
   SplineSpace<dim>::pieces_of_unknowns() const
   {
-    return numbers.pieces();
+    return pieces_;
   }
 
   template <int dim>
@@ -324,7 +328,7 @@ namespace Morula
   const IndexSet &
   SplineSpace<dim>::owned() const
   {
-    return numbers.owned();
+    return owned_;
   }
 
   template <int dim>
@@ -338,7 +342,7 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::n_unknowns() const
   {
-    return numbers.n();
+    return owned_.size();
   }
 
   template <int dim>
@@ -364,8 +368,11 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineSpace<dim>::piece(const unsigned int number) const
+  SplineSpace<dim>::piece(const unsigned int number,
+                          const unsigned int body) const
   {
+    if (is_parted())
+      return first_piece[body] + bodies[body].piece(number);
     return copies.piece(boxes.number(box().index(number)));
   }
 
@@ -373,21 +380,21 @@ namespace Morula
   unsigned int
   SplineSpace<dim>::n_pieces() const
   {
-    return copies.n_pieces();
+    return is_parted() ? first_piece.back() : copies.n_pieces();
   }
 
   template <int dim>
   const GridBox<dim> &
   SplineSpace<dim>::box() const
   {
-    return occupancy_.window().whole();
+    return occupancy().window().whole();
   }
 
   template <int dim>
   const Occupancy<dim> &
-  SplineSpace<dim>::occupancy() const
+  SplineSpace<dim>::occupancy(const unsigned int body) const
   {
-    return occupancy_;
+    return is_parted() ? bodies[body].occupancy_ : occupancy_;
   }
 
   template class SplineSpace<2>;

@@ -17,6 +17,14 @@ namespace Morula
 
   template <int dim>
   void
+  Drag<dim>::set_centre(std::vector<Tensor<1, dim>> ways)
+  {
+    centre = std::move(ways);
+  }
+
+
+  template <int dim>
+  void
   Drag<dim>::add(const unsigned int     grid_cell,
                  const LocalField<dim> &field,
                  const GrowthAt         growth,
@@ -57,7 +65,9 @@ namespace Morula
                        const LocalField<dim>   &field,
                        LocalSystem<dim>        &system) const
   {
-    const Tensor<1, dim> u = field.value(splines);
+    Tensor<1, dim> u = field.value(splines);
+    if (!centre.empty())
+      u -= centre[p];
     system.add_energy(0.5 * stiffnesses[p] * u.norm_square());
     add_force_at(splines, stiffnesses[p] * u, system);
   }

@@ -11,6 +11,7 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace Morula
 {
@@ -18,8 +19,10 @@ namespace Morula
   MatrixScatter<dim, n_components>::MatrixScatter(const SplineSpace<dim> &space,
                                                   const IndexSet &own_rows,
                                                   Matrix         &matrix,
-                                                  const MPI_Comm  comm)
+                                                  const MPI_Comm  comm,
+                                                  Links           links)
     : space(space)
+    , links(std::move(links))
     , matrix(matrix)
     , comm(comm)
   {
@@ -40,20 +43,20 @@ namespace Morula
   MatrixScatter<dim, n_components>::couplings() const
   {
     // Unknowns are numbered here as in space.relevant(): 0, 1, ... on this
-    // rank. Two unknowns couple if they share a grid cell. `last` marks the
+    // rank. Two unknowns couple if they share a grid cell or a link. `last` marks the
     // columns that a row has already, so that none enters twice without a
     // search.
     Couplings columns(space.relevant().n_elements());
     Couplings grid_cells_of(columns.size());
-    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-      for (const unsigned int unknown : space.grid_cells()[c].unknowns)
+    for (unsigned int c = 0; c < n_elements(); ++c)
+      for (const unsigned int unknown : unknowns_of(c))
         grid_cells_of[unknown].push_back(c);
     std::vector<unsigned int> last(columns.size(),
                                    numbers::invalid_unsigned_int);
     for (unsigned int row = 0; row < columns.size(); ++row)
       {
         for (const unsigned int c : grid_cells_of[row])
-          for (const unsigned int column : space.grid_cells()[c].unknowns)
+          for (const unsigned int column : unknowns_of(c))
             if (last[column] != row)
               {
                 last[column] = row;
@@ -280,10 +283,10 @@ namespace Morula
 
     std::vector<std::vector<std::pair<unsigned int, unsigned int>>> places(
       relevant.n_elements()); // (grid cell, row in it)
-    positions.resize(space.grid_cells().size());
-    for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
+    positions.resize(n_elements());
+    for (unsigned int c = 0; c < n_elements(); ++c)
       {
-        const auto &unknowns = space.grid_cells()[c].unknowns;
+        const auto &unknowns = unknowns_of(c);
         positions[c].resize(unknowns.size() * unknowns.size());
         for (unsigned int s = 0; s < unknowns.size(); ++s)
           places[unknowns[s]].emplace_back(c, s);
@@ -331,7 +334,7 @@ namespace Morula
         // unknowns in the row.
         for (const auto &[c, s] : places[unknown])
           {
-            const auto &unknowns = space.grid_cells()[c].unknowns;
+            const auto &unknowns = unknowns_of(c);
             for (unsigned int t = 0; t < unknowns.size(); ++t)
               positions[c][s * unknowns.size() + t] =
                 position_of[owned ? ids[unknowns[t]] : unknowns[t]];
@@ -347,7 +350,7 @@ namespace Morula
     // Rows and columns of the local matrix are ordered by component, those of
     // the sparse one by unknown. The components of a column stand side by side,
     // so one position serves all of them.
-    const auto        &unknowns = space.grid_cells()[grid_cell].unknowns;
+    const auto        &unknowns = unknowns_of(grid_cell);
     const unsigned int m        = unknowns.size();
     for (unsigned int s = 0; s < m; ++s)
       for (unsigned int i = 0; i < n_components; ++i)

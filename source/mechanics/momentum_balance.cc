@@ -68,14 +68,30 @@ namespace Morula
                                         const TermList         &terms,
                                         TimerOutput            &timer,
                                         const MPI_Comm          comm,
-                                        const Enclosure<dim>   *enclosure)
+                                        const Enclosure<dim>   *enclosure,
+                                        const PairTerm         *pairs)
     : space(space)
     , terms(terms)
     , timer(timer)
     , comm(comm)
     , assembly(space, comm)
     , enclosure(enclosure)
+    , pairs(pairs)
   {}
+
+  template <int dim>
+  void
+  MomentumBalance<dim>::renew_links()
+  {
+    has_new_links = true;
+  }
+
+  template <int dim>
+  std::vector<double>
+  MomentumBalance<dim>::relevant_values(const Vector &u) const
+  {
+    return assembly.unknowns().fetch(u);
+  }
 
   template <int dim>
   Equilibrium::Vector
@@ -118,8 +134,23 @@ namespace Morula
       energies[1] += local.energy_magnitude;
       return !local.inverted;
     };
-    const std::vector<double> sums = assembly.residual(
-      u, system, add, magnitudes != nullptr ? &sizes : nullptr);
+    const auto add_pairs = [&](const std::vector<double> &values,
+                               std::vector<double>       &residual,
+                               std::vector<double>       *of_sizes) {
+      if (pairs == nullptr)
+        return;
+      const TimerOutput::Scope section(timer, "contact");
+      PairTerm::Sums           sums{residual, of_sizes};
+      pairs->add_residual(values, sums);
+      energies[0] += sums.energy;
+      energies[1] += sums.energy_magnitude;
+    };
+    const std::vector<double> sums =
+      assembly.residual(u,
+                        system,
+                        add,
+                        magnitudes != nullptr ? &sizes : nullptr,
+                        add_pairs);
     energies[2] = system.inverted;
     double totals[3];
     Utilities::MPI::sum(energies, comm, totals);
@@ -373,10 +404,14 @@ namespace Morula
     // one reads (section 2.4). So the order of calls matters, and a first
     // tangent, which is asked for with the growth of t, forgets the former
     // ones.
-    if (!assembly.has_pattern())
+    if (!assembly.has_pattern() || has_new_links)
       {
         const TimerOutput::Scope section(timer, "sparsity pattern");
-        assembly.make_pattern();
+        if (pairs != nullptr)
+          assembly.make_pattern(pairs->links());
+        else
+          assembly.make_pattern();
+        has_new_links = false;
       }
     // A later turn of the step starts in equilibrium with the new growth.
     const GrowthAt at       = goes_on ? GrowthAt::current : growth;
@@ -425,7 +460,16 @@ namespace Morula
         }
     };
     LocalSystem<dim> system(LocalSystem<dim>::tangent);
-    return assembly.matrix(u, system, add);
+    if (pairs == nullptr)
+      return assembly.matrix(u, system, add);
+    return assembly.matrix(u,
+                           system,
+                           add,
+                           [&](const std::vector<double> &values,
+                               const auto                &add_link) {
+                             const TimerOutput::Scope section(timer, "contact");
+                             pairs->add_tangent(values, add_link);
+                           });
   }
 
   template <int dim>

@@ -49,17 +49,23 @@ namespace Morula
       return true;
     }
 
-    /** The grid cell with tissue around @p x. */
+    /** The grid cell with tissue of a piece around @p x. */
     template <int dim>
     const typename SplineSpace<dim>::GridCell &
-    grid_cell_at(const SplineSpace<dim> &space, const Point<dim> &x)
+    grid_cell_at(const SplineSpace<dim> &space,
+                 const Point<dim>       &x,
+                 const unsigned int      piece)
     {
-      return *std::lower_bound(space.grid_cells().begin(),
-                               space.grid_cells().end(),
-                               space.box().number(space.box().locate(x)),
-                               [](const auto &c, const unsigned int number) {
-                                 return c.number < number;
-                               });
+      const unsigned int number = space.box().number(space.box().locate(x));
+      auto               found  = std::lower_bound(
+        space.grid_cells().begin(),
+        space.grid_cells().end(),
+        number,
+        [](const auto &c, const unsigned int n) { return c.number < n; });
+      // The grid cell stands there once for each of its bodies.
+      while (space.piece(number, found->body) != piece)
+        ++found;
+      return *found;
     }
 
     /** Σ V⁰ N_a and Σ V⁰ N_a (x - center) of particles in one grid cell: what
@@ -71,9 +77,10 @@ namespace Morula
       using Masses = std::vector<typename RigidModes<dim>::Mass>;
 
       /** Takes the particles from @p mass on that follow each other in this
-       *  grid cell; @p mass is the next one then. */
+       *  grid cell and belong to this piece; @p mass is the next one then. */
       FirstMoments(const SplineSpace<dim>                &space,
                    const unsigned int                     grid_cell,
+                   const unsigned int                     piece,
                    const Point<dim>                      &center,
                    typename Masses::const_iterator       &mass,
                    const typename Masses::const_iterator &end)
@@ -84,7 +91,7 @@ namespace Morula
         for (; mass != end; ++mass)
           {
             const GridIndex<dim> index = space.box().locate(mass->x);
-            if (space.box().number(index) != grid_cell)
+            if (space.box().number(index) != grid_cell || mass->piece != piece)
               return;
             const Tensor<1, dim>    z = mass->x - center;
             const SplineValues<dim> splines(space.box().unit_position(mass->x,
@@ -308,10 +315,10 @@ namespace Morula
     for (auto mass = masses.begin(); mass != masses.end();)
       {
         const unsigned int p         = mass->piece;
-        const auto        &grid_cell = grid_cell_at(space, mass->x);
+        const auto        &grid_cell = grid_cell_at(space, mass->x, p);
         // The constructor advances `mass` to the next grid cell.
         const FirstMoments<dim> moments(
-          space, grid_cell.number, pieces[p].center, mass, masses.end());
+          space, grid_cell.number, p, pieces[p].center, mass, masses.end());
         const Condensation<dim> condensation(grid_cell);
         const unsigned int      m = condensation.m();
         for (unsigned int k = 0; k < pieces[p].free.size(); ++k)

@@ -33,6 +33,27 @@ namespace Morula
   } // namespace
 
   template <int dim>
+  void
+  BoundaryColumns<dim>::need_contact()
+  {
+    if (body.exists())
+      return;
+    body             = add<unsigned int>({"body",
+                                          "",
+                                          "number of the body that the point belongs to",
+                                          0,
+                                          AtDivision::copied,
+                                          true});
+    contact_pressure = add<double>({"contact_pressure",
+                                    "kPa",
+                                    "pressure of other bodies, averaged over a "
+                                    "grid spacing",
+                                    0.,
+                                    AtDivision::copied,
+                                    true});
+  }
+
+  template <int dim>
   BoundaryColumns<dim>::BoundaryColumns(const bool with_patch,
                                         const bool coarsens,
                                         const bool with_force)

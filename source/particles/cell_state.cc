@@ -46,6 +46,19 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  CellColumns<dim>::need_bodies()
+  {
+    if (!body.exists())
+      body = add<unsigned int>({"body",
+                                "",
+                                "number of the body that the cell belongs to",
+                                0,
+                                AtDivision::copied,
+                                true});
+  }
+
+  template <int dim>
   std::vector<double>
   CellColumns<dim>::founder(const Point<dim> &X, const double volume) const
   {

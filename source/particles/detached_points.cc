@@ -21,11 +21,12 @@ namespace Morula
      *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
-    /** Whether a cell of this rank, in the grid cell of @p x or a neighbouring
-     *  one, is at most @p near away. */
+    /** Whether a cell of this rank and body, in the grid cell of @p x or a
+     *  neighbouring one, is at most @p near away. */
     template <int dim>
     bool
     has_cell_near(const Point<dim>  &x,
+                  const unsigned int body,
                   const Tissue<dim> &tissue,
                   const double       near)
     {
@@ -34,15 +35,18 @@ namespace Morula
       const GridBox<dim> &box   = tissue.grid().box();
       const auto         &store = tissue.cells();
       const auto          is_in = [&](const unsigned int number) {
-        const auto cell =
+        auto cell =
           std::lower_bound(store.grid_cells().begin(),
                            store.grid_cells().end(),
                            number,
                            [](const auto &c, const unsigned int n) {
                              return c.number < n;
                            });
-        if (cell != store.grid_cells().end() && cell->number == number)
-          for (unsigned int p = cell->begin; p < cell->end; ++p)
+        for (; cell != store.grid_cells().end() && cell->number == number;
+             ++cell)
+          for (unsigned int p = cell->begin;
+               p < cell->end && cell->body == body;
+               ++p)
             if (x.distance_square(store.position(p)) <= near * near)
               return true;
         return false;
@@ -57,6 +61,24 @@ namespace Morula
       return found;
     }
 
+    /** Some of the points, and their bodies if they have any. */
+    template <int dim>
+    std::pair<std::vector<Point<dim>>, std::vector<unsigned int>>
+    selected(const std::vector<unsigned int> &selection,
+             const std::vector<Point<dim>>   &points,
+             const std::vector<unsigned int> &bodies)
+    {
+      std::vector<Point<dim>>   places;
+      std::vector<unsigned int> of_places;
+      for (const unsigned int p : selection)
+        {
+          places.push_back(points[p]);
+          if (!bodies.empty())
+            of_places.push_back(bodies[p]);
+        }
+      return {places, of_places};
+    }
+
     /** A cell near a boundary point. */
     template <int dim>
     using NearCell = std::tuple<Point<dim>,     // where it is, µm
@@ -67,21 +89,23 @@ namespace Morula
      *  cells nearest to them. Collective. */
     template <int dim>
     std::pair<std::vector<unsigned int>, std::vector<NearCell<dim>>>
-    far_points(const std::vector<Point<dim>> &points,
-               const Tissue<dim>             &tissue,
-               const double                   reaches)
+    far_points(const std::vector<Point<dim>>   &points,
+               const std::vector<unsigned int> &bodies,
+               const Tissue<dim>               &tissue,
+               const double                     reaches)
     {
       // Points with a cell of this rank nearby are settled without any message:
       // a reach is never below a quarter of a grid spacing. Only for the others
       // ranks exchange what their cells near them have. If no rank has any, no
       // rank enters the second part.
       const std::vector<unsigned int> far = points_without_cell(
-        points, tissue, reaches * least_reach * tissue.grid().box().spacing());
+        points,
+        tissue,
+        reaches * least_reach * tissue.grid().box().spacing(),
+        bodies);
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
         return {};
-      std::vector<Point<dim>> queries;
-      for (const unsigned int p : far)
-        queries.push_back(points[p]);
+      const auto [queries, of_queries] = selected(far, points, bodies);
       const Cells<dim> &cells   = tissue.cells();
       const double      h       = tissue.grid().box().spacing();
       const auto        nearest = nearest_values(
@@ -93,7 +117,8 @@ namespace Morula
                                surface_reach<dim>(cells[p], h));
         },
         Ties::lowest_id,
-        tissue.grid());
+        tissue.grid(),
+        of_queries);
       return {far, nearest};
     }
 
@@ -131,13 +156,17 @@ namespace Morula
 
   template <int dim>
   std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>> &points,
-                      const Tissue<dim>             &tissue,
-                      const double                   near)
+  points_without_cell(const std::vector<Point<dim>>   &points,
+                      const Tissue<dim>               &tissue,
+                      const double                     near,
+                      const std::vector<unsigned int> &bodies)
   {
     std::vector<unsigned int> found;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (!has_cell_near(points[p], tissue, near))
+      if (!has_cell_near(points[p],
+                         bodies.empty() ? 0 : bodies[p],
+                         tissue,
+                         near))
         found.push_back(p);
     return found;
   }
@@ -167,9 +196,11 @@ namespace Morula
 
   template <int dim>
   std::vector<double>
-  attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue)
+  attachment(const std::vector<Point<dim>>   &points,
+             const Tissue<dim>               &tissue,
+             const std::vector<unsigned int> &bodies)
   {
-    const auto [far, nearest] = far_points(points, tissue, 1.);
+    const auto [far, nearest] = far_points(points, bodies, tissue, 1.);
     std::vector<double> list(points.size(), 1.);
     for (std::size_t k = 0; k < far.size(); ++k)
       {
@@ -185,7 +216,8 @@ namespace Morula
   {
     const std::vector<Point<dim>> positions =
       tissue.boundary_points().positions();
-    const auto [far, nearest] = far_points(positions, tissue, most_reaches);
+    const auto [far, nearest] = far_points(
+      positions, tissue.boundary_points().bodies(), tissue, most_reaches);
     std::vector<unsigned int> found;
     for (std::size_t k = 0; k < far.size(); ++k)
       if (way_back(positions[far[k]], nearest[k]).norm() > 0.)
@@ -199,7 +231,8 @@ namespace Morula
   {
     const BoundaryPoints<dim> &points    = tissue.boundary_points();
     std::vector<Point<dim>>    positions = points.positions();
-    const auto [far, nearest] = far_points(positions, tissue, most_reaches);
+    const auto [far, nearest] =
+      far_points(positions, points.bodies(), tissue, most_reaches);
 
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
@@ -236,18 +269,17 @@ namespace Morula
     const Cells<dim>               &cells     = tissue.cells();
     std::vector<Point<dim>>         positions = points.positions();
     const std::vector<unsigned int> far =
-      points_without_cell(positions, tissue, farthest);
+      points_without_cell(positions, tissue, farthest, points.bodies());
     if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
       return 0;
-    std::vector<Point<dim>> queries;
-    for (const unsigned int p : far)
-      queries.push_back(positions[p]);
-    const auto nearest = nearest_values(
+    const auto [queries, bodies] = selected(far, positions, points.bodies());
+    const auto nearest           = nearest_values(
       queries,
       cells,
       [&cells](const unsigned int p) { return cells.position(p); },
       Ties::lowest_id,
-      tissue.grid());
+      tissue.grid(),
+      bodies);
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
       {
@@ -266,16 +298,21 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                         \
-  template std::vector<unsigned int> points_without_cell(                        \
-    const std::vector<Point<dim>> &, const Tissue<dim> &, const double);         \
-  template double surface_reach(const CellView<dim, const double> &,             \
-                                const double);                                   \
-  template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
-                                                const Tissue<dim> &);            \
-  template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
-  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);   \
-  template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
+#define INSTANTIATE(dim)                                                  \
+  template std::vector<unsigned int> points_without_cell(                 \
+    const std::vector<Point<dim>> &,                                      \
+    const Tissue<dim> &,                                                  \
+    const double,                                                         \
+    const std::vector<unsigned int> &);                                   \
+  template double surface_reach(const CellView<dim, const double> &,      \
+                                const double);                            \
+  template std::vector<double> attachment(                                \
+    const std::vector<Point<dim>> &,                                      \
+    const Tissue<dim> &,                                                  \
+    const std::vector<unsigned int> &);                                   \
+  template std::vector<unsigned int> detached_points(const Tissue<dim> &); \
+  template std::uint64_t pull_back_detached_points(Tissue<dim> &);        \
+  template std::uint64_t pull_to_cells(Tissue<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -87,7 +87,8 @@ namespace Morula
   void
   relax_volumes_to_space(Tissue<dim>          &tissue,
                          const Occupancy<dim> &occupancy,
-                         const double          part)
+                         const double          part,
+                         const unsigned int    body)
   {
     const GridBox<dim> &box = occupancy.window().whole();
     const auto          fills =
@@ -95,7 +96,7 @@ namespace Morula
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const GridIndex<dim> index = box.locate(tissue.cells().position(p));
-        if (!box.contains(index))
+        if (!box.contains(index) || tissue.cells().body(p) != body)
           continue;
         // Where cells overlap F becomes smaller, where they leave gaps it
         // becomes larger: doc/theory.md (6.9c). The exponent is that of one
@@ -110,7 +111,13 @@ namespace Morula
   }
 
   template void
-  relax_volumes_to_space(Tissue<2> &, const Occupancy<2> &, const double);
+  relax_volumes_to_space(Tissue<2> &,
+                         const Occupancy<2> &,
+                         const double,
+                         const unsigned int);
   template void
-  relax_volumes_to_space(Tissue<3> &, const Occupancy<3> &, const double);
+  relax_volumes_to_space(Tissue<3> &,
+                         const Occupancy<3> &,
+                         const double,
+                         const unsigned int);
 } // namespace Morula

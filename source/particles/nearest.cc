@@ -62,7 +62,8 @@ namespace Morula
         {
           while (cell != points.grid_cells().end() && cell->number < number)
             ++cell;
-          if (cell != points.grid_cells().end() && cell->number == number)
+          for (; cell != points.grid_cells().end() && cell->number == number;
+               ++cell)
             for (unsigned int p = cell->begin; p < cell->end; ++p)
               found.push_back(p);
         }
@@ -162,13 +163,84 @@ namespace Morula
     return list;
   }
 
+  namespace
+  {
+    /** nearest_numbers() among points of the same body. */
+    template <int dim>
+    std::vector<double>
+    nearest_of_body(const std::vector<Point<dim>>   &queries,
+                    const std::vector<unsigned int> &bodies,
+                    const PointStore<dim>           &points,
+                    const NearestQuery              &wanted,
+                    const BackgroundGrid<dim>       &grid)
+    {
+      // The points come with their body in front of what is wanted. Each body
+      // has a tree of its own. The radius doubles as in nearest_numbers(); if
+      // even the whole box holds no point of a query's body, that body is gone,
+      // and the nearest of all points counts.
+      NearestQuery with_body{wanted.n + 1,
+                             [&](const unsigned int p,
+                                 std::vector<double> &numbers) {
+                               numbers.push_back(points.body(p));
+                               wanted.append(p, numbers);
+                             },
+                             wanted.ties};
+      int largest = 0;
+      for (const int n : grid.box().n())
+        largest = std::max(largest, n);
+      for (int radius = 1;; radius *= 2)
+        {
+          const PointList<dim> list =
+            near_points(queries, points, with_body, grid, radius);
+          std::map<unsigned int, PointList<dim>> lists; // by body
+          for (unsigned int i = 0; i < list.size(); ++i)
+            lists.emplace(list.row(i)[0], wanted.n)
+              .first->second.add(list.ids[i],
+                                 list.positions[i],
+                                 ArrayView<const double>(list.row(i).data() + 1,
+                                                         wanted.n));
+          const bool          everywhere_looked = radius > 2 * largest;
+          double              farthest          = 0.;
+          std::vector<double> numbers;
+          using Tree = decltype(pack_rtree_of_indices(list.positions));
+          std::map<unsigned int, Tree> trees;
+          for (const auto &[body, one] : lists)
+            trees.emplace(body, pack_rtree_of_indices(one.positions));
+          for (std::size_t q = 0; q < queries.size(); ++q)
+            {
+              auto tree = trees.find(bodies[q]);
+              if (tree == trees.end() && everywhere_looked)
+                tree = trees.begin();
+              if (tree == trees.end())
+                {
+                  farthest = std::numeric_limits<double>::infinity();
+                  break;
+                }
+              const PointList<dim> &one = lists.at(tree->first);
+              const auto [found, distance] =
+                nearest(queries[q], one, tree->second);
+              farthest = std::max(farthest, distance);
+              append_wanted(found, one, wanted.ties, numbers);
+            }
+          const double sure = radius * grid.box().spacing();
+          if (Utilities::MPI::max(farthest, grid.communicator()) <= sure ||
+              everywhere_looked)
+            return numbers;
+        }
+    }
+  } // namespace
+
   template <int dim>
   std::vector<double>
-  nearest_numbers(const std::vector<Point<dim>> &queries,
-                  const PointStore<dim>         &points,
-                  const NearestQuery            &wanted,
-                  const BackgroundGrid<dim>     &grid)
+  nearest_numbers(const std::vector<Point<dim>>   &queries,
+                  const PointStore<dim>           &points,
+                  const NearestQuery              &wanted,
+                  const BackgroundGrid<dim>       &grid,
+                  const std::vector<unsigned int> &bodies)
   {
+    if (points.has_bodies() &&
+        Utilities::MPI::logical_or(!bodies.empty(), grid.communicator()))
+      return nearest_of_body(queries, bodies, points, wanted, grid);
     // The nearest point may be in any grid cell. So the radius doubles until
     // every query of every rank has found a point that is nearer than all that
     // may lie outside of the list. Mostly the first radius does. Ranks go on
@@ -212,7 +284,8 @@ namespace Morula
     const std::vector<Point<dim>> &,                                        \
     const PointStore<dim> &,                                                \
     const NearestQuery &,                                                   \
-    const BackgroundGrid<dim> &);
+    const BackgroundGrid<dim> &,                                            \
+    const std::vector<unsigned int> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

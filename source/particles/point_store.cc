@@ -51,8 +51,10 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  PointStore<dim>::PointStore(const unsigned int n_numbers)
+  PointStore<dim>::PointStore(const unsigned int          n_numbers,
+                              const Column<unsigned int> &body)
     : n_numbers(n_numbers)
+    , body_column(body)
   {}
 
   template <int dim>
@@ -228,8 +230,8 @@ namespace Morula
   PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
   {
     // The handler has a list of points for each of its cells. Taken by number
-    // of the grid cells and sorted by id inside each, they are in the canonical
-    // order, which all loops and sums use.
+    // of the grid cells and sorted by body and id inside each, they are in the
+    // canonical order, which all loops and sums use.
     grid_cells_.clear();
     order.clear();
     for (const auto &[number, cell] : grid.owned_grid_cells())
@@ -240,13 +242,24 @@ namespace Morula
           order.push_back(point);
         if (order.size() == begin)
           continue;
+        const auto body_of = [&](const Iterator &point) {
+          return body_column.exists() ?
+                   body_column.get(
+                     ArrayView<const double>(point->get_properties())) :
+                   0;
+        };
         std::sort(order.begin() + begin,
                   order.end(),
-                  [](const Iterator &a, const Iterator &b) {
-                    return a->get_id() < b->get_id();
+                  [&](const Iterator &a, const Iterator &b) {
+                    return std::make_pair(body_of(a), a->get_id()) <
+                           std::make_pair(body_of(b), b->get_id());
                   });
-        grid_cells_.push_back(
-          {number, begin, static_cast<unsigned int>(order.size())});
+        for (unsigned int p = begin; p < order.size(); ++p)
+          if (const unsigned int body = body_of(order[p]);
+              p > begin && grid_cells_.back().body == body)
+            ++grid_cells_.back().end;
+          else
+            grid_cells_.push_back({number, p, p + 1, body});
       }
   }
 
@@ -255,6 +268,17 @@ namespace Morula
   PointStore<dim>::grid_cells() const
   {
     return grid_cells_;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  PointStore<dim>::bodies() const
+  {
+    std::vector<unsigned int> list;
+    if (has_bodies())
+      for (unsigned int p = 0; p < size(); ++p)
+        list.push_back(body(p));
+    return list;
   }
 
   template <int dim>

@@ -17,8 +17,9 @@ namespace Morula
      *  Collective. */
     template <int dim>
     double
-    largest_distance_of(const std::vector<Point<dim>> &points,
-                        const Tissue<dim>             &tissue)
+    largest_distance_of(const std::vector<Point<dim>>   &points,
+                        const std::vector<unsigned int> &bodies,
+                        const Tissue<dim>               &tissue)
     {
       const Cells<dim> &cells = tissue.cells();
       // The nearest cell may belong to another rank.
@@ -27,7 +28,8 @@ namespace Morula
         cells,
         [&cells](const unsigned int p) { return cells.position(p); },
         Ties::lowest_id,
-        tissue.grid());
+        tissue.grid(),
+        bodies);
       double largest = 0.;
       for (std::size_t k = 0; k < points.size(); ++k)
         largest = std::max(largest, points[k].distance(nearest[k]));
@@ -46,16 +48,24 @@ namespace Morula
     {
       const std::vector<Point<dim>> points =
         tissue.boundary_points().positions();
+      const std::vector<unsigned int> bodies =
+        tissue.boundary_points().bodies();
       const double h       = tissue.grid().box().spacing();
       double       near    = 0.5 * h;
       double       largest = 0.;
       do
         {
           near = near > h / 64. ? 0.5 * near : 0.; // then these are all points
-          std::vector<Point<dim>> far;
-          for (const unsigned int p : points_without_cell(points, tissue, near))
-            far.push_back(points[p]);
-          largest = largest_distance_of(far, tissue);
+          std::vector<Point<dim>>   far;
+          std::vector<unsigned int> of_far;
+          for (const unsigned int p :
+               points_without_cell(points, tissue, near, bodies))
+            {
+              far.push_back(points[p]);
+              if (!bodies.empty())
+                of_far.push_back(bodies[p]);
+            }
+          largest = largest_distance_of(far, of_far, tissue);
       } while (near > 0. && largest < near);
       return largest;
     }

@@ -67,8 +67,9 @@ namespace Morula
 
 
   template <int dim>
-  Surroundings<dim>::Surroundings(const std::vector<Point<dim>> &places,
-                                  const Tissue<dim>             &tissue)
+  Surroundings<dim>::Surroundings(const std::vector<Point<dim>>   &places,
+                                  const Tissue<dim>               &tissue,
+                                  const std::vector<unsigned int> &bodies)
     : places(places)
     , cells(tissue.cells())
     , grid(tissue.grid())
@@ -81,12 +82,14 @@ namespace Morula
     const double radius = reach * grid.box().spacing();
     const auto   volume = [&](const unsigned int p, std::vector<double> &list) {
       list.push_back(cells[p].volume());
+      list.push_back(cells.body(p));
     };
     const PointList<dim> near =
-      near_points(places, cells, {1, volume, Ties::lowest_id}, grid, 1);
+      near_points(places, cells, {2, volume, Ties::lowest_id}, grid, 1);
     const auto tree = pack_rtree_of_indices(near.positions);
-    for (const Point<dim> &x : places)
+    for (std::size_t place = 0; place < places.size(); ++place)
       {
+        const Point<dim>        &x = places[place];
         std::vector<std::size_t> found;
         tree.query(boost::geometry::index::intersects(box_around(x, radius)),
                    std::back_inserter(found));
@@ -102,7 +105,8 @@ namespace Morula
           {
             const Tensor<1, dim> s    = (near.positions[i] - x) / radius;
             const double         fall = 1. - s.norm_square();
-            if (fall <= 0.)
+            if (fall <= 0. ||
+                (!bodies.empty() && near.row(i)[1] != bodies[place]))
               continue;
             around.push_back(i);
             ways.push_back(s);

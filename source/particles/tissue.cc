@@ -241,6 +241,40 @@ namespace Morula
   SplineSpace<dim>
   Tissue<dim>::splines(const bool share_points) const
   {
+    // Each body is put on the grid as if it were alone, so that no rule of the
+    // grid (thin tissue, inner grid cells, small pieces, extension) ever sees
+    // two of them: doc/theory.md, section 3.3. Their unknowns are numbered
+    // together then.
+    if (!cells_.has_bodies())
+      return unparted_splines(share_points);
+    unsigned int n_bodies = 0;
+    for (const auto &grid_cell : cells_.grid_cells())
+      n_bodies = std::max(n_bodies, grid_cell.body + 1);
+    for (const auto &grid_cell : boundary_points_.grid_cells())
+      n_bodies = std::max(n_bodies, grid_cell.body + 1);
+    n_bodies = Utilities::MPI::max(n_bodies, communicator());
+    std::vector<SplineSpace<dim>> spaces;
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      spaces.push_back(
+        splines_around([b](const unsigned int body) { return body == b; },
+                       share_points));
+    return SplineSpace<dim>(std::move(spaces), communicator());
+  }
+
+  template <int dim>
+  SplineSpace<dim>
+  Tissue<dim>::unparted_splines(const bool share_points) const
+  {
+    return splines_around([](const unsigned int) { return true; },
+                          share_points);
+  }
+
+  template <int dim>
+  template <typename Belongs>
+  SplineSpace<dim>
+  Tissue<dim>::splines_around(const Belongs &belongs,
+                              const bool     share_points) const
+  {
     // The first round of the occupancy takes all cells and boundary points, and
     // sums over ranks. It shows where tissue is thin, and so how many
     // quadrature points the cells need; these make the second round:
@@ -249,14 +283,16 @@ namespace Morula
     std::vector<ParticleDomain<dim>> domains;
     domains.reserve(cells_.size());
     for (unsigned int p = 0; p < cells_.size(); ++p)
-      domains.push_back(domain(p));
-    Occupancy<dim> occupancy(GridWindow<dim>(grid_, reached(domains)),
+      if (belongs(cells_.body(p)))
+        domains.push_back(domain(p));
+    Occupancy<dim> occupancy(GridWindow<dim>(grid_, reached(domains, belongs)),
                              parameters.points_per_cell,
                              share_points);
     for (const ParticleDomain<dim> &domain : domains)
       occupancy.add_particle(domain);
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
-      occupancy.add_boundary_point(boundary_points_.position(p));
+      if (belongs(boundary_points_.body(p)))
+        occupancy.add_boundary_point(boundary_points_.position(p));
     occupancy.sum(grid_);
     for (const ParticleDomain<dim> &domain : domains)
       occupancy.add_quadrature_points(domain);
@@ -267,8 +303,10 @@ namespace Morula
   /** The grid cells that this rank's points reach with their domains, and
    *  others near them. */
   template <int dim>
+  template <typename Belongs>
   std::vector<GridRange<dim>>
-  Tissue<dim>::reached(const std::vector<ParticleDomain<dim>> &domains) const
+  Tissue<dim>::reached(const std::vector<ParticleDomain<dim>> &domains,
+                       const Belongs                          &belongs) const
   {
     double farthest = 0.; // from a cell's position, along a coordinate
     for (const ParticleDomain<dim> &domain : domains)
@@ -287,9 +325,11 @@ namespace Morula
       ranges.push_back(GridRange<dim>{index, index}.grown(rings, box));
     };
     for (const auto &grid_cell : cells_.grid_cells())
-      add(grid_cell.number, rings);
+      if (belongs(grid_cell.body))
+        add(grid_cell.number, rings);
     for (const auto &grid_cell : boundary_points_.grid_cells())
-      add(grid_cell.number, 0);
+      if (belongs(grid_cell.body))
+        add(grid_cell.number, 0);
     return ranges;
   }
 

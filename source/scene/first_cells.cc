@@ -67,6 +67,8 @@ namespace Morula
       cell.set(state.surface_normal, surface[i].normal);
     if (columns.generation.exists() && !founders.generations.empty())
       cell.set(columns.generation, founders.generations[i]);
+    if (columns.body.exists() && !founders.bodies.empty())
+      cell.set(columns.body, founders.bodies[i]);
     fields.begin(cell);
     development.initialize(founders.first_id + i,
                            cell,

@@ -315,6 +315,7 @@ namespace Morula
         append(list, condition.keys().list());
     for (auto &force : catalogue.forces)
       append(list, force.keys().list());
+    append(list, contact.list());
     append(list, solver.list());
     append(list, output.list());
     return list;

@@ -82,6 +82,8 @@ namespace Morula
     DevelopmentEffects<dim> &development = effects.development;
     if (scene.has_growth())
       effects.columns.need_growth();
+    if (scene.contact.is_on())
+      effects.columns.need_bodies();
     std::unique_ptr<Proliferation<dim>> proliferation;
     if (scene.has_proliferation())
       proliferation =

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
+#include <morula/seeding/bodies.h>
 #include <morula/seeding/points_surface.h>
 
 namespace Morula
@@ -15,7 +17,7 @@ namespace Morula
     // Only cells from a file of points may lack a surface. Then one is made if
     // something acts on it or reads the distance to it; else it would be work
     // for nothing.
-    if (!scene.tissue.is_points())
+    if (!scene.tissue.is_points() || scene.contact.is_on())
       return true;
     if (scene.tissue.points_surface != "automatic")
       return !scene.tissue.has_no_surface();
@@ -31,12 +33,60 @@ namespace Morula
 
   namespace
   {
+    /** The bodies of founders. Collective. @throws InputError */
+    template <int dim>
+    std::vector<unsigned int>
+    bodies(const Scene         &scene,
+           const Founders<dim> &founders,
+           const MPI_Comm       comm)
+    {
+      if (scene.contact.bodies == "apart")
+        return bodies_apart(founders, comm);
+      if (!founders.types.empty())
+        return founders.types;
+      std::vector<unsigned int> list;
+      everywhere(comm, [&]() {
+        const auto effects = effects_of<dim>(scene);
+        for (const Point<dim> &X : founders.positions)
+          list.push_back(effects.development.types->founder_type(X));
+      });
+      return list;
+    }
+
+    /** The surface of bodies that have contact: one around each of them. */
+    template <int dim>
+    SurfacePatches<dim>
+    surface_of_bodies(const Scene         &scene,
+                      const Founders<dim> &founders,
+                      const MPI_Comm       comm)
+    {
+      // A surface from a file is that of all bodies, and so is that of a shape
+      // whose bodies stand apart. Each patch learns its body from the cells
+      // behind it. Otherwise each body's cells get a surface of their own.
+      const bool is_of_all = scene.tissue.has_surface_file() ||
+                             scene.tissue.is_mesh() ||
+                             (!scene.tissue.is_points() &&
+                              scene.contact.bodies == "apart");
+      if (!is_of_all)
+        return seed_points_surface(scene.tissue, founders, comm);
+      Founders<dim> as_one(founders);
+      as_one.bodies.clear();
+      SurfacePatches<dim> patches =
+        scene.tissue.is_points() ?
+          seed_points_surface(scene.tissue, as_one, comm) :
+          seed_surface<dim>(scene.tissue, comm);
+      patches.bodies = bodies_of_patches(patches, founders, comm);
+      return patches;
+    }
+
     template <int dim>
     SurfacePatches<dim>
     surface(const Scene         &scene,
             const Founders<dim> &founders,
             const MPI_Comm       comm)
     {
+      if (scene.contact.is_on())
+        return surface_of_bodies(scene, founders, comm);
       if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
       return has_surface<dim>(scene) ?
@@ -56,6 +106,8 @@ namespace Morula
     SeededTissue<dim> tissue;
     tissue.founders =
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
+    if (scene.contact.is_on())
+      tissue.founders.bodies = bodies(scene, tissue.founders, comm);
     tissue.surface = surface(scene, tissue.founders, comm);
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);

@@ -26,20 +26,57 @@ namespace Morula
 {
   namespace
   {
-    /** The cells of all ranks, on rank 0. */
+    /** The cells of all ranks, on rank 0, body by body: those of one body if
+     *  founders do not know theirs. */
     template <int dim>
-    AllCells<dim>
+    std::vector<AllCells<dim>>
     gather(const Founders<dim> &founders, const MPI_Comm comm)
     {
-      // Each list arrives in the order of the ranks, so that positions and
-      // volumes stay in step.
-      std::vector<Point<dim>> positions;
-      std::vector<double>     volumes;
+      // Each list arrives in the order of the ranks, so that positions, volumes
+      // and bodies stay in step.
+      std::vector<Point<dim>>   positions;
+      std::vector<double>       volumes;
+      std::vector<unsigned int> bodies;
       for (const auto &part : Utilities::MPI::gather(comm, founders.positions))
         positions.insert(positions.end(), part.begin(), part.end());
       for (const auto &part : Utilities::MPI::gather(comm, founders.volumes))
         volumes.insert(volumes.end(), part.begin(), part.end());
-      return {positions, volumes};
+      for (const auto &part : Utilities::MPI::gather(comm, founders.bodies))
+        bodies.insert(bodies.end(), part.begin(), part.end());
+      if (bodies.empty())
+        return {AllCells<dim>(positions, volumes)};
+      const unsigned int n =
+        *std::max_element(bodies.begin(), bodies.end()) + 1;
+      std::vector<std::vector<Point<dim>>> places(n);
+      std::vector<std::vector<double>>     sizes(n);
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        {
+          places[bodies[i]].push_back(positions[i]);
+          sizes[bodies[i]].push_back(volumes[i]);
+        }
+      std::vector<AllCells<dim>> list;
+      for (unsigned int b = 0; b < n; ++b)
+        list.emplace_back(places[b], sizes[b]);
+      return list;
+    }
+
+    /** Adds the patches of one body to those of all. */
+    template <int dim>
+    void
+    append_patches(const SurfacePatches<dim>         &more,
+                   const std::optional<unsigned int> &body,
+                   SurfacePatches<dim>               &all)
+    {
+      all.positions.insert(all.positions.end(),
+                           more.positions.begin(),
+                           more.positions.end());
+      all.normals.insert(all.normals.end(),
+                         more.normals.begin(),
+                         more.normals.end());
+      all.areas.insert(all.areas.end(), more.areas.begin(), more.areas.end());
+      if (body)
+        all.bodies.insert(all.bodies.end(), more.positions.size(), *body);
+      all.n_global += more.n_global;
     }
 
     /** Moves the vertices to where the filling falls to half, by no more than
@@ -416,6 +453,7 @@ namespace Morula
       take(all.positions, mine.positions);
       take(all.normals, mine.normals);
       take(all.areas, mine.areas);
+      take(all.bodies, mine.bodies);
       const std::uint64_t n =
         Utilities::MPI::sum<std::uint64_t>(mine.areas.size(), comm);
       mine.first_id = static_cast<types::particle_index>(share(n, comm).first);
@@ -433,17 +471,31 @@ namespace Morula
     // Rank 0 has all cells and makes the surface; the shares go to all ranks.
     // Without a number in the scene there is about one patch for the face of a
     // cell.
-    const AllCells<dim> cells = gather(founders, comm);
-    SurfacePatches<dim> all;
+    const std::vector<AllCells<dim>> bodies = gather(founders, comm);
+    const bool                       know_bodies =
+      Utilities::MPI::logical_or(!founders.bodies.empty(), comm);
+    SurfacePatches<dim>              all;
     on_root(comm, [&]() {
-      const ClosedSurface<dim> surface =
-        parameters.has_surface_file() ?
-          read_surface(parameters.points_surface, cells.positions) :
-          checked_surface(parameters, cells);
-      all = tiled(surface,
-                  parameters.boundary_points > 0 ?
-                    parameters.boundary_points :
-                    total_area(surface) / std::pow(cells.length, dim - 1));
+      std::vector<ClosedSurface<dim>> surfaces;
+      double                          area = 0.;
+      for (const AllCells<dim> &cells : bodies)
+        {
+          surfaces.push_back(
+            parameters.has_surface_file() ?
+              read_surface(parameters.points_surface, cells.positions) :
+              checked_surface(parameters, cells));
+          area += total_area(surfaces.back());
+        }
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          const double of_body = total_area(surfaces[b]);
+          append_patches(tiled(surfaces[b],
+                       parameters.boundary_points > 0 ?
+                         std::ceil(parameters.boundary_points * of_body / area) :
+                         of_body / std::pow(bodies[b].length, dim - 1)),
+                 know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
+                 all);
+        }
     });
     return shares(all, comm);
   }

@@ -18,26 +18,28 @@ namespace Morula
       double       theta;
     };
 
-    /** ϑ of the grid cells in this rank's window, by number there; 0 where
-     *  there is no point. Grid cells of other ranks are among them, since a
-     *  cell may have part in those. Collective. */
+    /** ϑ of the grid cells of a body in this rank's window, by number there; 0
+     *  where there is no point. Grid cells of other ranks are among them, since
+     *  a cell may have part in those. Collective. */
     template <int dim>
     std::vector<double>
     log_volume_ratios(const InternalForce<dim>     &force,
                       const SplineSpace<dim>       &space,
+                      const unsigned int            body,
                       const DisplacementField<dim> &displacement)
     {
       // Each rank evaluates the grid cells that it owns, and tells the ranks in
       // whose windows they lie. The grid cells are numbered in the grid's box
       // there, which is the same on all ranks, and in this rank's window in the
       // result.
-      const GridBoxes<dim> &boxes = space.occupancy().boxes();
+      const GridBoxes<dim> &boxes = space.occupancy(body).boxes();
       std::vector<Value>    values;
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-        values.push_back(
+        if (space.grid_cells()[c].body == body)
+          values.push_back(
           {space.grid_cells()[c].number,
            force.log_volume_ratio(c, displacement.on_grid_cell(c))});
-      const auto of_others = space.occupancy().window().to_windows(values);
+      const auto of_others = space.occupancy(body).window().to_windows(values);
       values.insert(values.end(), of_others.begin(), of_others.end());
       std::vector<double> theta(boxes.size(), 0.);
       for (const Value &value : values)
@@ -50,12 +52,12 @@ namespace Morula
     template <int dim>
     double
     mean_of_shares(const Point<dim>          &x,
-                   const SplineSpace<dim>    &space,
+                   const Occupancy<dim>      &occupancy,
                    const std::vector<double> &values)
     {
-      const GridBoxes<dim> &boxes = space.occupancy().boxes();
+      const GridBoxes<dim> &boxes = occupancy.boxes();
       double                mean  = 0.;
-      space.occupancy().for_each_share(
+      occupancy.for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
           mean += values[boxes.number(boxes.locate(share))] / n;
         });
@@ -67,14 +69,15 @@ namespace Morula
     template <int dim>
     double
     mean_of_parts(const ParticleDomain<dim> &domain,
-                  const SplineSpace<dim>    &space,
+                  const Occupancy<dim>      &occupancy,
                   const std::vector<double> &values)
     {
       double       sum = 0.;
       unsigned int n   = 0;
-      domain.for_quadrature_points(space.occupancy().n_points_per_edge(domain),
+      domain.for_quadrature_points(occupancy.n_points_per_edge(domain),
                                    [&](const Point<dim> &x) {
-                                     sum += mean_of_shares(x, space, values);
+                                     sum +=
+                                       mean_of_shares(x, occupancy, values);
                                      ++n;
                                    });
       return sum / n;
@@ -100,20 +103,28 @@ namespace Morula
       return ratios;
     const MaterialPoints<dim> points =
       material_points(tissue, space, growth, material);
-    std::vector<double> values =
-      log_volume_ratios(*internal_force(points, form, kernel),
-                        space,
-                        displacement);
+    const auto force = internal_force(points, form, kernel);
+    std::vector<std::vector<double>> values; // by body
+    for (unsigned int b = 0; b < space.n_bodies(); ++b)
+      values.push_back(log_volume_ratios(*force, space, b, displacement));
     // The pooled form averages volumes, the projected one their logarithms.
     if (form == VolumetricStrain::pooled)
-      for (double &value : values)
-        value = std::exp(value);
+      for (std::vector<double> &of_body : values)
+        for (double &value : of_body)
+          value = std::exp(value);
     ratios.reserve(tissue.cells().size());
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      ratios.push_back(
-        form == VolumetricStrain::pooled ?
-          mean_of_parts(tissue.domain(p), space, values) :
-          std::exp(mean_of_shares(tissue.cells().position(p), space, values)));
+      {
+        const unsigned int    body      = tissue.cells().body(p);
+        const Occupancy<dim> &occupancy = space.occupancy(body);
+        ratios.push_back(form == VolumetricStrain::pooled ?
+                           mean_of_parts(tissue.domain(p),
+                                         occupancy,
+                                         values[body]) :
+                           std::exp(mean_of_shares(tissue.cells().position(p),
+                                                   occupancy,
+                                                   values[body])));
+      }
     return ratios;
   }
 

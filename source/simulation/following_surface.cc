@@ -59,6 +59,21 @@ namespace Morula
       return Utilities::MPI::max(largest, tissue.communicator()) >
              largest_stretch * std::sqrt(dim);
     }
+
+    /** Evens out the volumes of cells in each body by @p part, at most whole.
+     *  Collective. */
+    template <int dim>
+    void
+    even_out(Tissue<dim>            &tissue,
+             const SplineSpace<dim> &space,
+             const double            part)
+    {
+      for (unsigned int b = 0; b < space.n_bodies(); ++b)
+        relax_volumes_to_space(tissue,
+                               space.occupancy(b),
+                               std::min(1., part),
+                               b);
+    }
   } // namespace
 
 
@@ -159,17 +174,17 @@ namespace Morula
     // ways are collective, and torn surfaces are reported on all ranks.
     if (renews())
       {
-        relax_volumes_to_space(tissue,
-                               space.occupancy(),
-                               std::min(1.,
-                                        dt / model.scene.tissue.renew_surface));
+        even_out(tissue, space, dt / model.scene.tissue.renew_surface);
         renew_if_due(tissue, former, t, dt);
       }
     bool is_torn = false;
     try
       {
         refine(tissue, [&space](const Point<dim> &x) {
-          return space.occupancy().crowded(x);
+          bool crowded = false;
+          for (unsigned int b = 0; b < space.n_bodies(); ++b)
+            crowded = crowded || space.occupancy(b).crowded(x);
+          return crowded;
         });
       }
     catch (const SurfaceTorn &)
@@ -182,11 +197,8 @@ namespace Morula
     if (restores(share))
       {
         if (grows)
-          change_volumes(tissue, [&]() {
-            relax_volumes_to_space(tissue,
-                                   space.occupancy(),
-                                   std::min(1., dt / evening_time));
-          });
+          change_volumes(tissue,
+                         [&]() { even_out(tissue, space, dt / evening_time); });
         restore_fit(tissue, *share, is_torn);
       }
   }

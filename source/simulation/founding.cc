@@ -88,8 +88,10 @@ namespace Morula
         // depends on the initial position and normal only.
         const Point<dim>          X   = patches.positions[i];
         const Tensor<1, dim>      N   = patches.normals[i];
-        const std::vector<double> row = boundary.initial_point(
+        std::vector<double>       row = boundary.initial_point(
           X, N, patches.areas[i], model.boundary_conditions.condition(X, N));
+        if (boundary.body.exists())
+          boundary.body.set(make_array_view(row), patches.bodies.at(i));
         points.boundary_points.add(patches.first_id + i,
                                    X,
                                    make_array_view(row));

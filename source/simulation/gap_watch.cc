@@ -46,8 +46,11 @@ namespace Morula
              way * m < -least_cosine * length && n * m < -least_cosine;
     }
 
-    /** The unknowns of this rank's grid cells, by the grid cell's number,
-     * sorted to be intersected. */
+    /** A grid cell, by its number, and one of the bodies in it. */
+    using Entry = std::pair<unsigned int, unsigned int>;
+
+    /** The unknowns of this rank's grid cells and bodies, sorted to be
+     * intersected. */
     template <int dim>
     class Unknowns
     {
@@ -56,19 +59,20 @@ namespace Morula
       {
         for (const auto &grid_cell : space.grid_cells())
           {
-            auto &list = of[grid_cell.number] = grid_cell.unknowns;
+            auto &list = of[{grid_cell.number, grid_cell.body}] =
+              grid_cell.unknowns;
             std::sort(list.begin(), list.end());
           }
       }
 
       bool
-      has(const unsigned int number) const
+      has(const Entry &entry) const
       {
-        return of.count(number) > 0;
+        return of.count(entry) > 0;
       }
 
       bool
-      are_shared(const unsigned int one, const unsigned int other) const
+      are_shared(const Entry &one, const Entry &other) const
       {
         std::vector<unsigned int> both;
         const auto               &a = of.at(one), &b = of.at(other);
@@ -78,7 +82,7 @@ namespace Morula
       }
 
     private:
-      std::map<unsigned int, std::vector<unsigned int>> of;
+      std::map<Entry, std::vector<unsigned int>> of;
     };
   } // namespace
 
@@ -103,13 +107,14 @@ namespace Morula
     const auto normal = [&](const unsigned int p, std::vector<double> &list) {
       const Tensor<1, dim> area = store.area_vector(p);
       append_flat(list, Tensor<1, dim>(area / area.norm()));
+      list.push_back(store.body(p));
     };
     // Each rank gets the points of all ranks that lie within two grid cells of
     // its own, with their normals. An R-tree over them finds the few that are
     // near one point.
     const PointList<dim> near = near_points(queries,
                                             store,
-                                            {dim, normal, Ties::lowest_id},
+                                            {dim + 1, normal, Ties::lowest_id},
                                             tissue.grid(),
                                             static_cast<int>(widest));
     const auto           tree = pack_rtree_of_indices(near.positions);
@@ -126,7 +131,8 @@ namespace Morula
         std::vector<double> numbers;
         normal(p, numbers);
         const auto n    = Flat<Tensor<1, dim>>::read(numbers.data());
-        const auto here = box.number(box.locate(x));
+        const unsigned int body = store.body(p);
+        const Entry        here{box.number(box.locate(x)), body};
         Point<dim> lower, upper;
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -136,10 +142,12 @@ namespace Morula
         const auto faces = [&](const auto i) {
           const Point<dim> &y     = near.positions[i];
           const double      width = x.distance(y);
-          if (width >= std::min(widest * h, best[dim]) || width == 0. ||
+          // Bodies with splines of their own do not stick together.
+          if (near.row(i)[dim] != body ||
+              width >= std::min(widest * h, best[dim]) || width == 0. ||
               !face(x, n, y, near.template value<Tensor<1, dim>>(i)))
             return false;
-          const auto there = box.number(box.locate(y));
+          const Entry there{box.number(box.locate(y)), body};
           // The unknowns of a grid cell are known to its owner only. Where the
           // other point is on another rank, only a gap below one grid spacing
           // counts.

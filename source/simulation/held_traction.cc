@@ -53,6 +53,18 @@ namespace Morula
       return list;
     }
 
+    /** Their bodies, if the points know them. */
+    template <int dim>
+    std::vector<unsigned int>
+    held_bodies(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
+    {
+      std::vector<unsigned int> list;
+      if (tissue.boundary_points().has_bodies())
+        for (const unsigned int p : held_groups(tissue, space).points)
+          list.push_back(tissue.boundary_points().body(p));
+      return list;
+    }
+
     /** λ and μ of cell number @p p. */
     template <int dim>
     Lame
@@ -92,7 +104,9 @@ namespace Morula
     , growth(growth)
     , typical_stiffness(typical_stiffness)
     , in_parts(in_parts)
-    , surroundings(held_places(tissue, space), tissue)
+    , surroundings(held_places(tissue, space),
+                   tissue,
+                   held_bodies(tissue, space))
   {
     // All lists here have the order of held_groups(): this rank's held points
     // by active grid cell. Normals and areas are those at t, as the terms
@@ -100,7 +114,9 @@ namespace Morula
     // traction (4.13).
     const std::vector<unsigned int> points = held_groups(tissue, space).points;
     const std::vector<double>       attached =
-      attachment(held_places(tissue, space), tissue);
+      attachment(held_places(tissue, space),
+                 tissue,
+                 held_bodies(tissue, space));
     for (std::size_t k = 0; k < points.size(); ++k)
       {
         const BoundaryView<dim> point = tissue.boundary_points()[points[k]];

@@ -60,7 +60,7 @@ namespace Morula
     if (of_effects.records_events())
       tables.push_back(
         {"events", event_columns({{}, of_effects.has_causes()})});
-    if (acts_on_surface(scene))
+    if (acts_on_surface(scene) || scene.contact.is_on())
       tables.push_back({"forces", force_columns(), true});
     if (scene.output.condition_estimate)
       tables.push_back({"condition", condition_columns(), true});

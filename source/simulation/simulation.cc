@@ -66,23 +66,26 @@ namespace Morula
     ++run_state.n_steps;
     fields.begin_step();
 
-    const SplineSpace<dim> space = splines();
+    SplineSpace<dim>                      space = splines();
+    const std::optional<SplineSpace<dim>> apart = splines_of_fields(space);
+    const SplineSpace<dim>               &of_fields = apart ? *apart : space;
     pieces.look(space, tissue.grid(), time_steps.time());
     gaps.look(tissue, space, time_steps.time());
     // The fields of t = 0 are known already: begin() needs them for the first
     // row of statistics.csv.
     if (run_state.n_steps > 1)
       find_fields(
-        [&]() { fields.set_steady(tissue, space, time_steps.time()); });
+        [&]() { fields.set_steady(tissue, of_fields, time_steps.time()); });
     for_step_effects(&StepEffect<dim>::before, time_steps.time(), 0.);
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();
-    const auto solution = solve_step(space);
+    const auto contact  = points_in_contact(space);
+    const auto solution = solve_step(space, contact ? &*contact : nullptr);
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
-    commit(space, solution);
+    commit(space, of_fields, solution);
     if (model.development.states_error())
       {
         row.step_error = mu;
@@ -186,8 +189,32 @@ namespace Morula
   }
 
   template <int dim>
+  std::optional<SplineSpace<dim>>
+  Simulation<dim>::splines_of_fields(const SplineSpace<dim> &space) const
+  {
+    if (!space.is_parted() || !model.fields.present() ||
+        !model.scene.contact.fields_pass)
+      return {};
+    return tissue.unparted_splines(model.material.volumetric_form() !=
+                                   VolumetricStrain::pointwise);
+  }
+
+  template <int dim>
+  std::optional<ContactPoints<dim>>
+  Simulation<dim>::points_in_contact(SplineSpace<dim> &space)
+  {
+    // Within a step two points come nearer to each other by a grid spacing at
+    // most, or the step is halved.
+    if (!space.is_parted())
+      return {};
+    const TimerOutput::Scope section(timer, "contact");
+    return ContactPoints<dim>(tissue, space, space.box().spacing());
+  }
+
+  template <int dim>
   typename StepEquilibrium<dim>::Solution
-  Simulation<dim>::solve_step(const SplineSpace<dim> &space)
+  Simulation<dim>::solve_step(const SplineSpace<dim>   &space,
+                              const ContactPoints<dim> *contact)
   {
     // The loop halves the step until an attempt succeeds. What does not depend
     // on the step's length (the supports of rigid motions, the splines) is made
@@ -203,7 +230,7 @@ namespace Morula
             model, tissue, space, time_steps.time(), time_steps.next());
         });
         const StepEquilibrium<dim> equilibrium(
-          model, tissue, space, supports, timer, comm);
+          model, tissue, space, supports, timer, comm, contact);
         while (true)
           try
             {

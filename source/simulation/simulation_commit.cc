@@ -100,6 +100,7 @@ namespace Morula
   void
   Simulation<dim>::commit(
     const SplineSpace<dim>                        &space,
+    const SplineSpace<dim>                        &of_fields,
     const typename StepEquilibrium<dim>::Solution &solution)
   {
     // The first part only computes: the motions of cells and boundary points
@@ -178,7 +179,7 @@ namespace Morula
     find_fields([&]() {
       try
         {
-          of_step = fields.transient(tissue, space, t, t_next);
+          of_step = fields.transient(tissue, of_fields, t, t_next);
         }
       catch (...)
         {

@@ -182,8 +182,12 @@ namespace Morula
           files->message(warning);
         const auto find_steady = [&]() {
           first_splines.emplace(splines());
+          const std::optional<SplineSpace<dim>> apart =
+            splines_of_fields(*first_splines);
           find_fields([&]() {
-            fields.set_steady(tissue, *first_splines, time_steps.time());
+            fields.set_steady(tissue,
+                              apart ? *apart : *first_splines,
+                              time_steps.time());
           });
           // Carving or the first step makes the solver anew.
           fields.forget_configuration();

@@ -7,6 +7,7 @@
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/simulation/contact_of_step.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/step_points.h>
@@ -43,13 +44,15 @@ namespace Morula
                                         const SplineSpace<dim> &space,
                                         const Supports         &supports,
                                         TimerOutput            &timer,
-                                        const MPI_Comm          comm)
+                                        const MPI_Comm          comm,
+                                        const ContactPoints<dim> *contact)
     : model(model)
     , tissue(tissue)
     , space(space)
     , timer(timer)
     , comm(comm)
     , rigid_modes(space, masses(), supports, comm)
+    , contact(contact)
   {}
 
 
@@ -107,13 +110,31 @@ namespace Morula
                            !attempt.halve_first);
         });
       }
-    const TermList list =
-      terms(attempt, points, traction ? &*traction : nullptr);
-    std::optional<Enclosure<dim>> lumen = lumen_of(attempt);
-    MomentumBalance<dim>          balance(
-      space, list, timer, comm, lumen ? &*lumen : nullptr);
-    const LinearProblem linear =
+    TermList list = terms(attempt, points, traction ? &*traction : nullptr);
+    std::optional<Enclosure<dim>>    lumen = lumen_of(attempt);
+    std::optional<ContactPairs<dim>> pairs;
+    Drag<dim>                       *drag = nullptr;
+    const double                     h    = space.box().spacing();
+    const ContactLaw                 law{
+      model.scene.contact.stiffness * stiffness / h, stiffness, h};
+    if (has_contact())
+      {
+        const TimerOutput::Scope section(timer, "contact");
+        pairs.emplace(*contact, law);
+        auto weak = weak_drag(stiffness);
+        drag      = weak.get();
+        list.push_back(std::move(weak));
+      }
+    MomentumBalance<dim> balance(space,
+                                 list,
+                                 timer,
+                                 comm,
+                                 lumen ? &*lumen : nullptr,
+                                 pairs ? &*pairs : nullptr);
+    LinearProblem        linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
+    // A kept tangent has the pairs that touched when it was made.
+    linear.costly = linear.costly && !pairs;
     estimate_condition(balance, linear, condition);
     Solution solution{start(attempt).value_or(balance.rest()),
                       attempt.lumen,
@@ -135,6 +156,10 @@ namespace Morula
                           timer));
     if (traction)
       participants.push_back(&*traction);
+    std::optional<ContactTurn<dim>> touching;
+    if (pairs)
+      participants.push_back(&touching.emplace(
+        tissue, space, *contact, law, *pairs, *drag, balance, timer, comm));
     Equilibrium::Evaluation evaluation;
     const std::size_t       n_traced = report.trace.size();
     try
@@ -162,7 +187,10 @@ namespace Morula
     // that was found last.
     if (pressure)
       solution.lumen->pressure = pressure->pressure();
-    solution.forces = forces(attempt, list, lumen, solution);
+    std::vector<ContactForce<dim>> of_contact;
+    if (touching)
+      of_contact = touching->forces(solution.u);
+    solution.forces = forces(attempt, list, lumen, of_contact, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -214,6 +242,7 @@ namespace Morula
   StepEquilibrium<dim>::forces(const Attempt                       &attempt,
                                const TermList                      &list,
                                const std::optional<Enclosure<dim>> &lumen,
+                               const std::vector<ContactForce<dim>> &of_contact,
                                const Solution &solution) const
   {
     // The terms of conditions that load are made anew, since each of them gets
@@ -221,7 +250,7 @@ namespace Morula
     // which terms() has added them: the stress of the cells, the forces on
     // cells, the held points.
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    if (conditions.list().empty())
+    if (conditions.list().empty() && !model.scene.contact.is_on())
       return {};
     const TimerOutput::Scope section(timer, "forces");
     ForceSums<dim>           sums(tissue, space, solution.u, comm);
@@ -240,6 +269,8 @@ namespace Morula
       sums.add_lumen(*conditions.lumen(),
                      lumen->gain,
                      solution.lumen->pressure);
+    if (model.scene.contact.is_on())
+      sums.add_contact(of_contact);
     return sums.result();
   }
 
@@ -381,13 +412,13 @@ namespace Morula
               list.push_back(std::move(term));
           });
         }
-    if (conditions.has_pushing())
+    if (conditions.has_pushing() && !has_contact())
       list.push_back(weak_drag(attempt.typical_stiffness));
   }
 
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
+  std::unique_ptr<Drag<dim>>
   StepEquilibrium<dim>::weak_drag(const double typical_stiffness) const
   {
     // This is doc/theory.md (4.8f) with one stiffness η V⁰ for each cell, in
@@ -413,7 +444,7 @@ namespace Morula
     MassList          list;
     for (const auto &grid_cell : cells.grid_cells())
       for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-        list.push_back({space.piece(grid_cell.number),
+        list.push_back({space.piece(grid_cell.number, grid_cell.body),
                         cells.position(p),
                         cells.initial_volume(p)});
     return list;
@@ -421,13 +452,22 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  StepEquilibrium<dim>::has_contact() const
+  {
+    return contact != nullptr && contact->any();
+  }
+
+
+  template <int dim>
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {
-    // Obstacles may hold motions that no support is known of before the step.
+    // Obstacles and other bodies may hold motions that no support is known of before the step.
     // With them nothing is projected out, and the weak drag (4.8f) decides
     // instead of (4.10).
-    if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
+    if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
+        has_contact())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return rigid_modes.inertia(masses());

@@ -92,11 +92,16 @@ namespace Morula
       return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
     }
 
-    /** What ranks tell each other of a quadrature point: λ, μ, and A and W of
-     *  both states. */
+    /** What ranks tell each other of a quadrature point: its body, λ, μ, and A
+     *  and W of both states. */
     template <int dim>
-    using Message = std::
-      tuple<double, double, Tensor<2, dim>, double, Tensor<2, dim>, double>;
+    using Message = std::tuple<unsigned int,
+                               double,
+                               double,
+                               Tensor<2, dim>,
+                               double,
+                               Tensor<2, dim>,
+                               double>;
 
     /** The quadrature points where some cell has several of them, which may lie
      *  in grid cells of other ranks, or where several grid cells share a point.
@@ -120,17 +125,19 @@ namespace Morula
           const PointData<dim>      data = data_of(tissue, i, growth, material);
           const Lame                lame = lame_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain = tissue.domain(i);
-          const auto   n    = space.occupancy().n_points_per_edge(domain);
+          const unsigned int body = tissue.cells().body(i);
+          const auto   n    = space.occupancy(body).n_points_per_edge(domain);
           const double part = 1. / n_points(n);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
             // A point within rounding of a grid line belongs to all grid cells
             // around it, in equal parts.
-            space.occupancy().for_each_share(
+            space.occupancy(body).for_each_share(
               point, [&](const Point<dim> &share, const unsigned int n_shares) {
                 const double of_cell = part / n_shares;
                 list.add_value(tissue.cells().id(i),
                                share,
-                               Message<dim>(lame.lambda,
+                               Message<dim>(body,
+                                            lame.lambda,
                                             lame.mu,
                                             data.current.A,
                                             of_cell * data.current.W,
@@ -141,17 +148,20 @@ namespace Morula
         }
       list = send_to_owners(std::move(list), tissue.grid());
 
-      // The points are ordered by grid cell, then by the cell's id, then as
-      // they stand in the cell, so that sums do not depend on who sent what.
-      std::vector<unsigned int> numbers(list.size()), order(list.size());
+      // The points are ordered by grid cell and body, then by the cell's id,
+      // then as they stand in the cell, so that sums do not depend on who sent
+      // what.
+      std::vector<std::pair<unsigned int, unsigned int>> places(list.size());
+      std::vector<unsigned int>                          order(list.size());
       for (std::size_t k = 0; k < list.size(); ++k)
-        numbers[k] = box.number(box.locate(list.positions[k]));
+        places[k] = {box.number(box.locate(list.positions[k])),
+                     std::get<0>(list.template value<Message<dim>>(k))};
       std::iota(order.begin(), order.end(), 0u);
       std::stable_sort(order.begin(),
                        order.end(),
                        [&](const unsigned int a, const unsigned int b) {
-                         return std::make_pair(numbers[a], list.ids[a]) <
-                                std::make_pair(numbers[b], list.ids[b]);
+                         return std::tie(places[a], list.ids[a]) <
+                                std::tie(places[b], list.ids[b]);
                        });
 
       MaterialPoints<dim> points;
@@ -163,11 +173,14 @@ namespace Morula
       for (const auto &cell : space.grid_cells())
         {
           const GridIndex<dim> index = box.index(cell.number);
-          for (; k < order.size() && numbers[order[k]] == cell.number; ++k)
+          for (; k < order.size() && space.is_at(cell,
+                                                 places[order[k]].first,
+                                                 places[order[k]].second);
+               ++k)
             {
               points.xi.push_back(
                 box.unit_position(list.positions[order[k]], index));
-              const auto [lambda, mu, A, W, A_before, W_before] =
+              const auto [body, lambda, mu, A, W, A_before, W_before] =
                 list.template value<Message<dim>>(order[k]);
               append<dim>({{lambda, mu}, {A, W}, {A_before, W_before}},
                           growth.present,
@@ -205,8 +218,10 @@ namespace Morula
     // Otherwise each cell is one point of the rank that owns it, in the order
     // of the cells, which is that of their grid cells already. λ and μ stand
     // there once if they are uniform.
-    if (Utilities::MPI::logical_or(space.occupancy().subdivides(),
-                                   tissue.communicator()))
+    bool subdivides = false;
+    for (unsigned int b = 0; b < space.n_bodies(); ++b)
+      subdivides = subdivides || space.occupancy(b).subdivides();
+    if (Utilities::MPI::logical_or(subdivides, tissue.communicator()))
       return subdivided_points(tissue, space, growth, material);
 
     MaterialPoints<dim> points;

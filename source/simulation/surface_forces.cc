@@ -5,6 +5,7 @@
 #include <morula/simulation/surface_forces.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 
 #include <array>
 #include <cmath>
@@ -59,6 +60,13 @@ namespace Morula
     if (column.exists())
       for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
         tissue.boundary_point(p).set(column, forces.of_points[p]);
+    const auto pressure = tissue.boundary_points().columns().contact_pressure;
+    if (pressure.exists())
+      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+        tissue.boundary_point(p).set(pressure,
+                                     forces.contact_pressures.empty() ?
+                                       0. :
+                                       forces.contact_pressures[p]);
   }
 
 
@@ -249,6 +257,53 @@ namespace Morula
             gain,
             -pressure,
             [](const unsigned int, const Tensor<1, dim> &) { return true; });
+  }
+
+
+  template <int dim>
+  void
+  ForceSums<dim>::add_contact(const std::vector<ContactForce<dim>> &forces)
+  {
+    // Which bodies touch is known only from the forces of all ranks. All of them
+    // make the same rows, also where they have no points in them.
+    using Bodies = std::pair<unsigned int, unsigned int>;
+    std::set<Bodies>          touching;
+    std::vector<unsigned int> numbers;
+    for (const ContactForce<dim> &one : forces)
+      if (one.other < one.body)
+        touching.emplace(one.other, one.body);
+    for (const Bodies &bodies : touching)
+      {
+        numbers.push_back(bodies.first);
+        numbers.push_back(bodies.second);
+      }
+    for (const auto &list : Utilities::MPI::all_gather(comm, numbers))
+      for (std::size_t k = 0; k < list.size(); k += 2)
+        touching.emplace(list[k], list[k + 1]);
+    if (touching.empty())
+      return;
+    for (const Bodies &bodies : touching)
+      {
+        ForceRow row;
+        row.kind = "contact";
+        row.name = "body " + std::to_string(bodies.first) + " on body " +
+                   std::to_string(bodies.second);
+        for (const ContactForce<dim> &one : forces)
+          if (Bodies(one.other, one.body) == bodies)
+            {
+              ++row.points;
+              row.area += one.area.norm();
+              row.force += in_space(one.force);
+              row.moment +=
+                cross_product_3d(in_space(Tensor<1, dim>(one.place)),
+                                 in_space(one.force));
+              row.inward -= one.force * one.area / one.area.norm();
+            }
+        mine.rows.push_back(row);
+      }
+    for (const ContactForce<dim> &one : forces)
+      mine.of_points[one.p] += one.force;
+    mine.contact_pressures = contact_pressures(tissue, forces);
   }
 
 

@@ -44,7 +44,10 @@ namespace Morula
     // where conditions act.
     BoundaryColumns<dim> columns(scene.tissue.refine_surface,
                                  scene.tissue.coarsen_surface,
-                                 !boundary_conditions.list().empty());
+                                 !boundary_conditions.list().empty() ||
+                                   scene.contact.is_on());
+    if (scene.contact.is_on())
+      columns.need_contact();
     // Nitsche's term (4.2) needs F_g of a carrier. The bounded form needs none,
     // as its traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&

@@ -35,7 +35,7 @@ namespace Morula
     struct Former
     {
       GridIndex<dim> grid_cell;
-      unsigned int   piece;
+      unsigned int   piece, body;
     };
 
     /** What all ranks remember of this rank's grid cells. Collective. */

@@ -47,6 +47,9 @@ namespace Morula
       std::vector<double> weights;
       /** Whether the tissue around is thin, see Occupancy::is_thin(). */
       bool thin;
+      /** The body whose splines these are; 0 where bodies are not parted. A
+       *  grid cell of several bodies stands in the list once for each. */
+      unsigned int body = 0;
     };
 
     /** @param occupancy after both rounds. Collective. */
@@ -54,7 +57,50 @@ namespace Morula
                 Occupancy<dim>             occupancy,
                 const GridParameters      &parameters);
 
-    /** This rank's active grid cells in the order of their numbers. */
+    /**
+     * The splines of several bodies, each of which has its own space on the
+     * same grid: no spline belongs to two of them. Collective.
+     * @param bodies spaces by number of the body
+     */
+    SplineSpace(std::vector<SplineSpace> bodies, const MPI_Comm comm);
+
+    /** Whether bodies have splines of their own. */
+    bool
+    is_parted() const
+    {
+      return !bodies.empty();
+    }
+
+    /** The number of bodies; 1 where they are not parted. */
+    unsigned int
+    n_bodies() const
+    {
+      return is_parted() ? bodies.size() : 1;
+    }
+
+    /** Whether a point of this body in the grid cell with this number belongs
+     *  to @p grid_cell. */
+    bool
+    is_at(const GridCell    &grid_cell,
+          const unsigned int number,
+          const unsigned int body) const
+    {
+      return grid_cell.number == number &&
+             (!is_parted() || grid_cell.body == body);
+    }
+
+    /** The place in grid_cells() of this rank's active grid cell with this
+     *  number that has the splines of this body. */
+    unsigned int
+    entry(const unsigned int number, const unsigned int body) const;
+
+    /** Makes unknowns of other ranks relevant. The places of all unknowns in
+     *  relevant() change. */
+    void
+    add_relevant(const IndexSet &unknowns);
+
+    /** This rank's active grid cells in the order of their numbers, then of
+     *  their bodies. */
     const std::vector<GridCell> &
     grid_cells() const;
 
@@ -78,9 +124,9 @@ namespace Morula
     n_outer_splines() const;
 
     /** The piece of an active grid cell of this rank, by its number in the
-     *  grid's box; see SplineCopies. */
+     *  grid's box, and of one of the bodies there; see SplineCopies. */
     unsigned int
-    piece(const unsigned int number) const;
+    piece(const unsigned int number, const unsigned int body = 0) const;
 
     unsigned int
     n_pieces() const;
@@ -89,8 +135,10 @@ namespace Morula
     const GridBox<dim> &
     box() const;
 
+    /** What the grid cells hold of a body; of the tissue where bodies are not
+     *  parted. */
     const Occupancy<dim> &
-    occupancy() const;
+    occupancy(const unsigned int body = 0) const;
 
     /**
      * This rank's unknowns, in the order of owned(), for the field that is
@@ -137,6 +185,12 @@ namespace Morula
     void
     find_relevant();
 
+    /** affine_coefficients() where bodies are parted. */
+    std::vector<double>
+    affine_coefficients_of_body(const unsigned int    piece,
+                                const double          a,
+                                const Tensor<1, dim> &gradient) const;
+
     /** The copy of spline @p a of a grid cell. */
     unsigned int
     copy_at(const GridIndex<dim> &grid_cell, const unsigned int a) const;
@@ -154,7 +208,10 @@ namespace Morula
     std::map<unsigned int, PiecePolynomial<dim>> small_pieces;
     UnknownNumbers<dim>                          numbers;
     std::vector<GridCell>                        grid_cells_;
-    IndexSet                                     relevant_;
+    IndexSet                                     owned_, relevant_;
+    std::vector<unsigned int>                    pieces_; // of owned unknowns
+    std::vector<SplineSpace>                     bodies;  // if parted
+    std::vector<unsigned int> first_piece; // of each body, and the end
     unsigned int                                 n_active = 0;
     unsigned int                                 n_inner  = 0;
     unsigned int                                 n_outer  = 0;

@@ -9,6 +9,7 @@
 #include <morula/mechanics/matrix_scatter.h>
 #include <morula/mechanics/spline_field.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,13 @@ namespace Morula
   public:
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
+
+    /** Adds to the sums of residual(), at the same field: given are its values
+     *  at the relevant degrees of freedom, the sums and, if wanted, those of
+     *  the magnitudes. */
+    using AddMore = std::function<void(const std::vector<double> &,
+                                       std::vector<double> &,
+                                       std::vector<double> *)>;
 
     Assembly(const SplineSpace<dim> &space, const MPI_Comm comm)
       : space(space)
@@ -55,7 +63,8 @@ namespace Morula
     residual(const Vector        &u,
              Local               &local,
              const Add           &add,
-             std::vector<double> *magnitudes = nullptr) const;
+             std::vector<double> *magnitudes = nullptr,
+             const AddMore       &add_more   = {}) const;
 
     /** Whether make_pattern() has been called. */
     bool
@@ -64,18 +73,29 @@ namespace Morula
       return scatter.has_value();
     }
 
-    /** Makes the sparse matrix, once before the first matrix(). Collective. */
+    /** Makes the sparse matrix, before the first matrix() and where other
+     *  unknowns are linked than before. Collective.
+     *  @param links see MatrixScatter */
     void
-    make_pattern()
+    make_pattern(const std::vector<std::vector<unsigned int>> &links = {})
     {
-      scatter.emplace(space, unknowns_.owned(), matrix_, comm);
+      scatter.emplace(space, unknowns_.owned(), matrix_, comm, links);
     }
+
+    /** Adds to the matrix, given the values at the relevant degrees of freedom
+     *  and where to add the matrix of a link. */
+    using AddLinks = std::function<void(
+      const std::vector<double> &,
+      const std::function<void(unsigned int, const std::vector<double> &)> &)>;
 
     /** Adds up the tangents; the matrix of the last call is overwritten.
      *  Collective. */
     template <typename Local, typename Add>
     const Matrix &
-    matrix(const Vector &u, Local &local, const Add &add);
+    matrix(const Vector   &u,
+           Local          &local,
+           const Add      &add,
+           const AddLinks &add_links = {});
 
     /** What the last call of matrix() has made. */
     const Matrix &
@@ -107,7 +127,8 @@ namespace Morula
   Assembly<dim, n_components>::residual(const Vector        &u,
                                         Local               &local,
                                         const Add           &add,
-                                        std::vector<double> *magnitudes) const
+                                        std::vector<double> *magnitudes,
+                                        const AddMore       &add_more) const
   {
     const SplineField<dim, n_components> field(space, unknowns_, u);
     std::vector<double> sums(unknowns_.relevant().n_elements(), 0.);
@@ -122,6 +143,8 @@ namespace Morula
         if (magnitudes != nullptr)
           add_condensed(c, local.magnitude, true, *magnitudes);
       }
+    if (add_more)
+      add_more(field.relevant_values(), sums, magnitudes);
     return sums;
   }
 
@@ -151,9 +174,10 @@ namespace Morula
   template <int dim, int n_components>
   template <typename Local, typename Add>
   const TrilinosWrappers::SparseMatrix &
-  Assembly<dim, n_components>::matrix(const Vector &u,
-                                      Local        &local,
-                                      const Add    &add)
+  Assembly<dim, n_components>::matrix(const Vector   &u,
+                                      Local          &local,
+                                      const Add      &add,
+                                      const AddLinks &add_links)
   {
     scatter->clear();
     const SplineField<dim, n_components>           field(space, unknowns_, u);
@@ -166,6 +190,11 @@ namespace Morula
                      Condensation<dim, n_components>(space.grid_cells()[c])
                        .condense(local.matrix, work));
       }
+    if (add_links)
+      add_links(field.relevant_values(),
+                [&](const unsigned int link, const std::vector<double> &part) {
+                  scatter->add(space.grid_cells().size() + link, part);
+                });
     scatter->finish();
     return matrix_;
   }

@@ -22,6 +22,11 @@ namespace Morula
     /** @param stiffnesses k of each cell, kPa µm^(dim-2) */
     Drag(GroupedPoints<dim> cells, std::vector<double> stiffnesses);
 
+    /** Lets the drag act from where these displacements of the cells (µm) have
+     *  brought them, instead of from u = 0. */
+    void
+    set_centre(std::vector<Tensor<1, dim>> ways);
+
     void
     add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
@@ -36,7 +41,8 @@ namespace Morula
               const LocalField<dim>   &field,
               LocalSystem<dim>        &system) const override;
 
-    const std::vector<double> stiffnesses;
+    const std::vector<double>   stiffnesses;
+    std::vector<Tensor<1, dim>> centre; // of each cell; empty: 0
   };
 } // namespace Morula
 

@@ -32,16 +32,22 @@ namespace Morula
   public:
     using Matrix = TrilinosWrappers::SparseMatrix;
 
+    /** Relevant unknowns that couple with one another. */
+    using Links = std::vector<std::vector<unsigned int>>;
+
     /** Initialises @p matrix; it must outlive this object. Collective.
-     *  @param own_rows as FieldUnknowns::owned() */
+     *  @param own_rows as FieldUnknowns::owned()
+     *  @param links beside those of the grid cells, see PairTerm */
     MatrixScatter(const SplineSpace<dim> &space,
                   const IndexSet         &own_rows,
                   Matrix                 &matrix,
-                  const MPI_Comm          comm);
+                  const MPI_Comm          comm,
+                  Links                   links = {});
 
     /**
      * Adds a grid cell's matrix; its row and column i m + s is component i of
-     * the grid cell's s-th unknown, m their number.
+     * the grid cell's s-th unknown, m their number. Links have the numbers that
+     * follow those of the grid cells.
      */
     void
     add(const unsigned int grid_cell, const std::vector<double> &local_matrix);
@@ -62,6 +68,22 @@ namespace Morula
 
     Couplings
     couplings() const;
+
+    /** Number of grid cells and links. */
+    unsigned int
+    n_elements() const
+    {
+      return space.grid_cells().size() + links.size();
+    }
+
+    /** The unknowns of a grid cell, or of a link. */
+    const std::vector<unsigned int> &
+    unknowns_of(const unsigned int element) const
+    {
+      return element < space.grid_cells().size() ?
+               space.grid_cells()[element].unknowns :
+               links[element - space.grid_cells().size()];
+    }
 
     /** The global unknowns in the rows of an owned unknown, by owned unknown.
      */
@@ -128,11 +150,12 @@ namespace Morula
     };
 
     const SplineSpace<dim>                &space;
+    const Links                            links;
     Matrix                                &matrix;
     const MPI_Comm                         comm;
     std::vector<double *>                  rows;         // by relevant dof
     std::vector<int>                       owned_number; // by relevant unknown
-    std::vector<std::vector<unsigned int>> positions;    // by grid cell: m x m
+    std::vector<std::vector<unsigned int>> positions; // by element: m x m
 
     /** The values of an owner's rows, one after the other, by owner. */
     std::map<unsigned int, std::vector<double>>   sent;

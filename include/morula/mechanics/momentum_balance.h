@@ -8,6 +8,7 @@
 #include <morula/mechanics/assembly.h>
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/pair_term.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
 
@@ -47,12 +48,23 @@ namespace Morula
 
     /** Keeps references to the space, the terms and the timer.
      *  @param enclosure that the tissue surrounds, or null; it stays where it
-     *         is as long as this object, its content may change */
+     *         is as long as this object, its content may change
+     *  @param pairs a term that couples grid cells, or null */
     MomentumBalance(const SplineSpace<dim> &space,
                     const TermList         &terms,
                     TimerOutput            &timer,
                     const MPI_Comm          comm,
-                    const Enclosure<dim>   *enclosure = nullptr);
+                    const Enclosure<dim>   *enclosure = nullptr,
+                    const PairTerm         *pairs     = nullptr);
+
+    /** To be called where the pair term has new links. */
+    void
+    renew_links();
+
+    /** The values of @p u at the relevant unknowns, as a pair term wants them.
+     *  Collective. */
+    std::vector<double>
+    relevant_values(const Vector &u) const;
 
     /** u = 0. Collective. */
     Vector
@@ -162,7 +174,9 @@ namespace Morula
     const MPI_Comm          comm;
     Assembly<dim>           assembly;
     const Enclosure<dim>   *enclosure;
-    bool                    goes_on = false;
+    const PairTerm         *pairs;
+    bool                    has_new_links = false;
+    bool                    goes_on       = false;
     std::optional<RankOne>  of_content; // of the last tangent
 
     // Linearisations at the last tangent, by active grid cell; empty if no term

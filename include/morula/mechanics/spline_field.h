@@ -62,6 +62,13 @@ namespace Morula
       return space.box();
     }
 
+    /** The values at FieldUnknowns::relevant(). */
+    const std::vector<double> &
+    relevant_values() const
+    {
+      return values;
+    }
+
   private:
     const SplineSpace<dim>   &space;
     const std::vector<double> values; // at FieldUnknowns::relevant()
@@ -100,7 +107,9 @@ namespace Morula
     unsigned int c = 0;
     for (const auto &grid_cell : store.grid_cells())
       {
-        while (space.grid_cells()[c].number != grid_cell.number)
+        while (!space.is_at(space.grid_cells()[c],
+                            grid_cell.number,
+                            grid_cell.body))
           ++c;
         action(grid_cell, on_grid_cell(c), box().index(grid_cell.number));
       }

@@ -20,7 +20,7 @@ namespace Morula
   public:
     /** No points yet, with these columns. */
     explicit BoundaryPoints(const BoundaryColumns<dim> &columns)
-      : PointStore<dim>(columns.n_numbers())
+      : PointStore<dim>(columns.n_numbers(), columns.body)
       , columns_(columns)
     {}
 

@@ -37,6 +37,10 @@ namespace Morula
   class BoundaryColumns : public Columns
   {
   public:
+    /** Declares the body and the pressure of contact. Contact calls it. */
+    void
+    need_contact();
+
     /** @param with_patch whether the scene refines the surface
      *  @param coarsens whether it also merges patches that shrink
      *  @param with_force whether conditions hold or load some points */
@@ -88,6 +92,10 @@ namespace Morula
     /** With conditions: force of all of them on the tissue at the end of the
      *  last step, kPa µm^(dim-1). */
     Column<Tensor<1, dim>> force;
+    /** Number of the body that the point belongs to; only with contact. */
+    Column<unsigned int> body;
+    /** Pressure of other bodies at the end of the last step, kPa; likewise. */
+    Column<double> contact_pressure;
   };
 
   /**

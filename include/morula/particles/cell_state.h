@@ -36,6 +36,10 @@ namespace Morula
     void
     need_lineage();
 
+    /** Declares the body. Contact calls it. */
+    void
+    need_bodies();
+
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
     founder(const Point<dim> &X, const double volume) const;
@@ -52,6 +56,8 @@ namespace Morula
     Column<int> parent;
     /** Number of divisions since the founder. */
     Column<unsigned int> generation;
+    /** Number of the body that the cell belongs to; only with contact. */
+    Column<unsigned int> body;
   };
 
   /**

@@ -16,12 +16,15 @@ namespace Morula
    * (µm), which is at most a grid spacing. Other ranks may have one. The points
    * are on this rank. Most boundary points have a cell near in their own grid
    * cell, so that this is far cheaper than to find the nearest ones.
+   * @param bodies of the points, where they have some: only cells of the same
+   *        body count
    */
   template <int dim>
   std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>> &points,
-                      const Tissue<dim>             &tissue,
-                      const double                   near);
+  points_without_cell(const std::vector<Point<dim>>   &points,
+                      const Tissue<dim>               &tissue,
+                      const double                     near,
+                      const std::vector<unsigned int> &bodies);
 
   /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present
@@ -41,11 +44,13 @@ namespace Morula
   double
   attachment(const double distance, const double reach);
 
-  /** The attachment of each of these boundary points of this rank. Collective.
-   */
+  /** The attachment of each of these boundary points of this rank, to cells of
+   *  their @p bodies where they have some. Collective. */
   template <int dim>
   std::vector<double>
-  attachment(const std::vector<Point<dim>> &points, const Tissue<dim> &tissue);
+  attachment(const std::vector<Point<dim>>   &points,
+             const Tissue<dim>               &tissue,
+             const std::vector<unsigned int> &bodies = {});
 
   /** Boundary points of this rank that are farther from their nearest cell than
    *  4/3 of its reach, by their positions in the store, in order. Collective,

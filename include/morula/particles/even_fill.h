@@ -22,7 +22,8 @@ namespace Morula
   void
   relax_volumes_to_space(Tissue<dim>          &tissue,
                          const Occupancy<dim> &occupancy,
-                         const double          part);
+                         const double          part,
+                         const unsigned int    body = 0);
 } // namespace Morula
 
 #endif

@@ -18,23 +18,28 @@ namespace Morula
   /**
    * Points (cells, or boundary points) on the background grid: a deal.II
    * ParticleHandler whose particles are on the rank that owns their grid cell,
-   * and a canonical order over them: by grid cell, then by id. The order does
-   * not depend on the history, so that sums over points come out the same in a
+   * and a canonical order over them: by grid cell, by body, then by id. The order
+   * does not depend on the history, so that sums over points come out the same in a
    * resumed run.
    */
   template <int dim>
   class PointStore
   {
   public:
-    /** The points of one grid cell: those from begin to end - 1. */
+    /** The points of one body in one grid cell: those from begin to end - 1.
+     *  Without bodies there is one for each grid cell, with body 0. */
     struct GridCell
     {
       unsigned int number; // of the grid cell in the box
       unsigned int begin, end;
+      unsigned int body;
     };
 
-    /** @param n_numbers in a point's row */
-    explicit PointStore(const unsigned int n_numbers);
+    /** @param n_numbers in a point's row
+     *  @param body the column with the number of a point's body, if the scene
+     *         has contact between bodies */
+    explicit PointStore(const unsigned int          n_numbers,
+                        const Column<unsigned int> &body = {});
 
     /**
      * Binds the store to the grid's present triangulation. All points must
@@ -117,6 +122,25 @@ namespace Morula
       return order[p]->get_location();
     }
 
+    /** The number of its body; 0 in a scene without contact. */
+    unsigned int
+    body(const unsigned int p) const
+    {
+      return body_column.exists() ? get(body_column, p) : 0;
+    }
+
+    /** Whether the points know their bodies. */
+    bool
+    has_bodies() const
+    {
+      return body_column.exists();
+    }
+
+    /** The bodies of all points of this rank; empty in a scene without contact.
+     */
+    std::vector<unsigned int>
+    bodies() const;
+
     /** Positions of all points of this rank, µm. */
     std::vector<Point<dim>>
     positions() const;
@@ -174,8 +198,9 @@ namespace Morula
     void
     reserve(const std::size_t n);
 
-    const unsigned int n_numbers;
-    std::size_t        capacity = 0; // number of points that fit
+    const unsigned int         n_numbers;
+    const Column<unsigned int> body_column;
+    std::size_t                capacity = 0; // number of points that fit
     /** Points inserted or removed since all of them were in order, without
      *  gaps, in memory. */
     std::size_t                     n_disordered = 0;

@@ -86,11 +86,16 @@ namespace Morula
     defragment();
 
     /**
-     * The extended B-splines around the tissue as it is now. Collective.
+     * The extended B-splines around the tissue as it is now. Where points know
+     * their bodies, each body has splines of its own. Collective.
      * @param share_points see Occupancy
      */
     SplineSpace<dim>
     splines(const bool share_points = false) const;
+
+    /** The same, as if all points belonged to one body. Collective. */
+    SplineSpace<dim>
+    unparted_splines(const bool share_points = false) const;
 
     const BackgroundGrid<dim> &
     grid() const;
@@ -115,8 +120,16 @@ namespace Morula
     bool
     balanced(const std::vector<Point<dim>> &positions) const;
 
+    /** The splines around the points for which belongs(body) holds.
+     *  Collective. */
+    template <typename Belongs>
+    SplineSpace<dim>
+    splines_around(const Belongs &belongs, const bool share_points) const;
+
+    template <typename Belongs>
     std::vector<GridRange<dim>>
-    reached(const std::vector<ParticleDomain<dim>> &domains) const;
+    reached(const std::vector<ParticleDomain<dim>> &domains,
+            const Belongs                          &belongs) const;
 
     const GridParameters parameters;
     BackgroundGrid<dim>  grid_;
@@ -147,13 +160,14 @@ namespace Morula
     auto cell = store.grid_cells().begin();
     for (const auto &active : space.grid_cells())
       {
-        if (cell != store.grid_cells().end() && cell->number == active.number)
-          {
-            for (unsigned int p = cell->begin; p < cell->end; ++p)
-              if (select(p))
-                groups.points.push_back(p);
-            ++cell;
-          }
+        // Where the space does not part bodies, a grid cell has the points of
+        // all of them.
+        for (; cell != store.grid_cells().end() &&
+               space.is_at(active, cell->number, cell->body);
+             ++cell)
+          for (unsigned int p = cell->begin; p < cell->end; ++p)
+            if (select(p))
+              groups.points.push_back(p);
         groups.offsets.push_back(groups.points.size());
       }
     return groups;

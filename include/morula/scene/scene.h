@@ -6,6 +6,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/catalogue.h>
+#include <morula/effects/contact/contact_parameters.h>
 #include <morula/effects/development.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_type_parameters.h>
@@ -56,6 +57,7 @@ namespace Morula
     CellTypesParameters cell_types;
     FieldsParameters    fields;
     NitscheParameters   nitsche;
+    ContactParameters   contact;
     SolverParameters    solver;
     OutputParameters    output;
 

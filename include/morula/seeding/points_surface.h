@@ -23,7 +23,8 @@ namespace Morula
    * are round. The patches are about as many as Boundary points says, or one
    * per ℓ² (2-D: ℓ), and their areas times normals add up to zero. Separate
    * bodies have surfaces of their own if an empty ball of radius 2ℓ passes
-   * between them, and so have cavities with room for one. Rank 0 makes the
+   * between them, and so have cavities with room for one. Where founders know
+   * their bodies, each body has a surface of its own. Rank 0 makes the
    * surface: it does not depend on the number of ranks. Where Points surface
    * names a file, the patches tile that surface. Collective.
    * @throws InputError if the surface encloses less than half or more than

@@ -113,6 +113,8 @@ namespace Morula
     /** Numbers of their types, in the order of SeedingLimits::types; empty
      *  likewise. */
     std::vector<unsigned int> types;
+    /** Numbers of their bodies; empty without contact. */
+    std::vector<unsigned int> bodies;
   };
 
   /**
@@ -128,6 +130,8 @@ namespace Morula
     std::vector<Tensor<1, dim>> normals;
     std::vector<double>         areas; // µm^(dim-1)
     types::particle_index       n_global = 0;
+    /** Numbers of their bodies; empty without contact. */
+    std::vector<unsigned int> bodies;
   };
 
   /**

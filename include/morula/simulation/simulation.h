@@ -119,11 +119,22 @@ namespace Morula
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution
-    solve_step(const SplineSpace<dim> &space);
+    solve_step(const SplineSpace<dim>   &space,
+               const ContactPoints<dim> *contact);
+
+    /** The boundary points that may touch another body in the step; nothing
+     *  without contact. Unknowns of others become relevant. Collective. */
+    std::optional<ContactPoints<dim>>
+    points_in_contact(SplineSpace<dim> &space);
+
+    /** The splines of fields, if they pass from body to body. Collective. */
+    std::optional<SplineSpace<dim>>
+    splines_of_fields(const SplineSpace<dim> &space) const;
     typename StepEquilibrium<dim>::Solution
     try_step(const StepEquilibrium<dim> &equilibrium);
     void
     commit(const SplineSpace<dim>                        &space,
+           const SplineSpace<dim>                        &of_fields,
            const typename StepEquilibrium<dim>::Solution &solution);
     void
     divide();

@@ -4,6 +4,8 @@
 #ifndef morula_simulation_step_equilibrium_h
 #define morula_simulation_step_equilibrium_h
 
+#include <morula/effects/contact/contact_pairs.h>
+#include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/simulation/held_traction.h>
@@ -51,13 +53,16 @@ namespace Morula
 
     using Supports = std::vector<typename RigidModes<dim>::Support>;
 
-    /** @param supports what holds this rank's pieces. Collective. */
+    /** @param supports what holds this rank's pieces
+     *  @param contact points that may touch another body, or null. Collective.
+     */
     StepEquilibrium(const TissueModel<dim> &model,
                     const Tissue<dim>      &tissue,
                     const SplineSpace<dim> &space,
                     const Supports         &supports,
                     TimerOutput            &timer,
-                    const MPI_Comm          comm);
+                    const MPI_Comm          comm,
+                    const ContactPoints<dim> *contact = nullptr);
 
     /**
      * Solves for the end of a step. Collective.
@@ -89,10 +94,11 @@ namespace Morula
          NewtonReport         &report) const;
     /** The forces on the surface, if conditions act on it. Collective. */
     SurfaceForces<dim>
-    forces(const Attempt                       &attempt,
-           const TermList                      &list,
-           const std::optional<Enclosure<dim>> &lumen,
-           const Solution                      &solution) const;
+    forces(const Attempt                        &attempt,
+           const TermList                       &list,
+           const std::optional<Enclosure<dim>>  &lumen,
+           const std::vector<ContactForce<dim>> &of_contact,
+           const Solution                       &solution) const;
     /** The lumen at the beginning of the step, if there is one. */
     std::optional<Enclosure<dim>>
     lumen_of(const Attempt &attempt) const;
@@ -116,9 +122,13 @@ namespace Morula
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
+    /** Whether some bodies may touch in the step. */
+    bool
+    has_contact() const;
+
     /** A drag that is too weak to matter elsewhere. It decides where pieces go
      *  that loads push and nothing holds: doc/theory.md (4.8f). */
-    std::unique_ptr<Term<dim>>
+    std::unique_ptr<Drag<dim>>
     weak_drag(const double typical_stiffness) const;
     MassList
     masses() const;
@@ -129,6 +139,8 @@ namespace Morula
     TimerOutput            &timer;
     const MPI_Comm          comm;
     const RigidModes<dim>   rigid_modes;
+
+    const ContactPoints<dim> *const contact;
   };
 } // namespace Morula
 

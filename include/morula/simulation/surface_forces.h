@@ -4,6 +4,7 @@
 #ifndef morula_simulation_surface_forces_h
 #define morula_simulation_surface_forces_h
 
+#include <morula/effects/contact/contact_forces.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
@@ -25,9 +26,13 @@ namespace Morula
     /** The sum of all conditions' forces on each of this rank's boundary
      * points, in the order of the store, kPa µm^(dim-1). */
     std::vector<Tensor<1, dim>> of_points;
+    /** The pressure of contact there, see contact_pressures(), kPa; empty where
+     *  nothing touches. */
+    std::vector<double> contact_pressures;
   };
 
-  /** Gives the boundary points their forces, if they have a column for them. */
+  /** Gives the boundary points their forces and the pressure of contact, if they
+   *  have columns for them. */
   template <int dim>
   void
   set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
@@ -71,6 +76,12 @@ namespace Morula
     add_lumen(const Lumen<dim> &lumen,
               const Term<dim>  &gain,
               const double      pressure);
+
+    /** Adds a row for each two bodies that touch, with the force of the one with
+     *  the lower number on the other, and the pressure at all points.
+     *  Collective. */
+    void
+    add_contact(const std::vector<ContactForce<dim>> &forces);
 
     /** The rows as sums over all ranks, and this rank's forces of points.
      *  Collective. */

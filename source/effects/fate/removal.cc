@@ -165,7 +165,8 @@ namespace Morula
         tissue.cells(),
         [&goes](const unsigned int p) { return goes[p]; },
         Ties::lowest_id,
-        tissue.grid());
+        tissue.grid(),
+        tissue.boundary_points().bodies());
       std::vector<unsigned int> list;
       for (unsigned int p = 0; p < nearest.size(); ++p)
         if (nearest[p] > 0.)

@@ -33,7 +33,7 @@ namespace Morula
     /** Deepest point in an obstacle. */
     template <int dim, typename Points, typename Position>
     std::pair<double, Point<dim>>
-    deepest(const typename Contact<dim>::Obstacle &obstacle,
+    deepest(const typename ObstacleContact<dim>::Obstacle &obstacle,
             const Points                          &points,
             const Position                        &position)
     {
@@ -50,10 +50,10 @@ namespace Morula
     }
     /** What contact needs of the points. */
     template <int dim>
-    std::vector<typename Contact<dim>::BoundaryPoint>
+    std::vector<typename ObstacleContact<dim>::BoundaryPoint>
     boundary_points_of(const LoadedPoints<dim> &points)
     {
-      std::vector<typename Contact<dim>::BoundaryPoint> list;
+      std::vector<typename ObstacleContact<dim>::BoundaryPoint> list;
       for (const auto &point : points.points)
         list.push_back({point.x, point.area.norm()});
       return list;
@@ -101,7 +101,7 @@ namespace Morula
 
 
   template <int dim>
-  typename Contact<dim>::Obstacle
+  typename ObstacleContact<dim>::Obstacle
   Obstacles<dim>::Obstacle::at(const double             t,
                                const LoadedPoints<dim> &points) const
   {
@@ -148,7 +148,7 @@ namespace Morula
     // is that of this rank's points, so the caller makes a failure known to all
     // ranks.
     const double                                 h = points.h;
-    std::vector<typename Contact<dim>::Obstacle> obstacles;
+    std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
     for (const Obstacle &obstacle : list)
       {
         obstacles.push_back(obstacle.at(t, points));
@@ -173,7 +173,7 @@ namespace Morula
             throw StepFailed(text.str());
           }
       }
-    return std::make_unique<Contact<dim>>(points,
+    return std::make_unique<ObstacleContact<dim>>(points,
                                           boundary_points_of(points),
                                           std::move(obstacles));
   }
@@ -183,12 +183,12 @@ namespace Morula
   std::vector<typename BoundaryCondition<dim>::Part>
   Obstacles<dim>::parts(const LoadedPoints<dim> &points, const double t) const
   {
-    using Bodies = std::vector<typename Contact<dim>::Obstacle>;
+    using Bodies = std::vector<typename ObstacleContact<dim>::Obstacle>;
     std::vector<typename BoundaryCondition<dim>::Part> parts;
     for (const Obstacle &obstacle : list)
       parts.push_back(
         {obstacle.name,
-         std::make_unique<Contact<dim>>(points,
+         std::make_unique<ObstacleContact<dim>>(points,
                                         boundary_points_of(points),
                                         Bodies{obstacle.at(t, points)}),
          true});

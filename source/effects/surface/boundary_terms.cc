@@ -86,10 +86,15 @@ namespace Morula
       const BoundaryPoints<dim> &store = tissue.boundary_points();
       HeldPoints<dim>            held;
       held.groups = held_groups(tissue, space);
-      std::vector<Point<dim>> places;
+      std::vector<Point<dim>>   places;
+      std::vector<unsigned int> bodies;
       for (const unsigned int p : held.groups.points)
-        places.push_back(store.position(p));
-      const std::vector<double> attached = attachment(places, tissue);
+        {
+          places.push_back(store.position(p));
+          if (store.has_bodies())
+            bodies.push_back(store.body(p));
+        }
+      const std::vector<double> attached = attachment(places, tissue, bodies);
       if (growth.present || !growth.lame.empty())
         held.carriers = states_of_carriers(held.groups.points, tissue, growth);
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -337,7 +342,8 @@ namespace Morula
         const Point<dim>        x     = points.position(p);
         if (is_held(point.condition()))
           list.push_back(
-            {space.piece(space.box().number(space.box().locate(x))),
+            {space.piece(space.box().number(space.box().locate(x)),
+                         points.body(p)),
              x,
              projection(point),
              point.initial_area()});
@@ -364,7 +370,8 @@ namespace Morula
         if (!is_held(point.condition()))
           continue;
         const Point<dim> x = points.position(p);
-        HeldPoint<dim>   held{x, x, x, projection(point), point.initial_area()};
+        HeldPoint<dim>   held{
+          x, x, x, projection(point), point.initial_area(), points.body(p)};
         if (point.condition() == SurfaceCondition::fixed)
           {
             const Point<dim> X = point.initial_position();

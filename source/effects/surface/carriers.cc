@@ -78,13 +78,15 @@ namespace Morula
     };
     const auto present = values_by_id(
       carriers(held, tissue), places, tissue.cells(), id, tissue.grid());
-    std::vector<unsigned int> lost;
+    std::vector<unsigned int> lost, bodies;
     std::vector<Point<dim>>   queries;
     for (std::size_t k = 0; k < held.size(); ++k)
       if (!present[k])
         {
           lost.push_back(held[k]);
           queries.push_back(places[k]);
+          if (store.has_bodies())
+            bodies.push_back(store.body(held[k]));
         }
     const MPI_Comm comm = tissue.communicator();
     if (!Utilities::MPI::logical_or(!lost.empty(), comm) ||
@@ -93,9 +95,10 @@ namespace Morula
     // Among several nearest cells the mean of the ids is larger than the lowest
     // of them.
     const auto lowest = nearest_values(
-      queries, tissue.cells(), id, Ties::lowest_id, tissue.grid());
+      queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), bodies);
     const auto mean =
-      nearest_values(queries, tissue.cells(), id, Ties::mean, tissue.grid());
+      nearest_values(
+        queries, tissue.cells(), id, Ties::mean, tissue.grid(), bodies);
     for (std::size_t k = 0; k < lost.size(); ++k)
       tissue.boundary_point(lost[k]).set(
         ids, mean[k] == lowest[k] ? static_cast<int>(lowest[k]) : -1);

@@ -4,7 +4,7 @@
 #ifndef morula_effects_obstacles_obstacles_h
 #define morula_effects_obstacles_obstacles_h
 
-#include <morula/effects/obstacles/contact.h>
+#include <morula/effects/obstacles/obstacle_contact.h>
 #include <morula/effects/surface/boundary_condition.h>
 
 #include <memory>
@@ -58,7 +58,7 @@ namespace Morula
       way(const double t) const;
 
       /** The obstacle at @p t (day) against these points. */
-      typename Contact<dim>::Obstacle
+      typename ObstacleContact<dim>::Obstacle
       at(const double t, const LoadedPoints<dim> &points) const;
     };
 

@@ -85,12 +85,17 @@ namespace Morula
     auto found = values_by_id(
       carriers(points, tissue), places, tissue.cells(), value, tissue.grid());
 
-    std::vector<Point<dim>> others;
+    std::vector<Point<dim>>   others;
+    std::vector<unsigned int> bodies;
     for (std::size_t k = 0; k < places.size(); ++k)
       if (!found[k])
-        others.push_back(places[k]);
-    const auto nearest =
-      nearest_values(others, tissue.cells(), value, Ties::mean, tissue.grid());
+        {
+          others.push_back(places[k]);
+          if (tissue.boundary_points().has_bodies())
+            bodies.push_back(tissue.boundary_points().body(points[k]));
+        }
+    const auto nearest = nearest_values(
+      others, tissue.cells(), value, Ties::mean, tissue.grid(), bodies);
     std::vector<std::invoke_result_t<Value, unsigned int>> values;
     for (std::size_t k = 0, n = 0; k < places.size(); ++k)
       values.push_back(found[k] ? *found[k] : nearest[n++]);

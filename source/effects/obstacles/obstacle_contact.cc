@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/obstacles/contact.h>
+#include <morula/effects/obstacles/obstacle_contact.h>
 
 #include <utility>
 
 namespace Morula
 {
   template <int dim>
-  Contact<dim>::Contact(GroupedPoints<dim>         points,
+  ObstacleContact<dim>::ObstacleContact(GroupedPoints<dim>         points,
                         std::vector<BoundaryPoint> boundary_points,
                         std::vector<Obstacle>      obstacles)
     : PointTerm<dim>(std::move(points))
@@ -19,7 +19,7 @@ namespace Morula
 
   template <int dim>
   void
-  Contact<dim>::add_point(const unsigned int       p,
+  ObstacleContact<dim>::add_point(const unsigned int       p,
                           const SplineValues<dim> &splines,
                           const LocalField<dim>   &field,
                           LocalSystem<dim>        &system) const
@@ -52,6 +52,6 @@ namespace Morula
   }
 
 
-  template class Contact<2>;
-  template class Contact<3>;
+  template class ObstacleContact<2>;
+  template class ObstacleContact<3>;
 } // namespace Morula

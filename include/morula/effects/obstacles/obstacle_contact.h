@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_effects_obstacles_contact_h
-#define morula_effects_obstacles_contact_h
+#ifndef morula_effects_obstacles_obstacle_contact_h
+#define morula_effects_obstacles_obstacle_contact_h
 
 #include <morula/effects/obstacles/body.h>
 #include <morula/mechanics/point_term.h>
@@ -19,7 +19,7 @@ namespace Morula
    * doc/theory.md (4.8d), (4.8e). Keeps references to the bodies.
    */
   template <int dim>
-  class Contact : public PointTerm<dim>
+  class ObstacleContact : public PointTerm<dim>
   {
   public:
     /** A boundary point. */
@@ -52,7 +52,7 @@ namespace Morula
       }
     };
 
-    Contact(GroupedPoints<dim>         points,
+    ObstacleContact(GroupedPoints<dim>         points,
             std::vector<BoundaryPoint> boundary_points,
             std::vector<Obstacle>      obstacles);
 

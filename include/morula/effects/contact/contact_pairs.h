@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_contact_contact_pairs_h
+#define morula_effects_contact_contact_pairs_h
+
+#include <morula/effects/contact/contact_points.h>
+#include <morula/mechanics/pair_term.h>
+
+#include <map>
+#include <vector>
+
+namespace Morula
+{
+  /** What another body does to a boundary point. */
+  template <int dim>
+  struct ContactForce
+  {
+    unsigned int   p;     // number of the point
+    unsigned int   body;  // of the point
+    unsigned int   other; // body
+    Tensor<1, dim> force; // on the point, kPa µm^(dim-1)
+    Point<dim>     place; // where it acts, µm
+    Tensor<1, dim> area;  // a n there, µm^(dim-1)
+  };
+
+  /** How stiff contact is. */
+  struct ContactLaw
+  {
+    double kappa; // κ, kPa/µm
+    double E;     // a typical Young's modulus, kPa
+    double h;     // grid spacing, µm
+  };
+
+  /**
+   * The energy of bodies that touch: doc/theory.md (4.8k). It is a sum over
+   * pairs of boundary points of different bodies that face each other, weighted
+   * with a smooth kernel of their distance along the surface, so that no point
+   * of one surface has to find its projection on the other. Positions, normals
+   * and areas in it are frozen; renew() takes them anew. With them the energy is
+   * convex and its tangent exact. Forces of a pair are equal and opposite.
+   */
+  template <int dim>
+  class ContactPairs : public PairTerm
+  {
+  public:
+    /** Freezes the configuration at t. Keeps a reference to the points. */
+    ContactPairs(const ContactPoints<dim> &points, const ContactLaw &law);
+
+    const std::vector<std::vector<unsigned int>> &
+    links() const override;
+    void
+    add_residual(const std::vector<double> &u, Sums &sums) const override;
+    void
+    add_tangent(
+      const std::vector<double> &u,
+      const std::function<void(unsigned int, const std::vector<double> &)> &add)
+      const override;
+
+    /** What a renewal has found, on this rank. */
+    struct Renewal
+    {
+      /** Sums of A p and of the tangential forces before it, kPa µm^(dim-1). */
+      double normal = 0., tangential = 0.;
+      /** The normal force of pairs that were not there before. */
+      double of_new_pairs = 0.;
+      /** The deepest overlap of points that did not overlap so much at t, and
+       *  the longest way of a pair that touches, µm. */
+      double crossed = 0., slid = 0.;
+      /** Whether the links are others than before. */
+      bool has_new_links = false;
+    };
+
+    /** Looks at the configuration at @p u. The frozen one stays. */
+    Renewal
+    look(const std::vector<double> &u);
+
+    /** Freezes the configuration that look() has seen last. */
+    void
+    adopt();
+
+    /** The force on each point that another body touches, by the points'
+     *  numbers in points(). */
+    std::vector<ContactForce<dim>>
+    forces(const std::vector<double> &u) const;
+
+  private:
+    /** A pair with its frozen geometry. */
+    struct Pair
+    {
+      unsigned int   b, c;    // points
+      double         weight;  // A = a_b a_c ω, µm^(dim-1)
+      double         gap;     // g_k, µm
+      Tensor<1, dim> across;  // D = (n_c - n_b)/2
+      Tensor<1, dim> normal;  // m = D/|D|
+      Tensor<1, dim> jump;    // w_k = u_b - u_c, µm
+      double         drag;    // k_t, kPa/µm
+      unsigned int   link;
+    };
+
+    /** Where a point is and what surface it stands for. */
+    struct State
+    {
+      Tensor<1, dim> u; // µm
+      Point<dim>     x; // µm
+      Tensor<1, dim> n; // outward unit normal
+      double         a; // µm^(dim-1)
+    };
+
+    std::vector<Tensor<1, dim>>
+    displacements(const std::vector<double> &u) const;
+
+    std::vector<State>
+    states(const std::vector<double> &u) const;
+
+    /** The gap at the displacements @p u of the points. */
+    double
+    gap(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+
+    /** The force on the pair's point b; that on c is opposite. */
+    Tensor<1, dim>
+    force(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+
+    /** The pairs of a configuration.
+     *  @param first_contact whether pairs that nearly touch may turn into
+     *         contact, as in the first turn of a step */
+    std::vector<Pair>
+    pairs_at(const std::vector<State> &states, const bool first_contact) const;
+
+    /** Numbers the links of pairs. @return the unknowns of each link */
+    std::vector<std::vector<unsigned int>>
+    link(std::vector<Pair> &list) const;
+
+    const ContactPoints<dim>              &points;
+    const ContactLaw                       law;
+    std::vector<Pair>                      pairs, seen;
+    std::vector<std::vector<unsigned int>> links_, seen_links;
+    std::vector<double>                    first_gaps; // by pair of points
+  };
+} // namespace Morula
+
+#endif

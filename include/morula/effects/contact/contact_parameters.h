@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_contact_contact_parameters_h
+#define morula_effects_contact_contact_parameters_h
+
+#include <morula/base/key.h>
+
+#include <string>
+
+namespace Morula
+{
+  /** Section "Contact": bodies that meet. */
+  struct ContactParameters : public Keys
+  {
+    ContactParameters();
+
+    Key<std::string> between;
+    Key<std::string> bodies;
+    Key<double>      stiffness; // κ h / E
+    Key<bool>        fields_pass;
+
+    /** Whether bodies have contact with each other. */
+    bool
+    is_on() const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+} // namespace Morula
+
+#endif

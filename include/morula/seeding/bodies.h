@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_bodies_h
+#define morula_seeding_bodies_h
+
+#include <morula/seeding/seeding.h>
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** How far two cells of one body stand apart at most, in units of their mean
+   *  length V^(1/dim). Diagonal neighbours on a cubic lattice are at 1.73. */
+  constexpr double widest_bond = 1.8;
+
+  /**
+   * The body of each of this rank's founders: founders that stand together,
+   * each at most widest_bond lengths from some other. Bodies have the numbers 0,
+   * 1, ... in the order of their first founders. Collective.
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
+
+  /** The body of each of this rank's patches: that of the nearest founder
+   *  behind the patch. Collective. */
+  template <int dim>
+  std::vector<unsigned int>
+  bodies_of_patches(const SurfacePatches<dim> &patches,
+                    const Founders<dim>       &founders,
+                    const MPI_Comm             comm);
+} // namespace Morula
+
+#endif

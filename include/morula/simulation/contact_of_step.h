@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_simulation_contact_of_step_h
+#define morula_simulation_contact_of_step_h
+
+#include <morula/effects/contact/contact_forces.h>
+#include <morula/effects/contact/contact_pairs.h>
+#include <morula/mechanics/drag.h>
+#include <morula/mechanics/momentum_balance.h>
+#include <morula/solver/turns.h>
+
+#include <deal.II/base/timer.h>
+
+#include <string>
+
+namespace Morula
+{
+  /**
+   * The contact of a step: its pairs hold positions, normals and areas fixed in
+   * a turn, and take them anew after it. Keeps references to all that it is
+   * given.
+   */
+  template <int dim>
+  class ContactTurn : public TurnParticipant
+  {
+  public:
+    /** @param drag the weak drag of the step: in each turn it acts from where
+     *         the cells are then */
+    ContactTurn(const Tissue<dim>        &tissue,
+                const SplineSpace<dim>   &space,
+                const ContactPoints<dim> &points,
+                const ContactLaw         &law,
+                ContactPairs<dim>        &pairs,
+                Drag<dim>                &drag,
+                MomentumBalance<dim>     &balance,
+                TimerOutput              &timer,
+                const MPI_Comm            comm);
+
+    /** @throws StepFailed where bodies pass through each other, or slide by
+     *          more than a grid spacing */
+    bool
+    renew(const Equilibrium::Vector &u) override;
+
+    std::string
+    unfinished() const override;
+
+    /** The forces in the equilibrium that was found. Collective. */
+    std::vector<ContactForce<dim>>
+    forces(const Equilibrium::Vector &u) const;
+
+  private:
+    /** Whether points that were too far apart at t to be candidates have passed
+     *  through another body. Collective. */
+    bool
+    has_crossed_from_afar(const DisplacementField<dim> &displacement) const;
+
+    const Tissue<dim>        &tissue;
+    const SplineSpace<dim>   &space;
+    const ContactPoints<dim> &points;
+    const ContactLaw          law;
+    ContactPairs<dim>        &pairs;
+    Drag<dim>                &drag;
+    MomentumBalance<dim>     &balance;
+    TimerOutput              &timer;
+    const MPI_Comm            comm;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/contact/contact_pairs.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Two points face each other if the product of their normals is below
+     *  this. */
+    constexpr double opposite_normals = -0.3;
+
+    /** Deepest overlap of a pair that acts, in units of h: the two faces of a
+     *  sheet "overlap" by its thickness. */
+    constexpr double deepest_pair = 0.4;
+
+    /** k_t of a pair, in units of its pressure by h, and of one that is about
+     *  to touch, in units of E/h; such a pair has a gap below this times h. */
+    constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
+                     nearly_touching = 0.05;
+
+    /** The kernel ω, whose integral along the surface is 1: doc/theory.md
+     *  (4.8k). */
+    template <int dim>
+    double
+    contact_kernel(const double s, const double r)
+    {
+      const double q = 1. - s * s / (r * r);
+      if (q <= 0.)
+        return 0.;
+      return (dim == 2 ? 35. / (32. * r) : 4. / (numbers::PI * r * r)) * q * q *
+             q;
+    }
+  } // namespace
+
+
+  template <int dim>
+  ContactPairs<dim>::ContactPairs(const ContactPoints<dim> &points,
+                                  const ContactLaw         &law)
+    : points(points)
+    , law(law)
+  {
+    std::vector<State> at_rest;
+    for (const ContactPoint<dim> &point : points.points())
+      at_rest.push_back({Tensor<1, dim>(),
+                         point.x,
+                         point.area / point.area.norm(),
+                         point.area.norm()});
+    for (const auto &[b, c] : points.pairs())
+      first_gaps.push_back(0.5 * (at_rest[c].n - at_rest[b].n) *
+                           (at_rest[b].x - at_rest[c].x));
+    pairs  = pairs_at(at_rest, true);
+    links_ = link(pairs);
+  }
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  ContactPairs<dim>::displacements(const std::vector<double> &u) const
+  {
+    std::vector<Tensor<1, dim>> list;
+    for (const ContactPoint<dim> &point : points.points())
+      {
+        Tensor<1, dim> way;
+        for (std::size_t s = 0; s < point.unknowns.size(); ++s)
+          for (unsigned int i = 0; i < dim; ++i)
+            way[i] += point.values[s] * u[point.unknowns[s] * dim + i];
+        list.push_back(way);
+      }
+    return list;
+  }
+
+
+  template <int dim>
+  std::vector<typename ContactPairs<dim>::State>
+  ContactPairs<dim>::states(const std::vector<double> &u) const
+  {
+    // An area vector moves with the cofactor of the step's deformation,
+    // doc/theory.md (1.2).
+    const std::vector<Tensor<1, dim>> ways = displacements(u);
+    std::vector<State>                list;
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      {
+        const ContactPoint<dim> &point = points.points()[k];
+        Tensor<2, dim>           f(unit_symmetric_tensor<dim>());
+        for (std::size_t s = 0; s < point.unknowns.size(); ++s)
+          for (unsigned int i = 0; i < dim; ++i)
+            f[i] += u[point.unknowns[s] * dim + i] * point.gradients[s];
+        const Tensor<1, dim> area = determinant(f) * (point.area * invert(f));
+        list.push_back(
+          {ways[k], point.x + ways[k], area / area.norm(), area.norm()});
+      }
+    return list;
+  }
+
+
+  template <int dim>
+  std::vector<typename ContactPairs<dim>::Pair>
+  ContactPairs<dim>::pairs_at(const std::vector<State> &states,
+                              const bool                first_contact) const
+  {
+    // Of the candidates those become pairs that face each other and are near
+    // along their surfaces. A pair with a gap costs nothing until the gap is
+    // used up, so that gaps up to h count: bodies that meet within a solve do
+    // not pass through each other.
+    std::vector<Pair> list;
+    for (const auto &[b, c] : points.pairs())
+      {
+        const State &one = states[b], &other = states[c];
+        if (one.n * other.n >= opposite_normals)
+          continue;
+        const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
+        const Tensor<1, dim> distance = one.x - other.x;
+        const double         gap      = across * distance;
+        if (gap <= -deepest_pair * law.h || gap >= law.h)
+          continue;
+        const Tensor<1, dim> normal = across / across.norm();
+        const double         s =
+          (distance - (normal * distance) * normal).norm();
+        const double r =
+          ContactPoints<dim>::kernel *
+          std::max(points.points()[b].spacing, points.points()[c].spacing);
+        const double weight = one.a * other.a * contact_kernel<dim>(s, r);
+        if (weight <= 0.)
+          continue;
+        // The drag keeps frozen normals from letting a body spin: k_t of
+        // doc/theory.md (4.8k).
+        double drag = drag_of_pressure * law.kappa * std::max(-gap, 0.) / law.h;
+        if (first_contact && gap < nearly_touching * law.h)
+          drag = std::max(drag, first_drag * law.E / law.h);
+        list.push_back(
+          {b, c, weight, gap, across, normal, one.u - other.u, drag, 0});
+      }
+    return list;
+  }
+
+
+  template <int dim>
+  std::vector<std::vector<unsigned int>>
+  ContactPairs<dim>::link(std::vector<Pair> &list) const
+  {
+    // Points of one body in one grid cell have the same unknowns, so pairs of
+    // the same two grid cells and bodies share a link.
+    using Place = std::pair<unsigned int, unsigned int>;
+    std::map<std::pair<Place, Place>, unsigned int> numbers;
+    std::vector<std::vector<unsigned int>> unknowns;
+    for (Pair &pair : list)
+      {
+        const ContactPoint<dim> &b = points.points()[pair.b],
+                                &c = points.points()[pair.c];
+        const auto [found, is_new] =
+          numbers.emplace(std::make_pair(Place{b.grid_cell, b.body},
+                                         Place{c.grid_cell, c.body}),
+                          unknowns.size());
+        if (is_new)
+          {
+            unknowns.push_back(b.unknowns);
+            unknowns.back().insert(unknowns.back().end(),
+                                   c.unknowns.begin(),
+                                   c.unknowns.end());
+          }
+        pair.link = found->second;
+      }
+    return unknowns;
+  }
+
+
+  template <int dim>
+  const std::vector<std::vector<unsigned int>> &
+  ContactPairs<dim>::links() const
+  {
+    return links_;
+  }
+
+
+  template <int dim>
+  double
+  ContactPairs<dim>::gap(const Pair                        &pair,
+                         const std::vector<Tensor<1, dim>> &u) const
+  {
+    return pair.gap + pair.across * (u[pair.b] - u[pair.c] - pair.jump);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  ContactPairs<dim>::force(const Pair                        &pair,
+                           const std::vector<Tensor<1, dim>> &u) const
+  {
+    const Tensor<1, dim> w = u[pair.b] - u[pair.c] - pair.jump;
+    const double         g = gap(pair, u);
+    return -pair.weight *
+           (law.kappa * std::min(g, 0.) * pair.across +
+            pair.drag * (w - (pair.normal * w) * pair.normal));
+  }
+
+
+  template <int dim>
+  void
+  ContactPairs<dim>::add_residual(const std::vector<double> &u,
+                                  Sums                      &sums) const
+  {
+    // First the forces of all pairs add up at the points, then each point gives
+    // its force to its unknowns: pairs are many more than points.
+    const std::vector<Tensor<1, dim>> ways = displacements(u);
+    std::vector<Tensor<1, dim>>       of_points(ways.size());
+    std::vector<double>               magnitudes(ways.size(), 0.);
+    for (const Pair &pair : pairs)
+      {
+        const Tensor<1, dim> w = ways[pair.b] - ways[pair.c] - pair.jump;
+        const double         g = gap(pair, ways);
+        if (g >= 0. && pair.drag == 0.)
+          continue;
+        const Tensor<1, dim> t = force(pair, ways);
+        const Tensor<1, dim> along = w - (pair.normal * w) * pair.normal;
+        const double         energy =
+          0.5 * pair.weight *
+          (law.kappa * std::pow(std::min(g, 0.), 2) +
+           pair.drag * along.norm_square());
+        sums.energy += energy;
+        sums.energy_magnitude += energy;
+        of_points[pair.b] += t;
+        of_points[pair.c] -= t;
+        magnitudes[pair.b] += t.norm();
+        magnitudes[pair.c] += t.norm();
+      }
+    for (std::size_t k = 0; k < of_points.size(); ++k)
+      {
+        const ContactPoint<dim> &point = points.points()[k];
+        if (magnitudes[k] > 0.)
+          for (std::size_t s = 0; s < point.unknowns.size(); ++s)
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                // A residual is minus the force.
+                sums.residual[point.unknowns[s] * dim + i] -=
+                  point.values[s] * of_points[k][i];
+                if (sums.magnitudes != nullptr)
+                  (*sums.magnitudes)[point.unknowns[s] * dim + i] +=
+                    std::abs(point.values[s]) * magnitudes[k];
+              }
+      }
+  }
+
+
+  template <int dim>
+  void
+  ContactPairs<dim>::add_tangent(
+    const std::vector<double> &u,
+    const std::function<void(unsigned int, const std::vector<double> &)> &add)
+    const
+  {
+    // Pairs are taken link by link, so that one matrix is filled at a time. A
+    // pair's jump is w = Σ_s q_s ũ_s, with the values of b, and minus those of
+    // c; its part is A (κ D⊗D + k_t P) q qᵀ, doc/theory.md (4.8l).
+    const std::vector<Tensor<1, dim>>      ways = displacements(u);
+    std::vector<std::vector<const Pair *>> of_links(links_.size());
+    for (const Pair &pair : pairs)
+      if (pair.drag > 0. || gap(pair, ways) < 0.)
+        of_links[pair.link].push_back(&pair);
+    std::vector<double> matrix, q;
+    for (unsigned int link = 0; link < links_.size(); ++link)
+      {
+        if (of_links[link].empty())
+          continue;
+        const unsigned int m = links_[link].size();
+        matrix.assign(dim * m * dim * m, 0.);
+        for (const Pair *const pair : of_links[link])
+          {
+            q = points.points()[pair->b].values;
+            for (const double value : points.points()[pair->c].values)
+              q.push_back(-value);
+            Tensor<2, dim> M =
+              pair->drag *
+              (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
+               outer_product(pair->normal, pair->normal));
+            if (gap(*pair, ways) < 0.)
+              M += law.kappa * outer_product(pair->across, pair->across);
+            M *= pair->weight;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int s = 0; s < m; ++s)
+                for (unsigned int j = 0; j < dim; ++j)
+                  {
+                    const double factor = M[i][j] * q[s];
+                    double *row = &matrix[((i * m + s) * dim + j) * m];
+                    for (unsigned int t = 0; t < m; ++t)
+                      row[t] += factor * q[t];
+                  }
+          }
+        add(link, matrix);
+      }
+  }
+
+
+  template <int dim>
+  typename ContactPairs<dim>::Renewal
+  ContactPairs<dim>::look(const std::vector<double> &u)
+  {
+    // Before the old geometry goes it says how large its forces are: what is
+    // left of the drag tells whether the frozen state was good enough. The
+    // candidates at u then show what has come near, and whether points have
+    // passed through each other.
+    const std::vector<State>              now = states(u);
+    std::vector<Tensor<1, dim>>           ways;
+    std::set<ContactPair>                 before;
+    Renewal                               result;
+    for (const State &state : now)
+      ways.push_back(state.u);
+    for (const Pair &pair : pairs)
+      {
+        const Tensor<1, dim> w = ways[pair.b] - ways[pair.c] - pair.jump;
+        const double         p =
+          -law.kappa * std::min(gap(pair, ways), 0.) * pair.across.norm();
+        result.normal += pair.weight * p;
+        result.tangential += pair.weight * pair.drag *
+                             (w - (pair.normal * w) * pair.normal).norm();
+        if (p > 0.)
+          result.slid =
+            std::max(result.slid, (ways[pair.b] - ways[pair.c]).norm());
+        before.emplace(pair.b, pair.c);
+      }
+    seen       = pairs_at(now, false);
+    seen_links = link(seen);
+    for (const Pair &pair : seen)
+      if (before.count({pair.b, pair.c}) == 0)
+        result.of_new_pairs +=
+          pair.weight * law.kappa * std::max(-pair.gap, 0.);
+    result.has_new_links = seen_links != links_;
+    // A pair that was no overlap at t but is a deep one now has crossed.
+    for (std::size_t k = 0; k < points.pairs().size(); ++k)
+      {
+        const auto &[b, c] = points.pairs()[k];
+        if (first_gaps[k] <= -0.5 * deepest_pair * law.h ||
+            now[b].n * now[c].n >= opposite_normals)
+          continue;
+        const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
+        const Tensor<1, dim> distance = now[b].x - now[c].x;
+        const Tensor<1, dim> normal   = across / across.norm();
+        const double         s =
+          (distance - (normal * distance) * normal).norm();
+        if (s < ContactPoints<dim>::kernel *
+                  std::max(points.points()[b].spacing,
+                           points.points()[c].spacing))
+          result.crossed = std::max(result.crossed, -(across * distance));
+      }
+    if (result.crossed < 0.5 * deepest_pair * law.h)
+      result.crossed = 0.;
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ContactPairs<dim>::adopt()
+  {
+    // The numbers of the links change with them, so that the matrix needs a new
+    // pattern even where the same unknowns are linked.
+    pairs  = std::move(seen);
+    links_ = std::move(seen_links);
+  }
+
+
+  template <int dim>
+  std::vector<ContactForce<dim>>
+  ContactPairs<dim>::forces(const std::vector<double> &u) const
+  {
+    // Each pair that touches adds its force to both points, apart for each body
+    // that touches a point. What the drag of the last turn has left counts: it
+    // is part of the equilibrium.
+    const std::vector<State>    now = states(u);
+    std::vector<Tensor<1, dim>> ways;
+    for (const State &state : now)
+      ways.push_back(state.u);
+    std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> sums;
+    for (const Pair &pair : pairs)
+      if (gap(pair, ways) < 0.)
+        {
+          const Tensor<1, dim> t = force(pair, ways);
+          sums[{pair.b, points.points()[pair.c].body}] += t;
+          sums[{pair.c, points.points()[pair.b].body}] -= t;
+        }
+    std::vector<ContactForce<dim>> list;
+    for (const auto &[key, sum] : sums)
+      list.push_back({key.first,
+                      points.points()[key.first].body,
+                      key.second,
+                      sum,
+                      now[key.first].x,
+                      now[key.first].a * now[key.first].n});
+    return list;
+  }
+
+
+  template class ContactPairs<2>;
+  template class ContactPairs<3>;
+} // namespace Morula

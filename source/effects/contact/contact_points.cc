@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/send_records.h>
+#include <morula/effects/contact/contact_points.h>
+#include <morula/particles/nearest.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Points may face each other only if the product of their normals is below
+     *  this. It leaves room for turns within a step: a pair acts below -0.3. */
+    constexpr double may_face = 0.2;
+
+    /** What ranks tell each other of a boundary point: its area vector, body,
+     *  spacing, and position in the store. */
+    template <int dim>
+    using PointMessage =
+      std::tuple<Tensor<1, dim>, unsigned int, double, unsigned int>;
+
+    /** Value and gradient weights of the unknowns of a point at @p x. */
+    template <int dim>
+    void
+    set_unknowns(const SplineSpace<dim> &space, ContactPoint<dim> &point)
+    {
+      // With u = C ũ inside a grid cell, the displacement of a place is
+      // Σ_s (Σ_a C_as N_a) ũ_s, doc/theory.md (3.5).
+      const auto &grid_cell =
+        space.grid_cells()[space.entry(point.grid_cell, point.body)];
+      const SplineValues<dim> splines(
+        space.box().unit_position(point.x, space.box().index(grid_cell.number)),
+        space.box().spacing());
+      const unsigned int m = grid_cell.unknowns.size();
+      point.unknowns       = grid_cell.unknowns;
+      point.values.assign(m, 0.);
+      point.gradients.assign(m, Tensor<1, dim>());
+      const auto add =
+        [&](const unsigned int s, const unsigned int a, const double weight) {
+          point.values[s] += weight * splines.value[a];
+          for (unsigned int d = 0; d < dim; ++d)
+            point.gradients[s][d] += weight * splines.gradient[d][a];
+        };
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        if (grid_cell.weights.empty())
+          add(a, a, 1.);
+        else
+          for (unsigned int s = 0; s < m; ++s)
+            add(s, a, grid_cell.weights[a * m + s]);
+    }
+  } // namespace
+
+
+  template <int dim>
+  ContactPoints<dim>::ContactPoints(const Tissue<dim> &tissue,
+                                    SplineSpace<dim>  &space,
+                                    const double       way)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    for (unsigned int p = 0; p < store.size(); ++p)
+      largest_spacing_ = std::max(largest_spacing_, store[p].spacing());
+    largest_spacing_ =
+      Utilities::MPI::max(largest_spacing_, tissue.communicator());
+    find_pairs(tissue, kernel * largest_spacing_ + way);
+    any_ = Utilities::MPI::logical_or(!pairs_.empty(), tissue.communicator());
+    if (any_)
+      find_unknowns(tissue, space);
+  }
+
+
+  template <int dim>
+  void
+  ContactPoints<dim>::find_pairs(const Tissue<dim> &tissue, const double reach)
+  {
+    // Each rank gets the boundary points of all ranks around its own. An R-tree
+    // finds those near a point; of each pair the point with the lower id looks.
+    // The points that occur in pairs get numbers: this rank's first, each
+    // group by id, so that nothing depends on the order of a search.
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const GridBox<dim>        &box   = tissue.grid().box();
+    const unsigned int         rank =
+      Utilities::MPI::this_mpi_process(tissue.communicator());
+    const auto message = [&](const unsigned int p, std::vector<double> &list) {
+      append_flat(list,
+                  PointMessage<dim>(
+                    store.area_vector(p), store.body(p), store[p].spacing(), p));
+    };
+    const PointList<dim> near =
+      near_points(store.positions(),
+                  store,
+                  {Flat<PointMessage<dim>>::n, message, Ties::lowest_id},
+                  tissue.grid(),
+                  static_cast<int>(std::ceil(reach / box.spacing())));
+    const auto tree = pack_rtree_of_indices(near.positions);
+
+    // Places in `near` of the two points of each pair.
+    std::vector<ContactPair> found;
+    for (unsigned int i = 0; i < near.size(); ++i)
+      {
+        const auto [area, body, spacing, p] =
+          near.template value<PointMessage<dim>>(i);
+        if (tissue.grid().owner(box.locate(near.positions[i])) != rank)
+          continue;
+        Point<dim> lower = near.positions[i], upper = lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] -= reach;
+            upper[d] += reach;
+          }
+        std::vector<unsigned int> around;
+        namespace bgi = boost::geometry::index;
+        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
+                   std::back_inserter(around));
+        for (const unsigned int j : around)
+          {
+            const auto [other_area, other_body, other_spacing, q] =
+              near.template value<PointMessage<dim>>(j);
+            if (near.ids[j] > near.ids[i] && other_body != body &&
+                near.positions[i].distance(near.positions[j]) < reach &&
+                area * other_area < may_face * area.norm() * other_area.norm())
+              found.emplace_back(i, j);
+          }
+      }
+    std::map<std::pair<bool, types::particle_index>, unsigned int> places;
+    for (const auto &[i, j] : found)
+      for (const unsigned int k : {i, j})
+        places[{tissue.grid().owner(box.locate(near.positions[k])) != rank,
+                near.ids[k]}] = k;
+    std::map<unsigned int, unsigned int> number; // by place in `near`
+    for (const auto &[key, k] : places)
+      {
+        const auto [area, body, spacing, p] =
+          near.template value<PointMessage<dim>>(k);
+        number[k]                  = points_.size();
+        const GridIndex<dim> index = box.locate(near.positions[k]);
+        points_.push_back({near.ids[k],
+                           body,
+                           near.positions[k],
+                           area,
+                           spacing,
+                           tissue.grid().owner(index),
+                           p,
+                           box.number(index),
+                           {},
+                           {},
+                           {}});
+      }
+    for (const auto &[i, j] : found)
+      pairs_.emplace_back(number.at(i), number.at(j));
+    std::sort(pairs_.begin(),
+              pairs_.end(),
+              [&](const ContactPair &a, const ContactPair &b) {
+                return std::make_pair(points_[a.first].id,
+                                      points_[a.second].id) <
+                       std::make_pair(points_[b.first].id,
+                                      points_[b.second].id);
+              });
+  }
+
+
+  template <int dim>
+  void
+  ContactPoints<dim>::find_unknowns(const Tissue<dim> &tissue,
+                                    SplineSpace<dim>  &space)
+  {
+    // A rank asks the owners of other ranks' points for their unknowns, by
+    // position in their stores. An answer is a list of numbers: how many
+    // unknowns, then each unknown's global number, its value and its gradient.
+    // All foreign unknowns become relevant at once, since that changes the
+    // positions of the others.
+    const MPI_Comm     comm = tissue.communicator();
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    std::map<unsigned int, std::vector<unsigned int>> questions;
+    for (const ContactPoint<dim> &point : points_)
+      if (point.owner != rank)
+        questions[point.owner].push_back(point.p);
+    std::map<unsigned int, std::vector<double>> answers;
+    const BoundaryPoints<dim>                  &store = tissue.boundary_points();
+    for (const auto &[asking, list] : send_records(questions, comm))
+      for (const unsigned int p : list)
+        {
+          ContactPoint<dim> point;
+          point.x         = store.position(p);
+          point.body      = store.body(p);
+          point.grid_cell = space.box().number(space.box().locate(point.x));
+          set_unknowns(space, point);
+          std::vector<double> &answer = answers[asking];
+          answer.push_back(point.unknowns.size());
+          for (std::size_t s = 0; s < point.unknowns.size(); ++s)
+            {
+              answer.push_back(
+                space.relevant().nth_index_in_set(point.unknowns[s]));
+              answer.push_back(point.values[s]);
+              append_flat(answer, point.gradients[s]);
+            }
+        }
+    const auto        received = send_records(answers, comm);
+    constexpr auto    width    = 2 + dim; // numbers for each unknown
+    std::map<unsigned int, std::size_t> next; // number to be read, by owner
+    std::vector<std::vector<types::global_dof_index>> global(points_.size());
+    std::vector<types::global_dof_index>              foreign;
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (ContactPoint<dim> &point = points_[k]; point.owner != rank)
+        {
+          const std::vector<double> &answer = received.at(point.owner);
+          std::size_t               &i      = next[point.owner];
+          const auto                 n = static_cast<std::size_t>(answer[i++]);
+          for (std::size_t s = 0; s < n; ++s, i += width)
+            {
+              global[k].push_back(answer[i]);
+              point.values.push_back(answer[i + 1]);
+              point.gradients.push_back(
+                Flat<Tensor<1, dim>>::read(&answer[i + 2]));
+            }
+          foreign.insert(foreign.end(), global[k].begin(), global[k].end());
+        }
+    std::sort(foreign.begin(), foreign.end());
+    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+    IndexSet more(space.owned().size());
+    more.add_indices(foreign.begin(), foreign.end());
+    space.add_relevant(more);
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (points_[k].owner == rank)
+        set_unknowns(space, points_[k]);
+      else
+        for (const auto unknown : global[k])
+          points_[k].unknowns.push_back(
+            space.relevant().index_within_set(unknown));
+  }
+
+
+  template class ContactPoints<2>;
+  template class ContactPoints<3>;
+} // namespace Morula

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/seeding/bodies.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.templates.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+namespace Morula
+{
+  namespace
+  {
+    namespace bgi = boost::geometry::index;
+
+    /** What all ranks have, in the order of the ranks, which is that of the
+     *  founders' numbers. Collective. */
+    template <typename T>
+    std::vector<T>
+    of_all(const std::vector<T> &mine, const MPI_Comm comm)
+    {
+      std::vector<T> all;
+      for (const auto &part : Utilities::MPI::all_gather(comm, mine))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  bodies_apart(const Founders<dim> &founders, const MPI_Comm comm)
+  {
+    // Every rank gets all founders, which takes far less memory than its cells
+    // do later, and finds the same bodies: a tree gives the neighbours of each
+    // founder, Boost's disjoint sets join them. A set gets its number when its
+    // first founder comes along.
+    const std::vector<Point<dim>> positions = of_all(founders.positions, comm);
+    const std::vector<double>     volumes   = of_all(founders.volumes, comm);
+    std::vector<double>           lengths;
+    for (const double volume : volumes)
+      lengths.push_back(std::pow(volume, 1. / dim));
+    const double longest =
+      lengths.empty() ? 0. : *std::max_element(lengths.begin(), lengths.end());
+    const auto                tree = pack_rtree_of_indices(positions);
+    std::vector<unsigned int> depth(positions.size(), 0),
+      parent(positions.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    boost::disjoint_sets<unsigned int *, unsigned int *> sets(depth.data(),
+                                                              parent.data());
+    std::vector<unsigned int>                            near;
+    for (unsigned int i = 0; i < positions.size(); ++i)
+      {
+        Point<dim> lower = positions[i], upper = lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] -= 0.5 * widest_bond * (lengths[i] + longest);
+            upper[d] += 0.5 * widest_bond * (lengths[i] + longest);
+          }
+        near.clear();
+        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
+                   std::back_inserter(near));
+        for (const unsigned int j : near)
+          if (positions[i].distance(positions[j]) <=
+              0.5 * widest_bond * (lengths[i] + lengths[j]))
+            sets.union_set(i, j);
+      }
+    const unsigned int        no_body = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> body_of_set(positions.size(), no_body), mine;
+    unsigned int              n_bodies = 0;
+    for (unsigned int i = 0; i < positions.size(); ++i)
+      {
+        unsigned int &body = body_of_set[sets.find_set(i)];
+        if (body == no_body)
+          body = n_bodies++;
+        if (i >= founders.first_id &&
+            i < founders.first_id + founders.positions.size())
+          mine.push_back(body);
+      }
+    return mine;
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  bodies_of_patches(const SurfacePatches<dim> &patches,
+                    const Founders<dim>       &founders,
+                    const MPI_Comm             comm)
+  {
+    // The nearest founder may stand on the other side of a narrow gap, but not
+    // behind the patch. A patch without any behind it takes the nearest of all.
+    const std::vector<Point<dim>>   positions = of_all(founders.positions, comm);
+    const std::vector<unsigned int> bodies    = of_all(founders.bodies, comm);
+    const auto                      tree = pack_rtree_of_indices(positions);
+    std::vector<unsigned int>       list;
+    for (std::size_t k = 0; k < patches.positions.size(); ++k)
+      {
+        const Point<dim>     &x = patches.positions[k];
+        const Tensor<1, dim> &n = patches.normals[k];
+        std::vector<unsigned int> found;
+        tree.query(bgi::nearest(x, 1) &&
+                     bgi::satisfies([&](const unsigned int i) {
+                       return (positions[i] - x) * n < 0.;
+                     }),
+                   std::back_inserter(found));
+        if (found.empty())
+          tree.query(bgi::nearest(x, 1), std::back_inserter(found));
+        list.push_back(bodies[found.at(0)]);
+      }
+    return list;
+  }
+
+
+#define INSTANTIATE(dim)                                                      \
+  template std::vector<unsigned int> bodies_apart(const Founders<dim> &,      \
+                                                  const MPI_Comm);            \
+  template std::vector<unsigned int> bodies_of_patches(                       \
+    const SurfacePatches<dim> &, const Founders<dim> &, const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

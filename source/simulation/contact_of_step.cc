@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/step_failed.h>
+#include <morula/particles/nearest.h>
+#include <morula/simulation/contact_of_step.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/boost_adaptors/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Tangential forces of the drag, and forces of new pairs, that are left
+     *  after the last turn, in units of the normal forces. */
+    constexpr double small_part = 0.01;
+
+    /** Forces below this count as none, in units of E h^(dim-1). */
+    constexpr double no_force = 1e-9;
+
+    /** How deep two bodies may overlap that did not at t, in units of h. */
+    constexpr double deepest_crossing = 0.2;
+  } // namespace
+
+
+  template <int dim>
+  ContactTurn<dim>::ContactTurn(const Tissue<dim>        &tissue,
+                                const SplineSpace<dim>   &space,
+                                const ContactPoints<dim> &points,
+                                const ContactLaw         &law,
+                                ContactPairs<dim>        &pairs,
+                                Drag<dim>                &drag,
+                                MomentumBalance<dim>     &balance,
+                                TimerOutput              &timer,
+                                const MPI_Comm            comm)
+    : tissue(tissue)
+    , space(space)
+    , points(points)
+    , law(law)
+    , pairs(pairs)
+    , drag(drag)
+    , balance(balance)
+    , timer(timer)
+    , comm(comm)
+  {}
+
+
+  template <int dim>
+  bool
+  ContactTurn<dim>::has_crossed_from_afar(
+    const DisplacementField<dim> &displacement) const
+  {
+    // Two points that could not meet within the reach of the candidates can if
+    // both move further. Each boundary point tells where the step brings it. A
+    // point that faces another one of another body, near along the surface, has
+    // crossed it if it is behind it now but was before it at t.
+    const BoundaryPoints<dim>  &store = tissue.boundary_points();
+    std::vector<Tensor<1, dim>> ways(store.size());
+    double                      longest = 0.;
+    displacement.at_points(store,
+                           [&](const unsigned int       p,
+                               const LocalField<dim>   &field,
+                               const SplineValues<dim> &splines) {
+                             ways[p] = field.value(splines);
+                             longest = std::max(longest, ways[p].norm());
+                           });
+    longest = Utilities::MPI::max(longest, comm);
+    if (2. * longest <= law.h)
+      return false;
+    const double reach =
+      2. * longest + ContactPoints<dim>::kernel * points.largest_spacing();
+    const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
+      append_flat(list, store.area_vector(p));
+      append_flat(list, ways[p]);
+      list.push_back(store.body(p));
+    };
+    const PointList<dim> near =
+      near_points(store.positions(),
+                  store,
+                  {2 * dim + 1, numbers, Ties::lowest_id},
+                  tissue.grid(),
+                  static_cast<int>(std::ceil(reach / law.h)));
+    const auto tree    = pack_rtree_of_indices(near.positions);
+    bool       crossed = false;
+    for (unsigned int p = 0; p < store.size() && !crossed; ++p)
+      {
+        const Point<dim>     x = store.position(p);
+        const Tensor<1, dim> n =
+          store.area_vector(p) / store.area_vector(p).norm();
+        Point<dim> lower = x, upper = x;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] -= reach;
+            upper[d] += reach;
+          }
+        std::vector<unsigned int> around;
+        namespace bgi = boost::geometry::index;
+        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
+                   std::back_inserter(around));
+        for (const unsigned int i : around)
+          {
+            const double *const row = near.row(i).data();
+            if (row[2 * dim] == store.body(p))
+              continue;
+            const auto area  = Flat<Tensor<1, dim>>::read(row);
+            const auto way   = Flat<Tensor<1, dim>>::read(row + dim);
+            const Tensor<1, dim> across = 0.5 * (area / area.norm() - n);
+            if (n * area > -0.3 * area.norm())
+              continue;
+            const Tensor<1, dim> before = x - near.positions[i];
+            const Tensor<1, dim> after  = before + ways[p] - way;
+            const Tensor<1, dim> normal = across / across.norm();
+            const double         s = (after - (normal * after) * normal).norm();
+            crossed =
+              crossed || (across * before > 0. &&
+                          across * after < -deepest_crossing * law.h &&
+                          s < points.largest_spacing());
+          }
+      }
+    return Utilities::MPI::logical_or(crossed, comm);
+  }
+
+
+  template <int dim>
+  bool
+  ContactTurn<dim>::renew(const Equilibrium::Vector &u)
+  {
+    // All ranks get the sums and extremes of all pairs, so that they decide
+    // alike. Where the equilibrium is good enough, the frozen geometry stays:
+    // forces are read from the state that was solved for. Otherwise the pairs
+    // take their new geometry, and the weak drag a new centre.
+    const TimerOutput::Scope section(timer, "contact");
+    const auto renewal = pairs.look(balance.relevant_values(u));
+    double     sums[4] = {renewal.normal,
+                          renewal.tangential,
+                          renewal.of_new_pairs,
+                          1. * renewal.has_new_links};
+    Utilities::MPI::sum(sums, comm, sums);
+    const double crossed = Utilities::MPI::max(renewal.crossed, comm),
+                 slid    = Utilities::MPI::max(renewal.slid, comm);
+    const DisplacementField<dim> displacement(space, u, comm);
+    std::ostringstream           text;
+    if (crossed > 0.)
+      text << "two bodies overlap by " << crossed
+           << " um, so that the step is too long for their contact";
+    else if (slid > law.h)
+      text << "bodies in contact slide by " << slid
+           << " um along each other, more than a grid spacing: the step is too "
+              "long for their contact";
+    else if (has_crossed_from_afar(displacement))
+      text << "bodies pass through each other, so that the step is too long "
+              "for their contact";
+    if (!text.str().empty())
+      throw StepFailed(text.str());
+
+    const double unit = law.E * std::pow(law.h, dim - 1);
+    if (sums[1] <= small_part * sums[0] + no_force * unit &&
+        sums[2] <= small_part * sums[0] + no_force * unit)
+      return false;
+    pairs.adopt();
+    if (sums[3] > 0.)
+      balance.renew_links();
+    std::vector<Tensor<1, dim>> ways(tissue.cells().size());
+    displacement.at_points(tissue.cells(),
+                           [&](const unsigned int       p,
+                               const LocalField<dim>   &field,
+                               const SplineValues<dim> &splines) {
+                             ways[p] = field.value(splines);
+                           });
+    drag.set_centre(std::move(ways));
+    return true;
+  }
+
+
+  template <int dim>
+  std::string
+  ContactTurn<dim>::unfinished() const
+  {
+    return "the contact of two bodies is still changing after twenty turns";
+  }
+
+
+  template <int dim>
+  std::vector<ContactForce<dim>>
+  ContactTurn<dim>::forces(const Equilibrium::Vector &u) const
+  {
+    return contact_forces(points, pairs, balance.relevant_values(u), comm);
+  }
+
+
+  template class ContactTurn<2>;
+  template class ContactTurn<3>;
+} // namespace Morula

@@ -12,6 +12,7 @@
 #include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
+#include <morula/seeding/bodies.h>
 #include <morula/seeding/near_bodies.h>
 #include <morula/simulation/simulation.h>
 
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -28,6 +30,9 @@ namespace Morula
 {
   namespace
   {
+    /** So many bodies are described one by one. */
+    constexpr std::size_t most_bodies_listed = 8;
+
     /** What `Method` stands for in this scene, a key a line. */
     void
     print_method(std::ostream &out, const Scene &scene)
@@ -142,6 +147,45 @@ namespace Morula
       EffectRows                         effects;
     };
 
+    /** The bodies that have contact, and how it acts. */
+    template <int dim>
+    void
+    add_contact(EffectRows              &rows,
+                const Scene             &scene,
+                const SeededTissue<dim> &tissue,
+                const MPI_Comm           comm)
+    {
+      const auto bodies =
+        measures_of_bodies(tissue.founders, tissue.surface, comm);
+      std::ostringstream text;
+      text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
+           << ", each with splines of its own";
+      double thinnest = std::numeric_limits<double>::infinity();
+      for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
+        text << "; body " << b << ": " << bodies[b].cells << " cells, "
+             << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
+             << ", surface " << bodies[b].area
+             << (dim == 3 ? " um^2" : " um");
+      for (const BodyMeasures &body : bodies)
+        thinnest = std::min(thinnest, body.thickness());
+      add_effect(rows, "bodies", true, text.str());
+      text.str("");
+      const double h = scene.grid.spacing;
+      text << "boundary points that face each other press from their first "
+              "overlap on, "
+           << as_text(scene.contact.stiffness)
+           << " E/h: bodies overlap by h/" << as_text(scene.contact.stiffness)
+           << " (" << h / scene.contact.stiffness
+           << " um) at a pressure of E; without friction; in a step two of "
+              "them come nearer by at most "
+           << h << " um; the thinnest body is about " << thinnest
+           << " um thick (2 V/A), the least is " << 0.4 * h
+           << " um; fields "
+           << (scene.contact.fields_pass ? "pass from body to body" :
+                                           "end at each body's surface");
+      add_effect(rows, "contact", true, text.str());
+    }
+
     /** How many bodies the tissue is, and which surfaces its mesh has. */
     template <int dim>
     void
@@ -150,6 +194,8 @@ namespace Morula
                const SeededTissue<dim> &tissue,
                const MPI_Comm           comm)
     {
+      if (scene.contact.is_on())
+        return add_contact(rows, scene, tissue, comm);
       const BodyCounts counts =
         count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
       add_effect(rows,

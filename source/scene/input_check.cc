@@ -299,6 +299,33 @@ namespace Morula
       scene.nitsche.check_each(dim);
     }
 
+    /** Refuses contact where bodies have no surface that could touch, or where
+     *  patches would grow too long for it. */
+    template <int dim>
+    void
+    check_contact(const Scene &scene)
+    {
+      const ContactParameters &contact = scene.contact;
+      contact.check_each(dim);
+      if (!contact.is_on())
+        return;
+      if (scene.tissue.has_no_surface())
+        contact.between.refuse("none, as " +
+                                 scene.tissue.points_surface.path() + " = none",
+                               "Bodies touch with their boundary points: set "
+                               "Points surface = automatic.");
+      if (contact.bodies == "cell type" && !scene.cell_types.present())
+        contact.bodies.refuse("apart, as " + scene.cell_types.names.path() +
+                                " is empty",
+                              "Name the types of the cells, or choose apart.");
+      if (scene.has_active_tissue() && !scene.tissue.refine_surface)
+        scene.tissue.refine_surface.refuse(
+          "true, as " + contact.between.path() + " = " + contact.between.text() +
+            " and the tissue grows or flows",
+          "Patches that grow longer than half a grid spacing let bodies pass "
+          "through each other.");
+    }
+
     template <int dim>
     void
     check_scene(const Scene &scene)
@@ -328,6 +355,7 @@ namespace Morula
       check_switched<dim>(scene, scene.catalogue.step_effects);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
+      check_contact<dim>(scene);
       scene.solver.check_each(dim);
       check_kernel(scene.solver.kernel, scene.material);
       scene.output.check_each(dim);

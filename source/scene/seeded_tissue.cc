@@ -79,6 +79,35 @@ namespace Morula
       return patches;
     }
 
+    /** Refuses bodies that contact cannot hold apart. Collective. @throws
+     *  InputError */
+    template <int dim>
+    void
+    check_bodies(const Scene             &scene,
+                 const SeededTissue<dim> &tissue,
+                 const MPI_Comm           comm)
+    {
+      // Two sheets on each other that together are thinner than the deepest
+      // overlap of a pair (0.4 h) would press with their outer faces.
+      const auto bodies =
+        measures_of_bodies(tissue.founders, tissue.surface, comm);
+      const double least = 0.4 * scene.grid.spacing;
+      for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (bodies[b].cells > 0. && bodies[b].area == 0.)
+          scene.contact.between.refuse(
+            "none, as body " + std::to_string(b) + " has no boundary points",
+            "Give it a surface of its own in " +
+              scene.tissue.points_surface.path() + ".");
+        else if (bodies[b].cells > 0. && bodies[b].thickness() < least)
+          scene.contact.between.refuse(
+            "none, as body " + std::to_string(b) + " is about " +
+              as_text(bodies[b].thickness()) +
+              " um thick, and contact holds bodies apart from 0.4 grid "
+              "spacings on",
+            "Choose " + scene.grid.spacing.path() + " below " +
+              as_text(2.5 * bodies[b].thickness()) + " um.");
+    }
+
     template <int dim>
     SurfacePatches<dim>
     surface(const Scene         &scene,
@@ -109,6 +138,8 @@ namespace Morula
     if (scene.contact.is_on())
       tissue.founders.bodies = bodies(scene, tissue.founders, comm);
     tissue.surface = surface(scene, tissue.founders, comm);
+    if (scene.contact.is_on())
+      check_bodies(scene, tissue, comm);
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);
     tissue.counts   = check_at_surface(scene, tissue.surface, comm);

@@ -79,7 +79,8 @@ namespace Morula
       conditions.has(SurfaceCondition::slip) && scene.has_active_tissue();
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
-    review_bodies(scene.grid, scene.tissue, founders, surface, comm, review);
+    if (!scene.contact.is_on())
+      review_bodies(scene.grid, scene.tissue, founders, surface, comm, review);
 
     Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);

@@ -120,7 +120,35 @@ namespace Morula
   }
 
 
+  template <int dim>
+  std::vector<BodyMeasures>
+  measures_of_bodies(const Founders<dim>       &founders,
+                     const SurfacePatches<dim> &patches,
+                     const MPI_Comm             comm)
+  {
+    unsigned int n = 0;
+    for (const unsigned int body : founders.bodies)
+      n = std::max(n, body + 1);
+    n = Utilities::MPI::max(n, comm);
+    std::vector<double> sums(3 * n, 0.);
+    for (std::size_t i = 0; i < founders.bodies.size(); ++i)
+      {
+        sums[3 * founders.bodies[i]] += 1.;
+        sums[3 * founders.bodies[i] + 1] += founders.volumes[i];
+      }
+    for (std::size_t k = 0; k < patches.bodies.size(); ++k)
+      sums[3 * patches.bodies[k] + 2] += patches.areas[k];
+    Utilities::MPI::sum(sums, comm, sums);
+    std::vector<BodyMeasures> bodies;
+    for (unsigned int b = 0; b < n; ++b)
+      bodies.push_back({sums[3 * b], sums[3 * b + 1], sums[3 * b + 2]});
+    return bodies;
+  }
+
+
 #define INSTANTIATE(dim)                                                      \
+  template std::vector<BodyMeasures> measures_of_bodies(                      \
+    const Founders<dim> &, const SurfacePatches<dim> &, const MPI_Comm);      \
   template std::vector<unsigned int> bodies_apart(const Founders<dim> &,      \
                                                   const MPI_Comm);            \
   template std::vector<unsigned int> bodies_of_patches(                       \

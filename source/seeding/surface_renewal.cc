@@ -149,12 +149,15 @@ namespace Morula
     /** Positions and present volumes (µm^dim) of the cells of all ranks. */
     template <int dim>
     PointList<dim>
-    volumes_of_all_ranks(const Cells<dim> &cells, const MPI_Comm comm)
+    volumes_of_all_ranks(const Cells<dim>                  &cells,
+                         const MPI_Comm                     comm,
+                         const std::optional<unsigned int> &body = {})
     {
       PointList<dim> own(1);
       own.reserve(cells.size());
       for (unsigned int p = 0; p < cells.size(); ++p)
-        own.add_value(cells.id(p), cells.position(p), cells.volume(p));
+        if (!body || cells.body(p) == *body)
+          own.add_value(cells.id(p), cells.position(p), cells.volume(p));
       return of_all_ranks(own, comm);
     }
   } // namespace
@@ -169,7 +172,8 @@ namespace Morula
                   const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
-                  const MPI_Comm              comm)
+                  const MPI_Comm              comm,
+                  const std::optional<unsigned int> &body)
   {
     // All ranks give their cells and points to all, by id; rank 0 makes the
     // surface around the cells, since CGAL works on one rank. Held points stay
@@ -178,7 +182,7 @@ namespace Morula
     // former one. Whether there is a surface, and how many ids it takes, is
     // told to all ranks. The new points stand on rank 0; placing the tissue
     // sends them to their owners.
-    const PointList<dim> all         = volumes_of_all_ranks(cells, comm);
+    const PointList<dim> all         = volumes_of_all_ranks(cells, comm, body);
     const PointList<dim> all_former  = of_all_ranks(former, comm);
     const PointList<dim> all_present = of_all_ranks(present, comm);
     const bool           is_possible = all.size() > 0 && all_former.size() > 0;
@@ -321,7 +325,8 @@ namespace Morula
     const SurfaceWish &,                                             \
     const double,                                                    \
     types::particle_index &,                                         \
-    const MPI_Comm);                                                 \
+    const MPI_Comm,                                                  \
+    const std::optional<unsigned int> &);                            \
   template std::optional<PointList<dim>> carved_surface(             \
     const Cells<dim> &,                                              \
     const PointList<dim> &,                                          \

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <cstdint>
 #include <vector>
 
@@ -315,7 +316,9 @@ namespace Morula
     // surface, the old one stays.
     const TimerOutput::Scope   section(timer, "surface renewal");
     const BoundaryPoints<dim> &points = tissue.boundary_points();
-    const auto                 list   = renewed_surface(tissue.cells(),
+    if (points.has_bodies())
+      return renew_bodies(tissue, former, wish);
+    const auto list = renewed_surface(tissue.cells(),
                                       former,
                                       points.copy(),
                                       points.columns(),
@@ -326,6 +329,61 @@ namespace Morula
     if (list)
       tissue.replace_surface(*list);
     return list.has_value();
+  }
+
+
+  template <int dim>
+  bool
+  FollowingSurface<dim>::renew_bodies(Tissue<dim>          &tissue,
+                                      const PointList<dim> &former,
+                                      const SurfaceWish    &wish)
+  {
+    // Each body gets a surface around its own cells, which encloses its share
+    // of the wished volume: one around all would close the gaps between them.
+    // If one of them has no common surface the old ones stay.
+    const Cells<dim>          &cells  = tissue.cells();
+    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    const auto                &columns = points.columns();
+    const auto of_body = [&](const PointList<dim> &list, const unsigned int b) {
+      PointList<dim> some(list.n_numbers);
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (columns.body.get(list.row(i)) == b)
+          some.add(list.ids[i],
+                   list.positions[i],
+                   ArrayView<const double>(list.row(i)));
+      return some;
+    };
+    unsigned int n = 0;
+    for (const unsigned int body : cells.bodies())
+      n = std::max(n, body + 1);
+    n = Utilities::MPI::max(n, comm);
+    std::vector<double> volumes(n, 0.);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      volumes[cells.body(p)] += cells.volume(p);
+    Utilities::MPI::sum(volumes, comm, volumes);
+    const double all = std::accumulate(volumes.begin(), volumes.end(), 0.);
+    PointList<dim> list(columns.n_numbers());
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        if (volumes[b] == 0.)
+          continue;
+        SurfaceWish of_this = wish;
+        of_this.volume *= volumes[b] / all;
+        const auto more = renewed_surface(cells,
+                                          of_body(former, b),
+                                          of_body(points.copy(), b),
+                                          columns,
+                                          of_this,
+                                          longest_edge,
+                                          next_id,
+                                          comm,
+                                          b);
+        if (!more)
+          return false;
+        list.append(*more);
+      }
+    tissue.replace_surface(list);
+    return true;
   }
 
 
@@ -343,8 +401,10 @@ namespace Morula
     const TimerOutput::Scope section(timer, "surface refinement");
     PointList<dim>           points  = tissue.boundary_points().copy();
     const auto              &columns = tissue.boundary_points().columns();
-    const auto               alike   = [this](const auto &a, const auto &b) {
-      return model.boundary_conditions.alike(a, b);
+    const auto               alike   = [&](const auto &a, const auto &b) {
+      return model.boundary_conditions.alike(a, b) &&
+             (!columns.body.exists() ||
+              a.get(columns.body) == b.get(columns.body));
     };
     const bool has_merged =
       model.scene.tissue.coarsen_surface &&

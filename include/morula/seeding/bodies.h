@@ -25,6 +25,30 @@ namespace Morula
   std::vector<unsigned int>
   bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
 
+  /** What a body is at t = 0. */
+  struct BodyMeasures
+  {
+    double cells = 0.; // their number
+    /** Of its cells, µm^dim. */
+    double volume = 0.;
+    /** Of its patches, µm^(dim-1). */
+    double area = 0.;
+
+    /** The thickness of a sheet with this volume and area, µm. */
+    double
+    thickness() const
+    {
+      return area > 0. ? 2. * volume / area : 0.;
+    }
+  };
+
+  /** The measures of all bodies, by their numbers. Collective. */
+  template <int dim>
+  std::vector<BodyMeasures>
+  measures_of_bodies(const Founders<dim>       &founders,
+                     const SurfacePatches<dim> &patches,
+                     const MPI_Comm             comm);
+
   /** The body of each of this rank's patches: that of the nearest founder
    *  behind the patch. Collective. */
   template <int dim>

@@ -33,6 +33,8 @@ namespace Morula
    *        patch area that of wanted_area()
    * @param longest_edge of a patch, µm
    * @param next_id is raised by the number of new points
+   * @param body the surface is made around the cells of this body alone, if
+   *        given; @p former and @p present are its points then
    * @return the points, all of them on rank 0; nothing if the cells have no
    * common surface, or never had one
    */
@@ -45,7 +47,8 @@ namespace Morula
                   const SurfaceWish          &wish,
                   const double                longest_edge,
                   types::particle_index      &next_id,
-                  const MPI_Comm              comm);
+                  const MPI_Comm              comm,
+                  const std::optional<unsigned int> &body = {});
 
   /**
    * The boundary points of a tissue that was carved at t = 0: the present ones

@@ -90,6 +90,11 @@ namespace Morula
                    const std::function<void()> &change) const;
     bool
     renews() const;
+    /** renew(), body by body. */
+    bool
+    renew_bodies(Tissue<dim>          &tissue,
+                 const PointList<dim> &former,
+                 const SurfaceWish    &wish);
     void
     renew_if_due(Tissue<dim>          &tissue,
                  const PointList<dim> &former,

@@ -7,6 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -204,6 +205,20 @@ namespace Morula
 
 
   template <int dim>
+  Tensor<2, dim>
+  ContactPairs<dim>::stiffness(const Pair                        &pair,
+                               const std::vector<Tensor<1, dim>> &u) const
+  {
+    Tensor<2, dim> M =
+      pair.drag * (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
+                   outer_product(pair.normal, pair.normal));
+    if (gap(pair, u) < 0.)
+      M += law.kappa * outer_product(pair.across, pair.across);
+    return pair.weight * M;
+  }
+
+
+  template <int dim>
   void
   ContactPairs<dim>::add_residual(const std::vector<double> &u,
                                   Sums                      &sums) const
@@ -257,43 +272,95 @@ namespace Morula
     const std::function<void(unsigned int, const std::vector<double> &)> &add)
     const
   {
-    // Pairs are taken link by link, so that one matrix is filled at a time. A
-    // pair's jump is w = Σ_s q_s ũ_s, with the values of b, and minus those of
-    // c; its part is A (κ D⊗D + k_t P) q qᵀ, doc/theory.md (4.8l).
-    const std::vector<Tensor<1, dim>>      ways = displacements(u);
-    std::vector<std::vector<const Pair *>> of_links(links_.size());
+    // A pair's jump is w = Σ_s q_s ũ_s, with the values φ of b, and minus those
+    // of c; its part is A M q qᵀ with M = κ D⊗D + k_t P, doc/theory.md (4.8l).
+    // Pairs are taken link by link, so that one matrix is filled at a time, and
+    // in it point by point: the blocks of a point with itself need the sum of M
+    // over its pairs, and those of b with all its partners the sum of M φ_c.
+    const std::vector<Tensor<1, dim>>                      ways = displacements(u);
+    std::vector<std::map<unsigned int, std::vector<const Pair *>>> of_links(
+      links_.size()); // pairs by their point b
     for (const Pair &pair : pairs)
       if (pair.drag > 0. || gap(pair, ways) < 0.)
-        of_links[pair.link].push_back(&pair);
-    std::vector<double> matrix, q;
+        of_links[pair.link][pair.b].push_back(&pair);
+    std::vector<double> matrix;
     for (unsigned int link = 0; link < links_.size(); ++link)
       {
         if (of_links[link].empty())
           continue;
         const unsigned int m = links_[link].size();
         matrix.assign(dim * m * dim * m, 0.);
-        for (const Pair *const pair : of_links[link])
+        // The block of the unknowns from s0 on with those from t0 on.
+        const auto add_block = [&](const std::vector<double> &of_rows,
+                                   const unsigned int         s0,
+                                   const auto                &of_columns,
+                                   const unsigned int         t0) {
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int s = 0; s < of_rows.size(); ++s)
+              for (unsigned int j = 0; j < dim; ++j)
+                {
+                  double *const row =
+                    &matrix[((i * m + s0 + s) * dim + j) * m + t0];
+                  const std::vector<double> &column = of_columns(i, j);
+                  for (unsigned int t = 0; t < column.size(); ++t)
+                    row[t] += of_rows[s] * column[t];
+                }
+        };
+        std::map<unsigned int, Tensor<2, dim>>                 of_partners;
+        std::array<std::array<std::vector<double>, dim>, dim> sums;
+        const unsigned int n_b =
+          points.points()[of_links[link].begin()->first].unknowns.size();
+        // M times the values of a point, by components.
+        const auto scaled = [&](const Tensor<2, dim>      &M,
+                                const std::vector<double> &values) {
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              {
+                sums[i][j].resize(values.size());
+                for (std::size_t t = 0; t < values.size(); ++t)
+                  sums[i][j][t] = M[i][j] * values[t];
+              }
+        };
+        const auto columns = [&](const unsigned int i,
+                                 const unsigned int j) -> const auto & {
+          return sums[i][j];
+        };
+        for (const auto &[b, list] : of_links[link])
           {
-            q = points.points()[pair->b].values;
-            for (const double value : points.points()[pair->c].values)
-              q.push_back(-value);
-            Tensor<2, dim> M =
-              pair->drag *
-              (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
-               outer_product(pair->normal, pair->normal));
-            if (gap(*pair, ways) < 0.)
-              M += law.kappa * outer_product(pair->across, pair->across);
-            M *= pair->weight;
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int s = 0; s < m; ++s)
-                for (unsigned int j = 0; j < dim; ++j)
-                  {
-                    const double factor = M[i][j] * q[s];
-                    double *row = &matrix[((i * m + s) * dim + j) * m];
-                    for (unsigned int t = 0; t < m; ++t)
-                      row[t] += factor * q[t];
-                  }
+            const std::vector<double> &of_b = points.points()[b].values;
+            Tensor<2, dim>             whole;
+            for (auto &row : sums)
+              for (std::vector<double> &column : row)
+                column.assign(m - n_b, 0.);
+            for (const Pair *const pair : list)
+              {
+                const Tensor<2, dim> M = stiffness(*pair, ways);
+                whole += M;
+                of_partners[pair->c] += M;
+                const std::vector<double> &of_c =
+                  points.points()[pair->c].values;
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    for (std::size_t t = 0; t < of_c.size(); ++t)
+                      sums[i][j][t] -= M[i][j] * of_c[t];
+              }
+            add_block(of_b, 0, columns, n_b);
+            scaled(whole, of_b);
+            add_block(of_b, 0, columns, 0);
           }
+        for (const auto &[c, M] : of_partners)
+          {
+            const std::vector<double> &of_c = points.points()[c].values;
+            scaled(M, of_c);
+            add_block(of_c, n_b, columns, n_b);
+          }
+        // M is symmetric, and so is the whole.
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int s = n_b; s < m; ++s)
+            for (unsigned int j = 0; j < dim; ++j)
+              for (unsigned int t = 0; t < n_b; ++t)
+                matrix[((i * m + s) * dim + j) * m + t] =
+                  matrix[((j * m + t) * dim + i) * m + s];
         add(link, matrix);
       }
   }

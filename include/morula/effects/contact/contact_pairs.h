@@ -121,6 +121,11 @@ namespace Morula
     Tensor<1, dim>
     force(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
 
+    /** Minus the derivative of force() by the displacement of b. */
+    Tensor<2, dim>
+    stiffness(const Pair                        &pair,
+              const std::vector<Tensor<1, dim>> &u) const;
+
     /** The pairs of a configuration.
      *  @param first_contact whether pairs that nearly touch may turn into
      *         contact, as in the first turn of a step */

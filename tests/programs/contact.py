@@ -1,0 +1,267 @@
+#!/usr/bin/python3
+# ranks: 3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Bodies in contact against closed forms: they press, slide, part again, and no
+step lets them pass through each other."""
+import math
+
+import numpy as np
+
+from morula.run import Run
+from program import ProgramTest, main, overrides, read_csv
+
+SCENE = """
+set Dimension = 2
+subsection Time
+  set End time = 0.4
+  set Step     = 0.1
+end
+subsection Tissue
+  set Shape          = points
+  set Points file    = cells.csv
+  set Points surface = surface.wkt
+end
+subsection Grid
+  set Spacing = 10
+end
+subsection Cell types
+  set Names = a, b
+end
+subsection Contact
+  set Between = bodies
+  set Bodies  = cell type
+end
+subsection Material
+  set Young's modulus = 1
+  set Poisson's ratio = 0.4
+end
+subsection Output
+  set Formats  = csv
+  set Interval = 0.1
+end
+"""
+
+
+def block(low, high, body):
+    """Cells of 2 um in a block that is 60 um wide."""
+    n = round((high - low) / 2)
+    step = (high - low) / n
+    return [(1 + 2 * i, low + (j + 0.5) * step, 2 * step, body)
+            for j in range(n) for i in range(30)]
+
+
+def rectangle(low, high):
+    return [(0, low), (60, low), (60, high), (0, high), (0, low)]
+
+
+def annulus(inner, outer, body, center=0.0):
+    """Cells of about 4 um^2 in rings."""
+    cells = []
+    n = round((outer - inner) / 2)
+    for k in range(n):
+        a, b = inner + 2 * k, inner + 2 * k + 2
+        m = max(3, round(math.pi * (b * b - a * a) / 4))
+        r = 2 * (b**3 - a**3) / (3 * (b * b - a * a))
+        for j in range(m):
+            angle = 2 * math.pi * (j + 0.5 * (k % 2)) / m + 0.1 * k
+            cells.append((r * math.cos(angle), center + r * math.sin(angle),
+                          math.pi * (b * b - a * a) / m, body))
+    return cells
+
+
+def circle(radius, center=0.0, sign=1, n=400):
+    """A polygon with the area of the circle."""
+    r = radius * math.sqrt(2 * math.pi / n / math.sin(2 * math.pi / n))
+    return [(r * math.cos(2 * math.pi * sign * i / n),
+             center + r * math.sin(2 * math.pi * sign * i / n))
+            for i in range(n + 1)]
+
+
+class Contact(ProgramTest):
+    def scene(self, cells, polygons, text=SCENE):
+        """Writes the files of a scene. @param polygons lists of rings"""
+        lines = ["x,y,volume,type"] + [f"{x:.9f},{y:.9f},{v:.9f},{t}"
+                                       for x, y, v, t in cells]
+        self.write("cells.csv", "\n".join(lines) + "\n")
+        self.write("surface.wkt", "MULTIPOLYGON(" + ", ".join(
+            "(" + ", ".join("(" + ", ".join(f"{x:.9f} {y:.9f}" for x, y in ring)
+                            + ")" for ring in polygon) + ")"
+            for polygon in polygons) + ")\n")
+        return self.write("scene.prm", text)
+
+    def run_scene(self, scene, keys, ranks=1):
+        self.execute(scene, "--replace", *overrides(keys), ranks=ranks)
+        return read_csv(self.work / "output/statistics.csv")
+
+    def forces(self):
+        """The rows of bodies on bodies."""
+        rows = Run(self.work / "output").forces
+        return rows[rows["kind"] == "contact"]
+
+    def blocks(self, gap):
+        height = 30 + gap
+        return self.scene(block(0, 30, "a") + block(height, height + 30, "b"),
+                          [[rectangle(0, 30)], [rectangle(height, height + 30)]])
+
+    @staticmethod
+    def press(top, way):
+        return {"Boundary conditions/Slip where":
+                "X < 0.001 || X > 59.999 || Y < 0.001",
+                "Boundary conditions/Fixed where": f"Y > {top - 0.001}",
+                "Boundary conditions/Displacement": f"0; -({way})",
+                "Tissue/Boundary points": "144"}
+
+    def test_blocks_press_as_one(self):
+        """Uniaxial strain of two blocks, also of unequal ones, wherever the grid
+        lies and on any ranks: pressure and evenness."""
+        scene = self.blocks(1e-4)
+        found = []
+        for ranks, offset, E, exact, within in (
+                (1, "0, 0", "1", 0.1542733, 1e-3),
+                (2, "0, 0", "1", 0.1542733, 1e-3),
+                (3, "3.7, 6.1", "1", 0.1542733, 1e-3),
+                (1, "8.9, 8.9", "1", 0.1542733, 1e-3),
+                (1, "1.3, 5", "if(type == b, 10, 1)", 0.2978, 2e-3)):
+            self.run_scene(scene, {**self.press(60, "10*t"), "Grid/Offset": offset,
+                                   "Material/Young's modulus": E}, ranks)
+            last = self.forces().iloc[-1]
+            self.assertEqual(last["name"], "body 0 on body 1")
+            self.assertAlmostEqual(last["force_y"] / 60 / exact, 1, delta=within)
+            found.append(last["force_y"])
+            if E == "1":
+                cells = read_csv(self.work / "output/cells-0004.csv")
+                stress = cells["sigma_yy"]
+                self.assertLess(np.std(stress), 8e-3 * abs(np.mean(stress)))
+                points = read_csv(self.work / "output/surface-0004.csv")
+                middle = ((abs(points["ny"]) > 0.9) & (abs(points["Y"] - 30) < 1)
+                          & (abs(points["x"] - 30) < 20))
+                self.assertLess(np.max(abs(points["contact_pressure"][middle]
+                                           / exact - 1)), 0.03)
+        self.assertAlmostEqual(found[0], found[1], delta=1e-5 * found[0])
+
+    def test_core_in_a_ring(self):
+        """A core that grows in a ring, and a ring that grows off its core: the
+        radial equations with the penalty; resumed bit for bit."""
+        scene = self.scene(annulus(0, 20, "a") + annulus(20, 40, "b"),
+                           [[circle(20)], [circle(40), circle(20.001, sign=-1)]])
+        keys = {"Tissue/Boundary points": "300", "Tissue/Refine surface": "true",
+                "Time/End time": "2", "Time/Step": "0.5", "Output/Interval": "1",
+                "Growth/Law": "rate",
+                "Growth/Rate/Rate": "(type == a)*0.2/(1 + 0.1*t)"}
+        statistics = self.run_scene(scene, keys)
+        self.assertLessEqual(max(statistics["newton_iterations"]), 12)
+        for row, exact in zip(self.forces().to_dict("records"), (0.0391286, 0.06945)):
+            self.assertAlmostEqual(row["force_inward"] / row["area"] / exact, 1,
+                                   delta=5e-3)
+            self.assertLess(math.hypot(row["force_x"], row["force_y"]),
+                            1e-3 * row["force_inward"])
+        self.assertAlmostEqual(statistics["xmax"][-1] - statistics["xmax"][0],
+                               2.004, delta=0.01)
+        whole = [(self.work / f"output/{name}.csv").read_bytes()
+                 for name in ("cells-0002", "surface-0002", "forces")]
+        self.run_scene(scene, {**keys, "Time/End time": "1"})
+        self.execute(scene, "--resume", *overrides(keys))
+        self.assertEqual(whole, [(self.work / f"output/{name}.csv")
+                                 .read_bytes()
+                                 for name in ("cells-0002", "surface-0002",
+                                              "forces")])
+
+        self.run_scene(scene, {**keys, "Growth/Rate/Rate":
+                               "(type == b)*0.2/(1 + 0.1*t)"})
+        self.assertEqual(len(self.forces()), 0)
+        points = read_csv(self.work / "output/surface-0002.csv")
+        radius = np.hypot(points["x"], points["y"])
+        inner = radius[(points["body"] == 1) & (radius < 30)]
+        start = np.hypot(points["X"], points["Y"])[(points["body"] == 1)
+                                                   & (radius < 30)]
+        self.assertLess(np.max(abs(inner / start - 1.2)), 1e-3)
+        core = read_csv(self.work / "output/cells-0002.csv")
+        core = core[core["body"] == 0]
+        self.assertLess(np.max(np.hypot(core["x"] - core["X"],
+                                        core["y"] - core["Y"])), 1e-4)
+        self.assertLess(max(np.max(abs(core[f"sigma_{i}"]))
+                            for i in ("xx", "yy", "xy")), 1e-8)
+
+    def test_two_discs_are_one_at_a_mirror(self):
+        """Two discs between clamps press as one against a plane: exact by
+        symmetry."""
+        keys = {"Time/End time": "1", "Output/Interval": "1"}
+        for offset in ("0, 0", "3, 7"):
+            scene = self.scene(
+                annulus(0, 40, "a", 40.02) + annulus(0, 40, "b", -40.02),
+                [[circle(40, 40.02)], [circle(40, -40.02)]])
+            self.run_scene(scene, {
+                **keys, "Grid/Offset": offset, "Tissue/Boundary points": "250",
+                "Boundary conditions/Fixed where": "abs(Y) > 77",
+                "Boundary conditions/Displacement": "0; if(Y > 0, -8*t, 0)"})
+            two = -self.forces().iloc[-1]["force_y"]
+            text = SCENE + """
+subsection Obstacles
+  set Names = floor
+  subsection floor
+    set Shape  = plane
+    set Normal = 0; 1
+  end
+end
+"""
+            scene = self.scene(annulus(0, 40, "a", 40.02), [[circle(40, 40.02)]],
+                               text)
+            self.run_scene(scene, {
+                **keys, "Grid/Offset": offset, "Tissue/Boundary points": "125",
+                "Contact/Between": "none",
+                "Boundary conditions/Fixed where": "Y > 77",
+                "Boundary conditions/Displacement": "0; -4*t"})
+            rows = Run(self.work / "output").forces
+            one = rows[rows["kind"] == "obstacle"].iloc[-1]["force_y"]
+            self.assertAlmostEqual(two / one, 1, delta=0.01)
+
+    def test_no_step_is_too_long(self):
+        """A lid that comes down by two grid spacings in one step stops at the
+        block below; drawn back it leaves no force."""
+        scene = self.blocks(10)
+        rows = self.run_scene(scene, {**self.press(70, "20*t"),
+                                      "Time/End time": "1", "Time/Step": "1",
+                                      "Output/Interval": "1"})
+        self.assertGreater(rows["rejected_steps"].sum(), 0)
+        self.assertGreater(self.forces().iloc[-1]["force_y"], 20)
+        cells = read_csv(self.work / "output/cells-0001.csv")
+        self.assertGreater(min(cells["y"][cells["body"] == 1]),
+                           max(cells["y"][cells["body"] == 0]))
+
+        rows = self.run_scene(scene, {**self.press(70, "60*(t - t*t)"),
+                                      "Time/End time": "1", "Time/Step": "0.05",
+                                      "Output/Interval": "0.25"})
+        forces = self.forces()
+        self.assertAlmostEqual(forces["force_y"].iloc[0]
+                               / forces["force_y"].iloc[-1], 1,
+                               delta=2e-3)
+        self.assertEqual(forces["time"].iloc[-1], 0.75)
+        pressed = np.max(abs(read_csv(self.work / "output/cells-0002.csv")
+                             ["sigma_yy"]))
+        cells = read_csv(self.work / "output/cells-0004.csv")
+        self.assertLess(np.max(abs(cells["sigma_yy"])), 1e-3 * pressed)
+
+    def test_what_is_refused(self):
+        scene = self.blocks(10)
+        for keys, message in (
+                ({"Contact/Stiffness": "0"}, "Contact/Stiffness = '0'"),
+                ({"Contact/Between": "cells"}, "Contact/Between = 'cells'"),
+                ({"Tissue/Points surface": "none"},
+                 "Bodies touch with their boundary points"),
+                ({"Cell types/Names": ""}, "Name the types of the cells"),
+                ({"Growth/Law": "isotropic",
+                  "Growth/Isotropic/Stretch": "1 + t"},
+                 "let bodies pass through each other"),
+                ({"Grid/Spacing": "100"}, "contact holds bodies apart from 0.4")):
+            self.assertIn(message, self.execute(
+                scene, "--replace", *overrides(keys), code=1).text)
+
+    def test_what_is_said(self):
+        text = self.execute(self.blocks(10), "--explain").text
+        self.assertIn("2 bodies, each with splines of its own", text)
+        self.assertIn("body 1: 450 cells, 1800 um^2, surface 180 um", text)
+
+
+if __name__ == "__main__":
+    main()

@@ -20,7 +20,7 @@ namespace Morula
                                                   const IndexSet &own_rows,
                                                   Matrix         &matrix,
                                                   const MPI_Comm  comm,
-                                                  Links           links)
+                                                  std::vector<UnknownLink> links)
     : space(space)
     , links(std::move(links))
     , matrix(matrix)
@@ -49,14 +49,14 @@ namespace Morula
     Couplings columns(space.relevant().n_elements());
     Couplings grid_cells_of(columns.size());
     for (unsigned int c = 0; c < n_elements(); ++c)
-      for (const unsigned int unknown : unknowns_of(c))
+      for (const unsigned int unknown : rows_of(c))
         grid_cells_of[unknown].push_back(c);
     std::vector<unsigned int> last(columns.size(),
                                    numbers::invalid_unsigned_int);
     for (unsigned int row = 0; row < columns.size(); ++row)
       {
         for (const unsigned int c : grid_cells_of[row])
-          for (const unsigned int column : unknowns_of(c))
+          for (const unsigned int column : columns_of(c))
             if (last[column] != row)
               {
                 last[column] = row;
@@ -286,10 +286,9 @@ namespace Morula
     positions.resize(n_elements());
     for (unsigned int c = 0; c < n_elements(); ++c)
       {
-        const auto &unknowns = unknowns_of(c);
-        positions[c].resize(unknowns.size() * unknowns.size());
-        for (unsigned int s = 0; s < unknowns.size(); ++s)
-          places[unknowns[s]].emplace_back(c, s);
+        positions[c].resize(rows_of(c).size() * columns_of(c).size());
+        for (unsigned int s = 0; s < rows_of(c).size(); ++s)
+          places[rows_of(c)[s]].emplace_back(c, s);
       }
 
     // The place in the buffer of each owner up to which rows have been handed
@@ -334,7 +333,7 @@ namespace Morula
         // unknowns in the row.
         for (const auto &[c, s] : places[unknown])
           {
-            const auto &unknowns = unknowns_of(c);
+            const auto &unknowns = columns_of(c);
             for (unsigned int t = 0; t < unknowns.size(); ++t)
               positions[c][s * unknowns.size() + t] =
                 position_of[owned ? ids[unknowns[t]] : unknowns[t]];
@@ -350,13 +349,14 @@ namespace Morula
     // Rows and columns of the local matrix are ordered by component, those of
     // the sparse one by unknown. The components of a column stand side by side,
     // so one position serves all of them.
-    const auto        &unknowns = unknowns_of(grid_cell);
-    const unsigned int m        = unknowns.size();
-    for (unsigned int s = 0; s < m; ++s)
+    const auto        &unknowns = rows_of(grid_cell);
+    const unsigned int n        = unknowns.size();
+    const unsigned int m        = columns_of(grid_cell).size();
+    for (unsigned int s = 0; s < n; ++s)
       for (unsigned int i = 0; i < n_components; ++i)
         {
           const double *const source =
-            &local_matrix[(i * m + s) * n_components * m];
+            &local_matrix[(i * n + s) * n_components * m];
           double *const target = rows[unknowns[s] * n_components + i];
           const unsigned int *const position = &positions[grid_cell][s * m];
           for (unsigned int j = 0; j < n_components; ++j)

@@ -121,6 +121,65 @@ namespace Morula
 
 
   template <int dim>
+  void
+  part_bodies(SurfacePatches<dim> &patches)
+  {
+    // Each pass measures all overlaps and moves all patches then, so that the
+    // order of the patches does not matter. Halves of the overlaps of both sides
+    // add up to all of it; curved and uneven surfaces take some passes more.
+    constexpr unsigned int most_passes = 10;
+    const std::size_t      n           = patches.positions.size();
+    for (unsigned int pass = 0; pass < most_passes; ++pass)
+      {
+        const auto          tree = pack_rtree_of_indices(patches.positions);
+        std::vector<double> overlaps(n, 0.); // mean, µm
+        bool                any = false;
+        for (std::size_t b = 0; b < n; ++b)
+          {
+            const Point<dim>     &x = patches.positions[b];
+            const Tensor<1, dim> &normal = patches.normals[b];
+            const double l     = std::pow(patches.areas[b], 1. / (dim - 1));
+            const double reach = 2. * l;
+            Point<dim>   lower = x, upper = x;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                lower[d] -= reach;
+                upper[d] += reach;
+              }
+            std::vector<unsigned int> near;
+            tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
+                       std::back_inserter(near));
+            double sum = 0., weights = 0.;
+            for (const unsigned int c : near)
+              {
+                if (patches.bodies[c] == patches.bodies[b] ||
+                    patches.normals[c] * normal >= -0.3)
+                  continue;
+                const Tensor<1, dim> way = x - patches.positions[c];
+                const double         gap =
+                  0.5 * (patches.normals[c] - normal) * way;
+                const double along =
+                  way.norm_square() - (way * normal) * (way * normal);
+                const double weight =
+                  patches.areas[c] * std::max(0., 1. - along / (reach * reach));
+                sum += weight * gap;
+                weights += weight;
+              }
+            if (weights > 0. && sum < 0.)
+              {
+                overlaps[b] = -sum / weights;
+                any         = any || overlaps[b] > 1e-6 * l;
+              }
+          }
+        if (!any)
+          return;
+        for (std::size_t b = 0; b < n; ++b)
+          patches.positions[b] -= 0.5 * overlaps[b] * patches.normals[b];
+      }
+  }
+
+
+  template <int dim>
   std::vector<BodyMeasures>
   measures_of_bodies(const Founders<dim>       &founders,
                      const SurfacePatches<dim> &patches,
@@ -147,6 +206,7 @@ namespace Morula
 
 
 #define INSTANTIATE(dim)                                                      \
+  template void part_bodies(SurfacePatches<dim> &);                           \
   template std::vector<BodyMeasures> measures_of_bodies(                      \
     const Founders<dim> &, const SurfacePatches<dim> &, const MPI_Comm);      \
   template std::vector<unsigned int> bodies_apart(const Founders<dim> &,      \

@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/share.h>
+#include <morula/seeding/bodies.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/points_surface.h>
@@ -496,6 +497,8 @@ namespace Morula
                  know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
                  all);
         }
+      if (know_bodies)
+        part_bodies(all);
     });
     return shares(all, comm);
   }

@@ -77,7 +77,7 @@ namespace Morula
      *  unknowns are linked than before. Collective.
      *  @param links see MatrixScatter */
     void
-    make_pattern(const std::vector<std::vector<unsigned int>> &links = {})
+    make_pattern(const std::vector<UnknownLink> &links = {})
     {
       scatter.emplace(space, unknowns_.owned(), matrix_, comm, links);
     }

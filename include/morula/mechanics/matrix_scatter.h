@@ -5,6 +5,7 @@
 #define morula_mechanics_matrix_scatter_h
 
 #include <morula/mechanics/field_unknowns.h>
+#include <morula/mechanics/pair_term.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -32,9 +33,6 @@ namespace Morula
   public:
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** Relevant unknowns that couple with one another. */
-    using Links = std::vector<std::vector<unsigned int>>;
-
     /** Initialises @p matrix; it must outlive this object. Collective.
      *  @param own_rows as FieldUnknowns::owned()
      *  @param links beside those of the grid cells, see PairTerm */
@@ -42,12 +40,12 @@ namespace Morula
                   const IndexSet         &own_rows,
                   Matrix                 &matrix,
                   const MPI_Comm          comm,
-                  Links                   links = {});
+                  std::vector<UnknownLink> links = {});
 
     /**
      * Adds a grid cell's matrix; its row and column i m + s is component i of
      * the grid cell's s-th unknown, m their number. Links have the numbers that
-     * follow those of the grid cells.
+     * follow those of the grid cells, and matrices as in PairTerm.
      */
     void
     add(const unsigned int grid_cell, const std::vector<double> &local_matrix);
@@ -76,13 +74,22 @@ namespace Morula
       return space.grid_cells().size() + links.size();
     }
 
-    /** The unknowns of a grid cell, or of a link. */
+    /** The unknowns of a grid cell, or of a link's rows. */
     const std::vector<unsigned int> &
-    unknowns_of(const unsigned int element) const
+    rows_of(const unsigned int element) const
     {
       return element < space.grid_cells().size() ?
                space.grid_cells()[element].unknowns :
-               links[element - space.grid_cells().size()];
+               links[element - space.grid_cells().size()].rows;
+    }
+
+    /** The unknowns of a grid cell, or of a link's columns. */
+    const std::vector<unsigned int> &
+    columns_of(const unsigned int element) const
+    {
+      return element < space.grid_cells().size() ?
+               space.grid_cells()[element].unknowns :
+               links[element - space.grid_cells().size()].columns;
     }
 
     /** The global unknowns in the rows of an owned unknown, by owned unknown.
@@ -150,12 +157,12 @@ namespace Morula
     };
 
     const SplineSpace<dim>                &space;
-    const Links                            links;
+    const std::vector<UnknownLink>         links;
     Matrix                                &matrix;
     const MPI_Comm                         comm;
     std::vector<double *>                  rows;         // by relevant dof
     std::vector<int>                       owned_number; // by relevant unknown
-    std::vector<std::vector<unsigned int>> positions; // by element: m x m
+    std::vector<std::vector<unsigned int>> positions; // by element, row by row
 
     /** The values of an owner's rows, one after the other, by owner. */
     std::map<unsigned int, std::vector<double>>   sent;

@@ -9,6 +9,19 @@
 
 namespace Morula
 {
+  /** Relevant unknowns in whose rows a matrix has entries for those of the
+   *  columns. */
+  struct UnknownLink
+  {
+    std::vector<unsigned int> rows, columns;
+
+    bool
+    operator==(const UnknownLink &other) const
+    {
+      return rows == other.rows && columns == other.columns;
+    }
+  };
+
   /**
    * A term of the momentum balance that couples places in different grid cells,
    * whose splines need not have anything in common. It knows the displacement
@@ -29,8 +42,9 @@ namespace Morula
       double               energy_magnitude = 0.;
     };
 
-    /** Lists of relevant unknowns: those of a list couple with one another. */
-    virtual const std::vector<std::vector<unsigned int>> &
+    /** The links of the term: each couples the unknowns of its rows with those
+     *  of its columns. */
+    virtual const std::vector<UnknownLink> &
     links() const = 0;
 
     /** Adds energy and residual at @p u. */
@@ -38,8 +52,8 @@ namespace Morula
     add_residual(const std::vector<double> &u, Sums &sums) const = 0;
 
     /** Calls @p add with the number of each link and its part of the tangent at
-     *  @p u, row by row: row and column i m + s are component i of the link's
-     *  s-th unknown, m their number. */
+     *  @p u, row by row: row i m + s is component i of the s-th of the link's m
+     *  rows, and columns likewise. */
     virtual void
     add_tangent(
       const std::vector<double>                                         &u,

@@ -25,6 +25,17 @@ namespace Morula
   std::vector<unsigned int>
   bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
 
+  /**
+   * Moves the patches of bodies that touch so that their surfaces do not
+   * overlap: surfaces that were made around each body's cells alone may, by part
+   * of a cell, and would start with a pressure. Each patch goes back along its
+   * normal by half of its mean overlap with the patches that face it.
+   * @param patches all of them
+   */
+  template <int dim>
+  void
+  part_bodies(SurfacePatches<dim> &patches);
+
   /** What a body is at t = 0. */
   struct BodyMeasures
   {

@@ -138,44 +138,55 @@ namespace Morula
         if (first_contact && gap < nearly_touching * law.h)
           drag = std::max(drag, first_drag * law.E / law.h);
         list.push_back(
-          {b, c, weight, gap, across, normal, one.u - other.u, drag, 0});
+          {b, c, weight, gap, across, normal, one.u - other.u, drag, 0, 0, 0});
       }
     return list;
   }
 
 
   template <int dim>
-  std::vector<std::vector<unsigned int>>
+  std::vector<UnknownLink>
   ContactPairs<dim>::link(std::vector<Pair> &list) const
   {
-    // Points of one body in one grid cell have the same unknowns, so pairs of
-    // the same two grid cells and bodies share a link.
-    using Place = std::pair<unsigned int, unsigned int>;
-    std::map<std::pair<Place, Place>, unsigned int> numbers;
-    std::vector<std::vector<unsigned int>> unknowns;
+    // Groups get their numbers in the order in which pairs name them, and so do
+    // the couples of groups, behind them.
+    using Group = std::pair<unsigned int, unsigned int>;
+    std::map<Group, unsigned int> groups;
+    std::vector<UnknownLink>      links;
+    const auto                    group_of = [&](const unsigned int k) {
+      const ContactPoint<dim> &point = points.points()[k];
+      const auto [found, is_new] =
+        groups.emplace(Group{point.grid_cell, point.body}, links.size());
+      if (is_new)
+        links.push_back({point.unknowns, point.unknowns});
+      return found->second;
+    };
     for (Pair &pair : list)
       {
-        const ContactPoint<dim> &b = points.points()[pair.b],
-                                &c = points.points()[pair.c];
+        pair.group_b = group_of(pair.b);
+        pair.group_c = group_of(pair.c);
+      }
+    std::map<Group, unsigned int> couples;
+    for (Pair &pair : list)
+      {
         const auto [found, is_new] =
-          numbers.emplace(std::make_pair(Place{b.grid_cell, b.body},
-                                         Place{c.grid_cell, c.body}),
-                          unknowns.size());
+          couples.emplace(Group{pair.group_b, pair.group_c}, links.size());
         if (is_new)
           {
-            unknowns.push_back(b.unknowns);
-            unknowns.back().insert(unknowns.back().end(),
-                                   c.unknowns.begin(),
-                                   c.unknowns.end());
+            const auto &b = links[pair.group_b].rows,
+                       &c = links[pair.group_c].rows;
+            UnknownLink there{b, c}, back{c, b};
+            links.push_back(std::move(there));
+            links.push_back(std::move(back));
           }
         pair.link = found->second;
       }
-    return unknowns;
+    return links;
   }
 
 
   template <int dim>
-  const std::vector<std::vector<unsigned int>> &
+  const std::vector<UnknownLink> &
   ContactPairs<dim>::links() const
   {
     return links_;
@@ -267,6 +278,27 @@ namespace Morula
 
   template <int dim>
   void
+  ContactPairs<dim>::add_products(
+    const std::vector<double>              &of_rows,
+    const std::vector<std::vector<double>> &columns,
+    std::vector<double>                    &matrix)
+  {
+    const unsigned int n = of_rows.size(), m = columns[0].size();
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int s = 0; s < n; ++s)
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            double *const       row    = &matrix[((i * n + s) * dim + j) * m];
+            const double *const column = columns[i * dim + j].data();
+            const double        factor = of_rows[s];
+            for (unsigned int t = 0; t < m; ++t)
+              row[t] += factor * column[t];
+          }
+  }
+
+
+  template <int dim>
+  void
   ContactPairs<dim>::add_tangent(
     const std::vector<double> &u,
     const std::function<void(unsigned int, const std::vector<double> &)> &add)
@@ -274,94 +306,83 @@ namespace Morula
   {
     // A pair's jump is w = Σ_s q_s ũ_s, with the values φ of b, and minus those
     // of c; its part is A M q qᵀ with M = κ D⊗D + k_t P, doc/theory.md (4.8l).
-    // Pairs are taken link by link, so that one matrix is filled at a time, and
-    // in it point by point: the blocks of a point with itself need the sum of M
-    // over its pairs, and those of b with all its partners the sum of M φ_c.
-    const std::vector<Tensor<1, dim>>                      ways = displacements(u);
-    std::vector<std::map<unsigned int, std::vector<const Pair *>>> of_links(
-      links_.size()); // pairs by their point b
+    // A point's block with itself needs only the sum of M over its pairs, and
+    // that of b with all its partners in a group the sum of M φ_c: there are far
+    // fewer points than pairs. The block of c with b is the transposed one.
+    const std::vector<Tensor<1, dim>>                 ways = displacements(u);
+    std::map<unsigned int, Tensor<2, dim>>            of_points;
+    std::map<unsigned int, unsigned int>              group_of;
+    std::vector<std::vector<std::pair<const Pair *, Tensor<2, dim>>>> of_links(
+      links_.size());
     for (const Pair &pair : pairs)
       if (pair.drag > 0. || gap(pair, ways) < 0.)
-        of_links[pair.link][pair.b].push_back(&pair);
-    std::vector<double> matrix;
-    for (unsigned int link = 0; link < links_.size(); ++link)
+        {
+          const Tensor<2, dim> M = stiffness(pair, ways);
+          of_points[pair.b] += M;
+          of_points[pair.c] += M;
+          group_of[pair.b] = pair.group_b;
+          group_of[pair.c] = pair.group_c;
+          of_links[pair.link].emplace_back(&pair, M);
+        }
+    std::vector<std::vector<double>> columns(dim * dim);
+    std::vector<double>              matrix, transposed;
+    std::map<unsigned int, std::vector<unsigned int>> of_groups;
+    for (const auto &[k, group] : group_of)
+      of_groups[group].push_back(k);
+    for (const auto &[group, list] : of_groups)
       {
-        if (of_links[link].empty())
-          continue;
-        const unsigned int m = links_[link].size();
+        const unsigned int m = links_[group].rows.size();
         matrix.assign(dim * m * dim * m, 0.);
-        // The block of the unknowns from s0 on with those from t0 on.
-        const auto add_block = [&](const std::vector<double> &of_rows,
-                                   const unsigned int         s0,
-                                   const auto                &of_columns,
-                                   const unsigned int         t0) {
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int s = 0; s < of_rows.size(); ++s)
+        for (const unsigned int k : list)
+          {
+            const std::vector<double> &values = points.points()[k].values;
+            const Tensor<2, dim>      &M      = of_points[k];
+            for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 {
-                  double *const row =
-                    &matrix[((i * m + s0 + s) * dim + j) * m + t0];
-                  const std::vector<double> &column = of_columns(i, j);
-                  for (unsigned int t = 0; t < column.size(); ++t)
-                    row[t] += of_rows[s] * column[t];
+                  columns[i * dim + j] = values;
+                  for (double &value : columns[i * dim + j])
+                    value *= M[i][j];
                 }
-        };
-        std::map<unsigned int, Tensor<2, dim>>                 of_partners;
-        std::array<std::array<std::vector<double>, dim>, dim> sums;
-        const unsigned int n_b =
-          points.points()[of_links[link].begin()->first].unknowns.size();
-        // M times the values of a point, by components.
-        const auto scaled = [&](const Tensor<2, dim>      &M,
-                                const std::vector<double> &values) {
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              {
-                sums[i][j].resize(values.size());
-                for (std::size_t t = 0; t < values.size(); ++t)
-                  sums[i][j][t] = M[i][j] * values[t];
-              }
-        };
-        const auto columns = [&](const unsigned int i,
-                                 const unsigned int j) -> const auto & {
-          return sums[i][j];
-        };
-        for (const auto &[b, list] : of_links[link])
+            add_products(values, columns, matrix);
+          }
+        add(group, matrix);
+      }
+    for (unsigned int link = 0; link < links_.size(); ++link)
+      {
+        // Pairs come in the order of their points b, so that those of one b
+        // stand together.
+        const auto &list = of_links[link];
+        if (list.empty())
+          continue;
+        const unsigned int n = links_[link].rows.size(),
+                           m = links_[link].columns.size();
+        matrix.assign(dim * n * dim * m, 0.);
+        for (std::size_t first = 0, last; first < list.size(); first = last)
           {
-            const std::vector<double> &of_b = points.points()[b].values;
-            Tensor<2, dim>             whole;
-            for (auto &row : sums)
-              for (std::vector<double> &column : row)
-                column.assign(m - n_b, 0.);
-            for (const Pair *const pair : list)
+            const unsigned int b = list[first].first->b;
+            for (std::vector<double> &column : columns)
+              column.assign(m, 0.);
+            for (last = first;
+                 last < list.size() && list[last].first->b == b;
+                 ++last)
               {
-                const Tensor<2, dim> M = stiffness(*pair, ways);
-                whole += M;
-                of_partners[pair->c] += M;
                 const std::vector<double> &of_c =
-                  points.points()[pair->c].values;
+                  points.points()[list[last].first->c].values;
+                const Tensor<2, dim> &M = list[last].second;
                 for (unsigned int i = 0; i < dim; ++i)
                   for (unsigned int j = 0; j < dim; ++j)
-                    for (std::size_t t = 0; t < of_c.size(); ++t)
-                      sums[i][j][t] -= M[i][j] * of_c[t];
+                    for (unsigned int t = 0; t < m; ++t)
+                      columns[i * dim + j][t] -= M[i][j] * of_c[t];
               }
-            add_block(of_b, 0, columns, n_b);
-            scaled(whole, of_b);
-            add_block(of_b, 0, columns, 0);
+            add_products(points.points()[b].values, columns, matrix);
           }
-        for (const auto &[c, M] : of_partners)
-          {
-            const std::vector<double> &of_c = points.points()[c].values;
-            scaled(M, of_c);
-            add_block(of_c, n_b, columns, n_b);
-          }
-        // M is symmetric, and so is the whole.
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int s = n_b; s < m; ++s)
-            for (unsigned int j = 0; j < dim; ++j)
-              for (unsigned int t = 0; t < n_b; ++t)
-                matrix[((i * m + s) * dim + j) * m + t] =
-                  matrix[((j * m + t) * dim + i) * m + s];
         add(link, matrix);
+        transposed.resize(matrix.size());
+        for (unsigned int i = 0; i < dim * n; ++i)
+          for (unsigned int j = 0; j < dim * m; ++j)
+            transposed[j * dim * n + i] = matrix[i * dim * m + j];
+        add(link + 1, transposed);
       }
   }
 

@@ -47,7 +47,7 @@ namespace Morula
     /** Freezes the configuration at t. Keeps a reference to the points. */
     ContactPairs(const ContactPoints<dim> &points, const ContactLaw &law);
 
-    const std::vector<std::vector<unsigned int>> &
+    const std::vector<UnknownLink> &
     links() const override;
     void
     add_residual(const std::vector<double> &u, Sums &sums) const override;
@@ -95,7 +95,8 @@ namespace Morula
       Tensor<1, dim> normal;  // m = D/|D|
       Tensor<1, dim> jump;    // w_k = u_b - u_c, µm
       double         drag;    // k_t, kPa/µm
-      unsigned int   link;
+      unsigned int   group_b, group_c; // their links with themselves
+      unsigned int   link;             // of b with c; the next is that of c with b
     };
 
     /** Where a point is and what surface it stands for. */
@@ -132,14 +133,24 @@ namespace Morula
     std::vector<Pair>
     pairs_at(const std::vector<State> &states, const bool first_contact) const;
 
-    /** Numbers the links of pairs. @return the unknowns of each link */
-    std::vector<std::vector<unsigned int>>
+    /** The links of pairs: first those of each group of points with itself,
+     *  then, for each two groups that have pairs, those of the first with the
+     *  second and of the second with the first. Points of one body in one grid
+     *  cell are a group, as they have the same unknowns. */
+    std::vector<UnknownLink>
     link(std::vector<Pair> &list) const;
+
+    /** Adds (M φ) φᵀ, given row(i, j) = M_ij φ of the columns, to a matrix with
+     *  these numbers of rows and columns. */
+    static void
+    add_products(const std::vector<double>                    &of_rows,
+                 const std::vector<std::vector<double>>       &columns,
+                 std::vector<double>                          &matrix);
 
     const ContactPoints<dim>              &points;
     const ContactLaw                       law;
     std::vector<Pair>                      pairs, seen;
-    std::vector<std::vector<unsigned int>> links_, seen_links;
+    std::vector<UnknownLink>               links_, seen_links;
     std::vector<double>                    first_gaps; // by pair of points
   };
 } // namespace Morula

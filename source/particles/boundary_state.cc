@@ -34,7 +34,7 @@ namespace Morula
 
   template <int dim>
   void
-  BoundaryColumns<dim>::need_contact()
+  BoundaryColumns<dim>::need_contact(const bool fuses)
   {
     if (body.exists())
       return;
@@ -51,6 +51,14 @@ namespace Morula
                                     0.,
                                     AtDivision::copied,
                                     true});
+    if (fuses)
+      contact_age = add<double>({"contact_age",
+                                 "day",
+                                 "time for which another body has touched the "
+                                 "point without a break",
+                                 0.,
+                                 AtDivision::copied,
+                                 true});
   }
 
   template <int dim>

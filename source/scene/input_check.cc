@@ -324,6 +324,11 @@ namespace Morula
             " and the tissue grows or flows",
           "Patches that grow longer than half a grid spacing let bodies pass "
           "through each other.");
+      if (contact.fusion_time > 0. && !scene.tissue.refine_surface)
+        scene.tissue.refine_surface.refuse(
+          "true, as " + contact.fusion_time.path() + " = " +
+            contact.fusion_time.text(),
+          "Bodies that fuse get a new surface.");
     }
 
     template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/contact/fusion.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
 #include <morula/particles/surface_coarsening.h>
@@ -14,8 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <cstdint>
+#include <numeric>
+#include <set>
 #include <vector>
 
 namespace Morula
@@ -202,6 +204,8 @@ namespace Morula
                          [&]() { even_out(tissue, space, dt / evening_time); });
         restore_fit(tissue, *share, is_torn);
       }
+    if (model.scene.contact.is_on() && model.scene.contact.fusion_time > 0.)
+      fuse_bodies(tissue, dt);
   }
 
 
@@ -317,7 +321,9 @@ namespace Morula
     const TimerOutput::Scope   section(timer, "surface renewal");
     const BoundaryPoints<dim> &points = tissue.boundary_points();
     if (points.has_bodies())
-      return renew_bodies(tissue, former, wish);
+      return renew_bodies(tissue, former, wish, [](const unsigned int) {
+        return true;
+      });
     const auto list = renewed_surface(tissue.cells(),
                                       former,
                                       points.copy(),
@@ -333,10 +339,37 @@ namespace Morula
 
 
   template <int dim>
+  void
+  FollowingSurface<dim>::fuse_bodies(Tissue<dim> &tissue, const double dt)
+  {
+    // A body that several go into gets its new surface once, around all its
+    // cells. Where these have no common surface, as some have been lost, the old
+    // patches stay.
+    const TimerOutput::Scope section(timer, "fusion");
+    age_contact(tissue, dt);
+    const Fusions fusions =
+      bodies_to_fuse(tissue, model.scene.contact.fusion_time);
+    if (fusions.empty())
+      return;
+    fuse(fusions, tissue);
+    std::set<unsigned int> fused;
+    for (const auto &[body, into] : fusions)
+      fused.insert(into);
+    renew_bodies(tissue,
+                 tissue.boundary_points().copy(),
+                 SurfaceWish(),
+                 [&](const unsigned int body) { return fused.count(body) > 0; });
+    refine(tissue, [](const Point<dim> &) { return false; });
+  }
+
+
+  template <int dim>
   bool
-  FollowingSurface<dim>::renew_bodies(Tissue<dim>          &tissue,
-                                      const PointList<dim> &former,
-                                      const SurfaceWish    &wish)
+  FollowingSurface<dim>::renew_bodies(
+    Tissue<dim>                             &tissue,
+    const PointList<dim>                    &former,
+    const SurfaceWish                       &wish,
+    const std::function<bool(unsigned int)> &selects)
   {
     // Each body gets a surface around its own cells, which encloses its share
     // of the wished volume: one around all would close the gaps between them.
@@ -367,6 +400,11 @@ namespace Morula
       {
         if (volumes[b] == 0.)
           continue;
+        if (!selects(b))
+          {
+            list.append(of_body(points.copy(), b));
+            continue;
+          }
         SurfaceWish of_this = wish;
         of_this.volume *= volumes[b] / all;
         const auto more = renewed_surface(cells,

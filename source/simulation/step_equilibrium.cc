@@ -116,7 +116,10 @@ namespace Morula
     Drag<dim>                       *drag = nullptr;
     const double                     h    = space.box().spacing();
     const ContactLaw                 law{
-      model.scene.contact.stiffness * stiffness / h, stiffness, h};
+      model.scene.contact.stiffness * stiffness / h,
+      stiffness,
+      h,
+      model.scene.contact.friction / (attempt.t_next - attempt.t)};
     if (has_contact())
       {
         const TimerOutput::Scope section(timer, "contact");

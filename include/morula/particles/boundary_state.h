@@ -37,9 +37,10 @@ namespace Morula
   class BoundaryColumns : public Columns
   {
   public:
-    /** Declares the body and the pressure of contact. Contact calls it. */
+    /** Declares the body and the pressure of contact, and its time where bodies
+     *  fuse. Contact calls it. */
     void
-    need_contact();
+    need_contact(const bool fuses = false);
 
     /** @param with_patch whether the scene refines the surface
      *  @param coarsens whether it also merges patches that shrink
@@ -96,6 +97,8 @@ namespace Morula
     Column<unsigned int> body;
     /** Pressure of other bodies at the end of the last step, kPa; likewise. */
     Column<double> contact_pressure;
+    /** For how long another body has touched the point, day; if bodies fuse. */
+    Column<double> contact_age;
   };
 
   /**

@@ -90,11 +90,16 @@ namespace Morula
                    const std::function<void()> &change) const;
     bool
     renews() const;
-    /** renew(), body by body. */
+    /** renew() for those bodies that have @p selects, body by body. */
     bool
-    renew_bodies(Tissue<dim>          &tissue,
-                 const PointList<dim> &former,
-                 const SurfaceWish    &wish);
+    renew_bodies(Tissue<dim>                             &tissue,
+                 const PointList<dim>                    &former,
+                 const SurfaceWish                       &wish,
+                 const std::function<bool(unsigned int)> &selects);
+    /** Lets bodies fuse that have touched each other for long enough, and gives
+     *  them one surface. Collective. */
+    void
+    fuse_bodies(Tissue<dim> &tissue, const double dt);
     void
     renew_if_due(Tissue<dim>          &tissue,
                  const PointList<dim> &former,

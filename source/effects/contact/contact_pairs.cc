@@ -138,7 +138,7 @@ namespace Morula
         if (first_contact && gap < nearly_touching * law.h)
           drag = std::max(drag, first_drag * law.E / law.h);
         list.push_back(
-          {b, c, weight, gap, across, normal, one.u - other.u, drag, 0, 0, 0});
+          {b, c, weight, gap, across, normal, one.u - other.u, drag, gap < 0. ? law.slow : 0., 0, 0, 0});
       }
     return list;
   }
@@ -204,6 +204,14 @@ namespace Morula
 
   template <int dim>
   Tensor<1, dim>
+  ContactPairs<dim>::along(const Pair &pair, const Tensor<1, dim> &w)
+  {
+    return w - (pair.normal * w) * pair.normal;
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
   ContactPairs<dim>::force(const Pair                        &pair,
                            const std::vector<Tensor<1, dim>> &u) const
   {
@@ -211,7 +219,8 @@ namespace Morula
     const double         g = gap(pair, u);
     return -pair.weight *
            (law.kappa * std::min(g, 0.) * pair.across +
-            pair.drag * (w - (pair.normal * w) * pair.normal));
+            pair.drag * along(pair, w) +
+            pair.slow * along(pair, u[pair.b] - u[pair.c]));
   }
 
 
@@ -221,7 +230,7 @@ namespace Morula
                                const std::vector<Tensor<1, dim>> &u) const
   {
     Tensor<2, dim> M =
-      pair.drag * (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
+      (pair.drag + pair.slow) * (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
                    outer_product(pair.normal, pair.normal));
     if (gap(pair, u) < 0.)
       M += law.kappa * outer_product(pair.across, pair.across);
@@ -243,14 +252,15 @@ namespace Morula
       {
         const Tensor<1, dim> w = ways[pair.b] - ways[pair.c] - pair.jump;
         const double         g = gap(pair, ways);
-        if (g >= 0. && pair.drag == 0.)
+        if (g >= 0. && pair.drag + pair.slow == 0.)
           continue;
         const Tensor<1, dim> t = force(pair, ways);
-        const Tensor<1, dim> along = w - (pair.normal * w) * pair.normal;
         const double         energy =
           0.5 * pair.weight *
           (law.kappa * std::pow(std::min(g, 0.), 2) +
-           pair.drag * along.norm_square());
+           pair.drag * along(pair, w).norm_square() +
+           pair.slow *
+             along(pair, ways[pair.b] - ways[pair.c]).norm_square());
         sums.energy += energy;
         sums.energy_magnitude += energy;
         of_points[pair.b] += t;
@@ -315,7 +325,7 @@ namespace Morula
     std::vector<std::vector<std::pair<const Pair *, Tensor<2, dim>>>> of_links(
       links_.size());
     for (const Pair &pair : pairs)
-      if (pair.drag > 0. || gap(pair, ways) < 0.)
+      if (pair.drag + pair.slow > 0. || gap(pair, ways) < 0.)
         {
           const Tensor<2, dim> M = stiffness(pair, ways);
           of_points[pair.b] += M;
@@ -407,8 +417,8 @@ namespace Morula
         const double         p =
           -law.kappa * std::min(gap(pair, ways), 0.) * pair.across.norm();
         result.normal += pair.weight * p;
-        result.tangential += pair.weight * pair.drag *
-                             (w - (pair.normal * w) * pair.normal).norm();
+        result.tangential +=
+          pair.weight * pair.drag * along(pair, w).norm();
         if (p > 0.)
           result.slid =
             std::max(result.slid, (ways[pair.b] - ways[pair.c]).norm());
@@ -468,7 +478,7 @@ namespace Morula
       ways.push_back(state.u);
     std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> sums;
     for (const Pair &pair : pairs)
-      if (gap(pair, ways) < 0.)
+      if (gap(pair, ways) < 0. || pair.slow > 0.)
         {
           const Tensor<1, dim> t = force(pair, ways);
           sums[{pair.b, points.points()[pair.c].body}] += t;

@@ -24,12 +24,28 @@ namespace Morula
                 100.,
                 "Pressure of two bodies that overlap, by the depth; > 0. They "
                 "overlap by the pressure over this. Units: E/h.")
+    , friction("Contact/Friction",
+               0.,
+               "Viscous friction of surfaces that touch: stress along the "
+               "surface over the velocity at which they slide; >= 0. "
+               "Units: kPa day/um.")
+    , fusion_time("Contact/Fusion time",
+                  0.,
+                  "Time of touch after which two bodies become one: they get "
+                  "splines and a surface in common and never part again; 0: "
+                  "they do not fuse. Needs Refine surface. Units: day.")
     , fields_pass("Contact/Fields pass",
                   true,
                   "Whether fields pass from body to body where these touch, or "
                   "are within a grid spacing of it. With false they end at each "
                   "body's own surface.")
   {
+    friction.require([](const double zeta) { return zeta >= 0.; },
+                     "a number >= 0, in kPa day/um",
+                     "0 is no friction.");
+    fusion_time.require([](const double time) { return time >= 0.; },
+                        "a number >= 0, in days",
+                        "0 lets bodies stay apart.");
     stiffness.require([](const double kappa) { return kappa > 0.; },
                       "a number > 0, in units of E/h",
                       "100 is a good choice: less lets bodies overlap, far more "
@@ -47,6 +63,11 @@ namespace Morula
   KeyList
   ContactParameters::list()
   {
-    return {&between, &bodies, &stiffness, &fields_pass};
+    return {&between,
+            &bodies,
+            &stiffness,
+            &friction,
+            &fusion_time,
+            &fields_pass};
   }
 } // namespace Morula

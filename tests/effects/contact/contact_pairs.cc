@@ -110,7 +110,7 @@ namespace
     SplineSpace<dim>         space  = tissue.splines();
     const ContactPoints<dim> points(tissue, space, h);
     ASSERT_TRUE(points.any());
-    const ContactPairs<dim>  term(points, {10., 1., h});
+    const ContactPairs<dim>  term(points, {10., 1., h, 3.});
     const std::size_t        n = dim * space.relevant().n_elements();
     const std::vector<double> u = random_values(n, 0.01);
     std::vector<double>       residual, ahead, behind;
@@ -171,7 +171,7 @@ namespace
     const Tissue<dim>       &tissue = *owner_of_tissue;
     SplineSpace<dim>         space  = tissue.splines();
     const ContactPoints<dim> points(tissue, space, h);
-    const ContactPairs<dim>  term(points, {kappa, 1., h});
+    const ContactPairs<dim>  term(points, {kappa, 1., h, 0.});
     const std::vector<double> rest(dim * space.relevant().n_elements(), 0.);
     Tensor<1, dim>            on_upper, on_lower;
     for (const auto &one :
@@ -212,7 +212,7 @@ namespace
           owner[unknown] = body;
         }
     const ContactPoints<dim> points(tissue, space, h);
-    const ContactPairs<dim>  term(points, {10., 1., h});
+    const ContactPairs<dim>  term(points, {10., 1., h, 3.});
     std::vector<double>      residual;
     const std::vector<double> rest(dim * space.relevant().n_elements(), 0.);
     EXPECT_EQ(sums_at(term, rest, residual).energy, 0.);

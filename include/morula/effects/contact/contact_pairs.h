@@ -30,6 +30,7 @@ namespace Morula
     double kappa; // κ, kPa/µm
     double E;     // a typical Young's modulus, kPa
     double h;     // grid spacing, µm
+    double slow;  // ζ/Δt of viscous friction, kPa/µm
   };
 
   /**
@@ -95,6 +96,7 @@ namespace Morula
       Tensor<1, dim> normal;  // m = D/|D|
       Tensor<1, dim> jump;    // w_k = u_b - u_c, µm
       double         drag;    // k_t, kPa/µm
+      double         slow;    // ζ/Δt where it touches, else 0, kPa/µm
       unsigned int   group_b, group_c; // their links with themselves
       unsigned int   link;             // of b with c; the next is that of c with b
     };
@@ -117,6 +119,10 @@ namespace Morula
     /** The gap at the displacements @p u of the points. */
     double
     gap(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+
+    /** The part of a jump along the pair's surface. */
+    static Tensor<1, dim>
+    along(const Pair &pair, const Tensor<1, dim> &w);
 
     /** The force on the pair's point b; that on c is opposite. */
     Tensor<1, dim>

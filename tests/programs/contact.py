@@ -242,9 +242,64 @@ end
         cells = read_csv(self.work / "output/cells-0004.csv")
         self.assertLess(np.max(abs(cells["sigma_yy"])), 1e-3 * pressed)
 
+    def test_viscous_friction(self):
+        """Blocks that slide at a velocity v resist with the friction times v."""
+        scene = self.blocks(1e-4)
+        self.run_scene(scene, {
+            "Boundary conditions/Fixed where": "Y < 0.001 || Y > 59.999",
+            "Boundary conditions/Displacement":
+            "if(Y > 30, 2*t, 0); if(Y > 30, -0.2*min(t/0.2, 1), 0)",
+            "Tissue/Boundary points": "144", "Contact/Friction": "0.01",
+            "Material/Young's modulus": "20", "Time/End time": "1", "Output/Interval": "0.5"})
+        last = self.forces().iloc[-1]
+        self.assertAlmostEqual(last["force_x"] / (-0.01 * 2 * 58), 1, delta=0.03)
+
+    def test_discs_fuse(self):
+        """Two discs that have touched for some time become one body with one
+        closed surface, whose tension draws it together; on any ranks, and
+        resumed bit for bit."""
+        scene = self.scene(
+            [(y, x, v, t) for x, y, v, t in annulus(0, 20, "a", -22)
+             + annulus(0, 20, "b", 22)],
+            [[[(y, x) for x, y in reversed(circle(20, center))]]
+             for center in (-22, 22)])
+        keys = {"Contact/Bodies": "apart", "Contact/Fusion time": "0.2",
+                "Contact/Friction": "0.01", "Tissue/Refine surface": "true",
+                "Tissue/Coarsen surface": "true", "Growth/Law": "rate",
+                "Growth/Rate/Rate": "0.6*(t < 0.6)",
+                "Material/Relaxation time": "0.1",
+                "Material/Energy per": "grown volume",
+                "Material/Volumetric strain": "pooled",
+                "Boundary conditions/Surface tension": "0.5",
+                "Friction/Coefficient": "1e-6",
+                "Time/End time": "2", "Output/Interval": "0.4"}
+        rows = self.run_scene(scene, keys)
+        surface = read_csv(self.work / "output/surface-0001.csv")
+        self.assertEqual(set(surface["body"]), {0, 1})
+        surface = read_csv(self.work / "output/surface-0005.csv")
+        self.assertEqual(set(surface["body"]), {0})
+        for i in ("x", "y"):
+            self.assertLess(abs(np.sum(surface["area"] * surface[f"n{i}"])),
+                            1e-3 * np.sum(surface["area"]))
+        self.assertLess(rows["xmax"][-1] - rows["xmin"][-1],
+                        0.97 * max(rows["xmax"] - rows["xmin"]))
+        self.assertAlmostEqual(rows["total_volume"][-1]
+                               / rows["grown_volume"][-1], 1, delta=0.02)
+        names = ("cells-0005", "surface-0005", "lineage")
+        whole = [(self.work / f"output/{name}.csv").read_bytes()
+                 for name in names]
+        self.run_scene(scene, {**keys, "Time/End time": "0.8"})
+        self.execute(scene, "--resume", *overrides(keys))
+        self.assertEqual(whole, [(self.work / f"output/{name}.csv").read_bytes()
+                                 for name in names])
+        again = self.run_scene(scene, keys, ranks=2)
+        self.assertAlmostEqual(rows["xmax"][-1], again["xmax"][-1], delta=1e-3)
+
     def test_what_is_refused(self):
         scene = self.blocks(10)
         for keys, message in (
+                ({"Contact/Fusion time": "1"}, "Bodies that fuse get a new"),
+                ({"Contact/Friction": "-1"}, "Contact/Friction = '-1'"),
                 ({"Contact/Stiffness": "0"}, "Contact/Stiffness = '0'"),
                 ({"Contact/Between": "cells"}, "Contact/Between = 'cells'"),
                 ({"Tissue/Points surface": "none"},

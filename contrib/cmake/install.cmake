@@ -84,6 +84,7 @@ foreach(tool accuracy cell-shapes import render report sweep)
     ${PROJECT_BINARY_DIR}/tools/morula-${tool} @ONLY)
   install(PROGRAMS ${PROJECT_BINARY_DIR}/tools/morula-${tool}
     DESTINATION ${CMAKE_INSTALL_BINDIR})
+  list(APPEND commands morula-${tool})
 endforeach()
 
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
@@ -94,9 +95,19 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   PATTERN changes EXCLUDE
   PATTERN data EXCLUDE
   PATTERN images EXCLUDE
+  PATTERN man EXCLUDE
   PATTERN steps EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pages_directory}
   RENAME copyright)
+
+# Manual pages and completion, by the names of the commands.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc/man/
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+foreach(command morula ${commands}) # bash looks for a file of the command's name
+  install(FILES ${PROJECT_SOURCE_DIR}/contrib/completion/morula
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME ${command})
+endforeach()
 
 include(${CMAKE_CURRENT_LIST_DIR}/package.cmake)
 

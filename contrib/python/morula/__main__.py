@@ -18,7 +18,8 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "reproduce": "reproduction.tool",
     "accuracy-ladders": "upkeep.accuracy", "changes": "upkeep.changes",
     "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
-    "doxygen": "upkeep.manual.tool", "renew": "upkeep.renew",
+    "doxygen": "upkeep.manual.tool", "man-pages": "upkeep.man_pages",
+    "renew": "upkeep.renew",
     "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
 

@@ -23,7 +23,9 @@ set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Morula)
 set(share_directory ${CMAKE_INSTALL_DATADIR}/morula)
 
 # A deal.II that stands in no system directory is found by its path.
-set_target_properties(morula PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+if(NOT DEAL_II_PATH MATCHES "^/usr/?$")
+  set_target_properties(morula PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+endif()
 install(TARGETS morula RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 set_target_properties(morula_lib PROPERTIES EXPORT_NAME morula)
@@ -97,8 +99,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   PATTERN images EXCLUDE
   PATTERN man EXCLUDE
   PATTERN steps EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pages_directory}
-  RENAME copyright)
+install(FILES ${PROJECT_SOURCE_DIR}/contrib/packaging/copyright
+  DESTINATION ${pages_directory})
 
 # Manual pages and completion, by the names of the commands.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc/man/

@@ -81,7 +81,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python/morula
 file(RELATIVE_PATH launch
   ${CMAKE_INSTALL_FULL_BINDIR}
   ${CMAKE_INSTALL_FULL_DATADIR}/morula/python/launch)
-foreach(tool accuracy cell-shapes import render report sweep)
+foreach(tool accuracy cell-shapes export import render report sweep)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/tool.in
     ${PROJECT_BINARY_DIR}/tools/morula-${tool} @ONLY)
   install(PROGRAMS ${PROJECT_BINARY_DIR}/tools/morula-${tool}

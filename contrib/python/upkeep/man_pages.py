@@ -27,6 +27,7 @@ SUMMARIES = {
     "morula": "grow and deform tissue of continuum-based cell particles",
     "accuracy": "errors of a scene against what they cost",
     "cell-shapes": "the cells of a run as polyhedra, for ParaView",
+    "export": "a run for other programs: tracks, tables, label images",
     "import": "a scene of a label image or a tracker's table",
     "render": "pictures and films of a run's cells",
     "report": "one HTML page about a run",

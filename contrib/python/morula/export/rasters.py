@@ -10,6 +10,7 @@ from morula.refusal import Refused
 from morula.shapes.polyhedra import FLAT
 
 SLACK = 1e-9  # um: a middle on a wall belongs to one of both cells, not to none
+ROUND = 1e-6  # of a voxel: digits of files make no further row of voxels
 MOST = 4e9    # bytes of an image
 
 
@@ -30,8 +31,8 @@ def raster_around(boxes, voxel, largest):
     of several states fit on each other. `largest` is the largest label. Throws
     Refused for too many voxels."""
     voxel = np.asarray(voxel, dtype=float)
-    low = np.floor(np.min([box[0] for box in boxes], axis=0) / voxel) - 1
-    high = np.ceil(np.max([box[1] for box in boxes], axis=0) / voxel) + 1
+    low = np.floor(np.min([box[0] for box in boxes], axis=0) / voxel + ROUND) - 1
+    high = np.ceil(np.max([box[1] for box in boxes], axis=0) / voxel - ROUND) + 1
     kind = np.uint16 if largest < 2**16 else np.uint32
     size = float(np.prod(high - low)) * np.dtype(kind).itemsize
     if size > MOST:

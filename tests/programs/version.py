@@ -67,10 +67,16 @@ class Version(ProgramTest):
                 ("CITATION.cff", r"^version: (\S+)$"),
                 ("CHANGES.md", r"^## (\S+)$"),
                 ("contrib/python/pyproject.toml", r'^version = "(.*)"$'),
+                ("contrib/packaging/spack/packages/morula/package.py",
+                 r'version\("(.*?)"'),
+                ("contrib/packaging/conda/meta.yaml", r'version = "(.*)"'),
                 ("doc/install.md", r"morula_([0-9.]+)_amd64\.deb")):
             with self.subTest(name):
                 text = (ROOT / name).read_text(encoding="utf-8")
                 self.assertEqual(re.search(pattern, text, re.M)[1], version())
+        text = (ROOT / "contrib/example-project/CMakeLists.txt").read_text()
+        self.assertEqual(re.search(r"find_package\(Morula ([0-9.]+)", text)[1],
+                         version().rpartition(".")[0])
 
 
 if __name__ == "__main__":

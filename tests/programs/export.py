@@ -15,7 +15,7 @@ from morula.export.tracks import tracks_of
 from morula.run import Run
 from morula.shapes.polyhedra import FLAT
 from morula.shapes.regions import regions_of_state
-from program import TESTS, ProgramTest, main, overrides
+from program import SCENES, TESTS, ProgramTest, main, overrides
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -319,6 +319,20 @@ class Export(ProgramTest):
                 self.assertIn(said, self.export(run, *words, code=1))
         self.assertEqual({file.name for file in self.work.iterdir()},
                          {"there.h5ad", "folder.geff"})
+
+    def test_tissue_without_a_surface(self):
+        """Has no regions, and says so; tracks and tables need none."""
+        self.execute(SCENES / "points-free.prm", *overrides(
+            {"Time/End time": "0.25", "Output/Formats": "csv"}),
+            output=self.work / "free")
+        run = Run(self.work / "free")
+        self.export(run, "a.geff", "a.h5ad")
+        said = self.export(run, "a.tif", "--voxel", "5", code=1)
+        self.assertIn("allowed is tissue with boundary points", said)
+        for tool, *words in (["cell-shapes"], ["render", "--shapes"]):
+            said = self.run_words([TESTS.parent / "contrib" / tool, run.directory,
+                                   *words], code=1).stderr
+            self.assertIn("allowed is tissue with boundary points", said)
 
     def test_missing_libraries(self):
         run = self.run_of("cube")

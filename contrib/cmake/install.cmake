@@ -23,7 +23,9 @@ set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Morula)
 set(share_directory ${CMAKE_INSTALL_DATADIR}/morula)
 
 # A deal.II that stands in no system directory is found by its path.
-set_target_properties(morula PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+if(NOT DEAL_II_PATH MATCHES "^/usr/?$")
+  set_target_properties(morula PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+endif()
 install(TARGETS morula RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 set_target_properties(morula_lib PROPERTIES EXPORT_NAME morula)
@@ -79,11 +81,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/python/morula
 file(RELATIVE_PATH launch
   ${CMAKE_INSTALL_FULL_BINDIR}
   ${CMAKE_INSTALL_FULL_DATADIR}/morula/python/launch)
-foreach(tool accuracy cell-shapes import render report sweep)
+foreach(tool accuracy cell-shapes export import render report sweep)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/tool.in
     ${PROJECT_BINARY_DIR}/tools/morula-${tool} @ONLY)
   install(PROGRAMS ${PROJECT_BINARY_DIR}/tools/morula-${tool}
     DESTINATION ${CMAKE_INSTALL_BINDIR})
+  list(APPEND commands morula-${tool})
 endforeach()
 
 set(pages_directory ${CMAKE_INSTALL_DATADIR}/doc/morula)
@@ -94,9 +97,19 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   PATTERN changes EXCLUDE
   PATTERN data EXCLUDE
   PATTERN images EXCLUDE
+  PATTERN man EXCLUDE
   PATTERN steps EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pages_directory}
-  RENAME copyright)
+install(FILES ${PROJECT_SOURCE_DIR}/contrib/packaging/copyright
+  DESTINATION ${pages_directory})
+
+# Manual pages and completion, by the names of the commands.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc/man/
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+foreach(command morula ${commands}) # bash looks for a file of the command's name
+  install(FILES ${PROJECT_SOURCE_DIR}/contrib/completion/morula
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME ${command})
+endforeach()
 
 include(${CMAKE_CURRENT_LIST_DIR}/package.cmake)
 

@@ -8,7 +8,10 @@
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME morula)
-set(CPACK_PACKAGE_CONTACT "The Morula authors")
+set(MORULA_PACKAGE_CONTACT "The Morula authors <morula@example.org>" CACHE STRING
+    "Name and mail address of whoever makes Debian packages for others")
+mark_as_advanced(MORULA_PACKAGE_CONTACT)
+set(CPACK_PACKAGE_CONTACT "${MORULA_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY
   "growth and proliferation of tissues with continuum-based cell particles")
 set(CPACK_PACKAGE_DESCRIPTION
@@ -17,6 +20,8 @@ divides and deforms, and the equilibrium of the whole is found by extended
 B-splines. This package has the program, its tools, its library with an example
 project, scenes and pages.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/package_files.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -24,7 +29,8 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS mpi-default-bin)
 
 set(recommended
   python3 python3-numpy python3-scipy python3-pandas python3-jinja2
-  python3-matplotlib python3-pil python3-skimage python3-tifffile xvfb
+  python3-matplotlib python3-pil python3-skimage python3-tifffile python3-h5py
+  python3-zarr xvfb
   "python3-vtk9 | python3-paraview" libjs-three
   libdeal.ii-dev cmake make g++ libcgal-dev libgmp-dev libmpfr-dev
   libboost-program-options-dev)

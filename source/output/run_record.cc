@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/version.h>
 #include <morula/output/run_record.h>
 
 #include <filesystem>
@@ -27,7 +28,7 @@ namespace Morula
   RunRecord::comments() const
   {
     std::ostringstream text;
-    text << "# A run of Morula " << MORULA_VERSION << ".\n"
+    text << "# A run of Morula " << version_number() << ".\n"
          << "# scene: " << scene << "\n# state: ";
     if (finished)
       text << "finished after " << wall_seconds << " s\n";

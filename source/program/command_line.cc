@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_keys.h>
+#include <morula/base/version.h>
 #include <morula/program/command_line.h>
 #include <morula/scene/scene.h>
 
@@ -192,7 +193,7 @@ namespace Morula
   void
   print_version(std::ostream &out)
   {
-    out << "Morula " << MORULA_VERSION << " with deal.II "
+    out << "Morula " << version_in_words() << " with deal.II "
         << DEAL_II_PACKAGE_VERSION << '\n';
   }
 

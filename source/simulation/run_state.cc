@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/version.h>
 #include <morula/simulation/run_state.h>
 
 #include <utility>
@@ -22,7 +23,7 @@ namespace Morula
     // Integers up to 2^53 are exact as numbers. Numbers that only some scenes
     // have are left out elsewhere.
     SnapshotData<dim> data;
-    data.program_version = MORULA_VERSION;
+    data.program_version = version_number();
     data.time            = time_steps.time;
     data.numbers         = {{"next_id", double(state.next_id)},
                             {"steps", double(state.n_steps)},

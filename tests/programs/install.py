@@ -47,6 +47,9 @@ class Install(Installation, ProgramTest):
                      "lib/cmake/Morula/MorulaConfigVersion.cmake",
                      "lib/cmake/Morula/MorulaTargets.cmake"):
             self.assertIn(file, files)
+        for file in (prefix / "bin").iterdir():
+            self.assertIn(f"share/man/man1/{file.name}.1", files)
+            self.assertIn(f"share/bash-completion/completions/{file.name}", files)
         self.assertEqual({name.split("/")[0] for name in files},
                          {"bin", "include", "lib", "share"})
         debug = "CMAKE_BUILD_TYPE:STRING=Debug" in (

@@ -12,9 +12,11 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.colors import to_rgb
-from morula.draw import spheres
+from morula.draw import discs, spheres
 from morula.draw.colours import OF_TYPES, colours_of, limits_of
-from morula.draw.view import view_of
+from morula.draw.outline import inside_of_cut
+from morula.draw.view import cut_plane, view_of
+from morula.render.tool import progress
 from PIL import Image
 from program import SCENES, ProgramTest, main, overrides
 
@@ -79,6 +81,74 @@ class Spheres(ProgramTest):
         np.testing.assert_allclose(*lone, atol=0.02)
         deep, _ = self.picture(alone + ring, [8] * 14, [self.RED] * 14, 15.0)
         self.assertLess(deep[place][0], 0.85 * lone[0][0])
+
+
+class Discs(ProgramTest):
+    def test_colours_and_places(self):
+        """Cells of a 2-D run: the colour itself inside, a darker rim, white
+        beside; where two overlap, the nearer middle's."""
+        view = view_of(np.array([[-30., -30, 0], [30, 30, 0]]), flat=True)
+        picture = discs.render(np.array([[0., 0, 0], [14, 0, 0]]),
+                               np.array([10., 10]), np.uint8([[200, 0, 0],
+                                                             [0, 0, 200]]),
+                               view, (318, 318))
+        scale = 318 / (2 * view.half_width)
+        rows, columns = np.indices(picture.shape[:2]) + 0.5
+        x, y = (columns - 159) / scale, (159 - rows) / scale
+        one, other = np.hypot(x, y), np.hypot(x - 14, y)
+        edge, rim = 1 / scale, 0.8 + 1 / scale
+        red, blue = np.array([200, 0, 0]) / 255, np.array([0, 0, 200]) / 255
+        inner = (one < 10 - rim) & (one < other - edge)
+        np.testing.assert_allclose(picture[inner], np.tile(
+            red, (inner.sum(), 1)), atol=1e-6)
+        inner = (other < 10 - rim) & (other < one - edge)
+        np.testing.assert_allclose(picture[inner], np.tile(
+            blue, (inner.sum(), 1)), atol=1e-6)
+        rims = (np.abs(one - 9.7) < 0.1) & (other > 11)
+        self.assertTrue((picture[rims][:, 0] < 0.75 * red[0]).all())
+        self.assertTrue((picture[(one > 10 + edge) & (other > 10 + edge)]
+                         == 1).all())
+
+
+class Outline(ProgramTest):
+    def ball(self, radius=50.0, inner=0.0):
+        """Cells of a ball, perhaps a hollow one, and its boundary points."""
+        axis = np.arange(-radius, radius + 1, 5.0)
+        cells = np.stack(np.meshgrid(axis, axis, axis), -1).reshape(-1, 3)
+        far = np.linalg.norm(cells, axis=1)
+        cells = cells[(far < radius) & (far > inner)]
+        k = np.arange(4000) + 0.5
+        height, turn = 1 - k / 2000, np.pi * (1 + 5**0.5) * k
+        flat = np.sqrt(1 - height**2)
+        unit = np.stack([flat * np.cos(turn), flat * np.sin(turn), height], 1)
+        surface = radius * unit, unit
+        if inner:
+            surface = (np.concatenate([surface[0], inner * unit]),
+                       np.concatenate([unit, -unit]))
+        return cells, surface
+
+    def test_is_that_of_the_plane(self):
+        """Of a ball cut off its middle: the circle in the plane, as it is seen
+        under an angle; of a hollow one, with the circle within."""
+        for inner, height in ((0.0, 0.0), (0.0, 30.0), (25.0, 0.0)):
+            cells, surface = self.ball(inner=inner)
+            view = view_of(surface[0], 5.0, -60, 14)
+            _, normal = cut_plane(surface[0], -60)
+            pixels = view.pixels(300)
+            mask = inside_of_cut(cells, 5.0, surface, (height * normal, normal),
+                                 view, pixels)
+            self.assertEqual(mask.shape, pixels[::-1])
+            unit = view.direction / np.linalg.norm(view.direction)
+            area = (mask > 0.5).sum() * (2 * view.half_width / 300)**2
+            circle = np.pi * (50**2 - height**2 - inner**2) * abs(unit @ normal)
+            self.assertLess(abs(area / circle - 1), 0.02, (inner, height))
+
+    def test_from_its_edge_there_is_none(self):
+        cells, surface = self.ball()
+        view = view_of(surface[0], 5.0, -60, 89.9)
+        self.assertIsNone(inside_of_cut(cells, 5.0, surface,
+                                        cut_plane(surface[0], -60), view,
+                                        (300, 300)))
 
 
 class Meaning(ProgramTest):
@@ -165,7 +235,12 @@ class Render(ProgramTest):
         self.assertEqual(len({p.shape for p in pictures}), 1)
         self.assertTrue(white[0] > white[1] > white[2], white)
         film = self.work / "film.gif"
-        self.render("--movie", "--panels", "2", "--output", film, *small)
+        said = self.render("--movie", "--panels", "2", "--output", film, *small)
+        self.assertEqual([line.partition(",")[0] for line
+                          in said.stderr.splitlines()],
+                         [f"render: picture {i} of 3" for i in (1, 2, 3)])
+        self.assertEqual(progress(2, 8, 10.0),
+                         "render: picture 2 of 8, 30 s left")
         with Image.open(film) as frames:
             self.assertEqual(frames.n_frames, 3)
             frames.seek(2)
@@ -188,10 +263,16 @@ class Render(ProgramTest):
         file.write_text(file.read_text().replace("phase", "type", 1))
         small = "--field", "type", "--width", "200", "--output"
         self.render(*small, self.work / "numbers.png")
+        self.assertEqual(sorted(f.suffix for f in self.output.iterdir()),
+                         [".csv"])
         (self.output / "parameters.prm").write_text(
             "subsection Cell types\n  set Names = a, b, c, d, "
             + "hypertrophic" * 3 + "\nend\n")
         self.render(*small, self.work / "names.png")
+        # the field that is drawn unless another one is asked for
+        self.render("--width", "200")
+        self.assertEqual((self.output / "type.png").read_bytes(),
+                         (self.work / "names.png").read_bytes())
         numbers, names = (np.asarray(Image.open(self.work / f"{name}.png"))
                           for name in ("numbers", "names"))
         self.assertGreater(names.shape[1], numbers.shape[1] + 200)

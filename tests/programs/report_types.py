@@ -6,11 +6,12 @@ the colours, their curves, and in the tree the type of every cell at every time,
 as lineage.csv and events.csv have it."""
 import csv
 
+import numpy as np
 from matplotlib.colors import to_rgb
 from morula.draw.colours import OF_TYPES
 from program import SCENES, main
 
-from tests.common.browser import Browser  # noqa: I100 (program.py finds it)
+from tests.common.browser import Browser, image_of  # noqa: I100 (program.py finds it)
 from tests.common.report_test import ReportTest
 
 KEYS = {"Time/End time": "1.5", "Output/Interval": "0.5"}
@@ -48,6 +49,32 @@ class Types(ReportTest):
         self.assertEqual(set(types), {0, 1, 2})
         # of 255 steps from the first to the last type
         self.assertEqual(values, [round(127.5 * t) for t in types])
+
+    def test_flat_discs(self):
+        """The page of a 2-D run opens with the types, as discs in the colours of
+        the legend, which a drag moves and does not turn."""
+        self.click("tab-three")
+        self.browser.wait("report.panel.show()")
+        self.assertEqual(self.browser.run(
+            "return document.getElementById('field').value"), "type")
+        self.assertEqual(self.browser.run(
+            "return [...document.querySelectorAll('[data-look]')]"
+            ".filter((e) => !e.hidden).map((e) => e.dataset.look)"), ["home"])
+        self.assertFalse(self.browser.run(
+            "return report.view.camera.controls.enableRotate"))
+        picture = image_of(self.browser.run("return report.view.picture()"))
+        cells = self.run_read.cells(-1)
+        about = self.browser.run("return report.about.view")
+        pixel = self.browser.run("return report.view.camera.pixel")
+        middle = np.array(about["low"]) + np.array(about["size"]) / 2
+        height, width = picture.shape[:2]
+        columns = (width / 2 + (cells["x"] - middle[0]) / pixel).astype(int)
+        rows = (height / 2 - (cells["y"] - middle[1]) / pixel).astype(int)
+        wanted = np.array([[round(255 * part) for part in to_rgb(colour)]
+                           for colour in OF_TYPES[:3]])[cells["type"]]
+        off = np.abs(picture[rows, columns].astype(int) - wanted).max(axis=1)
+        # but for middles that another disc covers
+        self.assertGreater((off <= 1).mean(), 0.95)
 
     def test_curves(self):
         words = self.browser.text("curve-cells_transit")

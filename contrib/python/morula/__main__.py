@@ -13,12 +13,14 @@ from pathlib import Path
 TOOLS = {  # those of an installation, then those that need Morula's tree, from
     # accuracy-ladders on those of contrib/upkeep
     "accuracy": "morula.accuracy.tool", "cell-shapes": "morula.shapes.tool",
-    "import": "morula.images.tool", "render": "morula.render.tool",
+    "export": "morula.export.tool", "import": "morula.images.tool",
+    "render": "morula.render.tool",
     "report": "morula.report.tool", "sweep": "morula.sweep.tool",
     "reproduce": "reproduction.tool",
     "accuracy-ladders": "upkeep.accuracy", "changes": "upkeep.changes",
     "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
-    "doxygen": "upkeep.manual.tool", "renew": "upkeep.renew",
+    "doxygen": "upkeep.manual.tool", "man-pages": "upkeep.man_pages",
+    "renew": "upkeep.renew",
     "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
 
@@ -27,7 +29,7 @@ PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
             "h5py": "python3-h5py", "pandas": "python3-pandas",
             "jinja2": "python3-jinja2", "skimage": "python3-skimage",
-            "tifffile": "python3-tifffile"}
+            "tifffile": "python3-tifffile", "zarr": "python3-zarr"}
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 

@@ -69,3 +69,14 @@ def unit_in(unit, dimension):
     """The unit as written for a scene of 2 or 3 dimensions."""
     return {VOLUME: f"um^{dimension}",
             "um^(dim-1)": "um^2" if dimension == 3 else "um"}.get(unit, unit)
+
+
+def unit_of(name, dimension):
+    """The unit of any column of the cells; those that only VTU files have, too.
+    Empty for numbers, and for fields, which have that of the scene's."""
+    unit = POINTS["cells"].get(name)
+    if unit is None:
+        unit = (STRESS if name == "pressure" or name.startswith("principal_stress")
+                else LENGTH if name.startswith("displacement_")
+                else VOLUME if name == "region_volume" else NUMBER)
+    return unit_in(unit, dimension)

@@ -6,14 +6,14 @@ import shutil
 from pathlib import Path
 
 _PYTHON = Path(__file__).resolve().parents[1]
-ROOT = _PYTHON.parents[1]  # of the tree
+ROOT = _PYTHON.parent.parent  # of the tree
 INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
 
 
 def _program():
     if not INSTALLED:
         return ROOT / "build/morula"
-    beside = _PYTHON.parents[2] / "bin/morula"
+    beside = ROOT.parent / "bin/morula"
     return beside if beside.is_file() else Path(
         shutil.which("morula") or "morula")
 

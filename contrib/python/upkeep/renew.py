@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Measures the tables and figures of doc/ anew, without anybody there: builds,
 and calls the tools, which write the data of this version, doc/measured/VERSION,
-and pictures. Done for a version, not for a change. A page that fails does not
+turn the pages' links to them, and draw pictures. Done for a version, not for a change. A page that fails does not
 keep the others from being measured, and a table with figures beyond their
 limits says so itself; output/renew/report.txt says at the end what became of
 each, output/renew/PAGE.log what its tools said.
@@ -13,7 +13,7 @@ each, output/renew/PAGE.log what its tools said.
                                        each, in minutes, in a copy of the tree
                                        below output/renew: nothing changes
     contrib/upkeep/renew --list               the pages and their commands
-    contrib/upkeep/renew --show hard-cases    prints the tables of this version
+    contrib/upkeep/renew --show hard-cases    prints the tables of the last version
     contrib/upkeep/renew --limits             writes into the pages, without any run,
                                        the limits that the cases assert
 """
@@ -33,7 +33,7 @@ from tests.common.tables import UNMET_LIMITS
 from . import limits
 from .made import made_with
 from .measured import PAGES
-from .version_data import data_file, markdown, read
+from .version_data import markdown, newest
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -122,7 +122,7 @@ def arguments():
     parser.add_argument("--list", action="store_true",
                         help="print the pages and their commands")
     parser.add_argument("--show", action="store_true",
-                        help="print the tables of this version")
+                        help="print the tables of the last version")
     parser.add_argument("--limits", action="store_true",
                         help="only write the limits that are asserted")
     options = parser.parse_args()
@@ -145,9 +145,7 @@ def listing(options):
 
 def show(options):
     for name in options.pages or PAGES:
-        file = data_file(name)
-        for table, data in (read(file)["tables"] if file.is_file()
-                            else {}).items():
+        for table, data in newest(name).items():
             print(f"# {name}: {table}\n\n{markdown(data)}\n")
 
 

@@ -11,9 +11,11 @@ and never by hand:
 A part of a table is {"text": lines of Markdown}, {"code": lines} or
 {"header": words, "rows": lists of words}. Pages link to a table by a line of
 its own, [Measured: cuts](measured/0.1.0/hard-cases.json), where the manual
-(contrib/upkeep/doxygen) shows it.
+(contrib/upkeep/doxygen) shows it. Until a table has been measured with a new
+version, its page shows that of the version before; storing it turns the link.
 """
 import json
+import os
 import re
 from pathlib import Path
 
@@ -33,6 +35,16 @@ def data_file(page, root=ROOT):
     return root / f"doc/measured/{version(root)}/{page}.json"
 
 
+def newest(page, root=ROOT):
+    """The tables of a page (name -> table), each of the last version that has
+    it."""
+    found = {}
+    for file in sorted(root.glob(f"doc/measured/*/{page}.json"), key=lambda file:
+                       [int(part) for part in file.parent.name.split(".")]):
+        found.update(read(file)["tables"])
+    return found
+
+
 def read(file):
     return json.loads(file.read_text(encoding="utf-8"))
 
@@ -48,7 +60,20 @@ def store(page, tables, made, root=ROOT):
         data["tables"][name] = {"made": made, "parts": parts(text)}
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(written(data), encoding="utf-8")
+    turn_links(root / data["page"], file, tables)
     return file
+
+
+def turn_links(page, file, tables):
+    """The page's links to these tables name this file of data."""
+    if not page.is_file():
+        return
+    link = os.path.relpath(file, page.parent)
+    before = page.read_text(encoding="utf-8")
+    text = LINK.sub(lambda match: f"[Measured: {match[1]}]({link})"
+                    if match[1] in tables else match[0], before)
+    if text != before:
+        page.write_text(text, encoding="utf-8")
 
 
 def parts(markdown):

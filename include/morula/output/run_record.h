@@ -13,7 +13,7 @@ namespace Morula
    * What a later run must know about a run that it finds in its directory. It
    * stands in the comments at the beginning of parameters.prm.
    *
-   *     # A run of Morula 0.1.0.
+   *     # A run of Morula 0.2.0.
    *     # scene: ../../prm/demo.prm
    *     # state: finished after 84.2 s
    */

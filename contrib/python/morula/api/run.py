@@ -73,16 +73,19 @@ class Run(run.Run):
         """The last day that was computed."""
         return float(self.statistics["time"].iloc[-1])
 
-    def show(self, field: str = "volume", t: float | None = None,
+    def show(self, field: str | None = None, t: float | None = None,
              panels: int = 2, width: int = 500) -> Picture:
-        """Draws the cells, coloured by a column, from outside and cut open
-        (panels=1: from outside alone). In a notebook the picture is shown.
+        """Draws the cells, coloured by a column (None: their type where there
+        are types, else their volume), from outside and cut open (panels=1: from
+        outside alone). In a notebook the picture is shown.
         Throws Refused for what contrib/render refuses."""
         with tempfile.TemporaryDirectory() as scratch:
             file = Path(scratch) / "cells.png"
             words = [sys.executable, "-P", "-m", "morula", "render",
-                     self.directory.resolve(), "--field", field, "--panels",
-                     panels, "--width", width, "--output", file]
+                     self.directory.resolve(), "--panels", panels, "--width",
+                     width, "--output", file]
+            if field is not None:
+                words += ["--field", field]
             if t is not None:
                 words += ["--time", t]
             import morula

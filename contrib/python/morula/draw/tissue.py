@@ -11,7 +11,7 @@ import numpy as np
 from morula.run import NoStates, Run, places, read_points
 from morula.shapes.regions import regions_of_state
 
-from . import spheres
+from . import discs, spheres
 from .points import radii_of
 
 EDGE_WIDTH = 0.04      # in lengths of a cell ...
@@ -33,6 +33,9 @@ class Spheres:
         self.gaps = 5 * np.median(self.radii)
 
     def picture(self, colours, kept, view, pixels):
+        if self.flat:
+            return discs.render(self.positions[kept], self.radii[kept],
+                                colours[kept], view, pixels)
         return spheres.render(self.positions[kept], self.radii[kept],
                               colours[kept], view, pixels, self.gaps)
 

@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
 
 DPI = 200
 TOP, BOTTOM, SIDE = 0.42, 0.5, 1.25  # inches around the panels
+OUTLINE = "0.2"
 BESIDE_NAMES = 0.75  # inches of colour bar and label, without its names
 
 
@@ -19,12 +20,11 @@ def round_length(length):
     return max(f * power for f in (1, 2, 5) if f * power <= length)
 
 
-def compose(panels, cut_open, view, colours, title):
-    """The picture (height, width, 3), bytes. Round the cut-open tissue goes
-    the outline of the whole one, which stands first."""
+def compose(panels, cut_open, view, colours, title, outline=None):
+    """The picture (height, width, 3), bytes. `outline` is that of the cut, 1
+    within and 0 outside (height, width); without it, a cut-open panel gets the
+    outline of what it shows."""
     height, width = panels[0].shape[:2]
-    outline = gaussian_filter((panels[0].min(axis=2) < 1).astype(float), 6)
-    panels = panels[-len(cut_open):]
     wide = width / DPI
     side = max(SIDE, BESIDE_NAMES + colours.longest_name)
     total = (len(panels) * wide + side, height / DPI + TOP + BOTTOM)
@@ -36,8 +36,8 @@ def compose(panels, cut_open, view, colours, title):
                                     height / DPI / total[1]])
             axes.imshow(panel, interpolation="nearest")
             if cut_open[i]:
-                axes.contour(outline, levels=[0.5], colors="0.45",
-                             linewidths=0.9)
+                axes.contour(silhouette(panel) if outline is None else outline,
+                             levels=[0.5], colors=OUTLINE, linewidths=0.9)
             axes.set_axis_off()
         draw_scale(figure, view, width, height, total)
         figure.text(0.04 * wide / total[0], 1 - 0.12 / total[1], title,
@@ -49,6 +49,11 @@ def compose(panels, cut_open, view, colours, title):
         picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
         plt.close(figure)
     return picture
+
+
+def silhouette(panel):
+    """Where something is drawn, smoothed over the gaps between cells."""
+    return gaussian_filter((panel.min(axis=2) < 1).astype(float), 6)
 
 
 def draw_scale(figure, view, width, height, total):

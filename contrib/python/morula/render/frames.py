@@ -2,12 +2,15 @@
 # Copyright (C) 2026 by the Morula authors
 """The pictures of the states asked for. All of them have one view, which holds
 the tissue at all these times, and one meaning of the colours."""
+from dataclasses import replace
+
 import numpy as np
-from morula.cell_types import names_of_run
 from morula.draw import tissue
 from morula.draw.colours import colours_of
+from morula.draw.outline import inside_of_cut
 from morula.draw.view import behind_cut, cut_plane, view_of
 from morula.refusal import Refused
+from morula.run import NoStates, places, read_points, states
 
 from .composition import compose
 
@@ -21,17 +24,19 @@ class Frames:
         for state in request.states:
             cells = self._cells(state)
             self._require_field(cells, state)
-            places = cells.outermost
-            corners += [places.min(axis=0) - cells.margin,
-                        places.max(axis=0) + cells.margin]
+            outermost = cells.outermost
+            corners += [outermost.min(axis=0) - cells.margin,
+                        outermost.max(axis=0) + cells.margin]
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
         self.colours = colours_of(self.options.field, np.concatenate(values),
-                                  request.limits,
-                                  names_of_run(self.options.directory))
+                                  request.limits, request.types)
+        if self.flat:  # a volume is an area there
+            self.colours = replace(self.colours, label=self.colours.label
+                                   .replace("µm³", "µm²"))
         angles = self.options.azimuth, self.options.elevation
         if len(request.states) == 1:
-            self.view = view_of(places, cells.margin, *angles, cells.flat)
+            self.view = view_of(outermost, cells.margin, *angles, cells.flat)
         else:
             low, high = np.min(corners, axis=0), np.max(corners, axis=0)
             box = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T
@@ -61,19 +66,31 @@ class Frames:
         if title is None:
             title = f"{state[1]:g} d,  {len(cells.positions):,} cells"
         cut_open = [False] if self.flat else self.request.cut_open
-        return compose(self._panels(cells, True in cut_open), cut_open,
-                       self.view, self.colours, title)
-
-    def _panels(self, cells, cut):
-        """Of all cells, and cut open if a panel is to be."""
         colours = self.colours.of(cells.columns[self.options.field])
-        everything = np.ones(len(colours), dtype=bool)
+        panels = [self._panel(cells, colours, cut) for cut in cut_open]
+        return compose(panels, cut_open, self.view, self.colours, title,
+                       self._outline(cells, state) if True in cut_open else None)
+
+    def _panel(self, cells, colours, cut):
+        """Of all cells, or cut open."""
         camera = self.view, self.pixels
-        panels = [cells.picture(colours, everything, *camera)]
         if cut and self.options.section:
             plane = cut_plane(cells.positions, self.options.azimuth)
-            panels.append(cells.section(colours, plane, *camera))
-        elif cut:
-            kept = behind_cut(cells.positions, self.options.azimuth)
-            panels.append(cells.picture(colours, kept, *camera))
-        return panels
+            return cells.section(colours, plane, *camera)
+        kept = (behind_cut(cells.positions, self.options.azimuth) if cut
+                else np.ones(len(colours), dtype=bool))
+        return cells.picture(colours, kept, *camera)
+
+    def _outline(self, cells, state):
+        """That of the cut, or None for tissue without boundary points."""
+        try:
+            surface = read_points(states(self.options.directory,
+                                         "surface")[state[0]][1])
+        except (NoStates, IndexError):
+            return None
+        return inside_of_cut(
+            cells.positions, np.cbrt(np.median(cells.columns["volume"])),
+            (places(surface), np.stack([surface[axis] for axis in
+                                        ("nx", "ny", "nz")], axis=1)),
+            cut_plane(cells.positions, self.options.azimuth), self.view,
+            self.pixels)

@@ -5,6 +5,7 @@ import argparse
 import math
 from pathlib import Path
 
+from morula.cell_types import names_of_run
 from morula.refusal import Refused
 from morula.run import states
 
@@ -29,8 +30,8 @@ def arguments(words):
         formatter_class=argparse.RawTextHelpFormatter)
     add = parser.add_argument
     add("directory", type=Path, help="output directory of a run")
-    add("--field", default="volume",
-        help="column of the cells that gives the colour")
+    add("--field", help="column of the cells that gives the colour; default: type "
+        "where\nthe run has types, else volume")
     add("--range", help="LOW,HIGH of the colours; default: the field's 1st to "
         "99th\npercentile, for pressure and stress as far on both sides of 0")
     which = parser.add_mutually_exclusive_group()
@@ -64,8 +65,8 @@ def arguments(words):
 
 class Request:
     """The options with what they stand for: the states to draw, numbers and
-    (time, file), the limits of the colours or None, the file to write, and
-    what writes the film, if it is to be one."""
+    (time, file), the limits of the colours or None, the names of the cells'
+    types, the file to write, and what writes the film, if it is to be one."""
 
     def __init__(self, options):
         self.options = options
@@ -82,6 +83,9 @@ class Request:
                               "a number of degrees")
         self.limits = limits_of(options.range)
         self.states = self._chosen(states(options.directory, "cells"))
+        self.types = names_of_run(options.directory)
+        if options.field is None:
+            options.field = "type" if self.types else "volume"
         self.film = None
         if options.movie:
             self.path, self.film = film_writer(

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/render."""
 import sys
+import time
 
 from morula.command_line import tell
 from morula.draw.screen import on_virtual_screen, run_on_virtual_screen
@@ -34,8 +35,10 @@ def draw(request):
     options = request.options
     if request.film:
         def pictures():
-            for number, picture in frames:
-                tell(f"render: state {number + 1} of {len(request.states)}")
+            start = time.monotonic()
+            for done, (_, picture) in enumerate(frames, 1):
+                tell(progress(done, len(request.states),
+                              time.monotonic() - start))
                 yield picture
 
         with replaced(request.path) as unfinished:
@@ -47,3 +50,10 @@ def draw(request):
                 if options.all else request.path)
         Image.fromarray(picture).save(path, "PNG")
         print(f"render: {path}", flush=True)
+
+
+def progress(done, total, seconds):
+    """What is said when so many pictures of a film have been drawn."""
+    left = seconds / done * (total - done)
+    return (f"render: picture {done} of {total}"
+            + (f", {left:.0f} s left" if done < total and left >= 1 else ""))

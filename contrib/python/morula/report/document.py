@@ -31,7 +31,7 @@ def page(run, program, options, say):
         left_out = [*cells.selection.words, *left_out]
     last, code = run.statistics.iloc[-1], scripts(cells is not None)
     parts = {
-        "title": run.name,
+        "title": run.name, "flat": run.dimension == 2,
         "subtitle": f"{last['cells']:,.0f} cells at day {last['time']:g}",
         "style": Markup((PAGE / "style.css").read_text(encoding="utf-8")),
         "glance": scene.at_a_glance(run),

@@ -26,17 +26,19 @@ def pictures(run, say):
         return paragraph("No cells were written (Output/Formats = none), so "
                          "that there is nothing to draw.")
     with tempfile.TemporaryDirectory() as scratch:
-        file = Path(scratch) / "energy_density.png"
+        field = "type" if run.type_names else "energy_density"
+        file = Path(scratch) / f"{field}.png"
         result = call(
             [sys.executable, "-P", "-m", "morula", "render", run.directory,
-             "--panels", "2", "--field", "energy_density", "--output", file],
+             "--panels", "2", "--field", field, "--output", file],
             stderr=subprocess.STDOUT)
         if result.code != 0 or not file.is_file():
             say(f"report: no picture: {result.stdout.strip()}")
             return paragraph("contrib/render could not draw the run: "
                              + result.stdout.strip()[-300:])
-        return element(file, "the last state, from outside and cut open, "
-                       "drawn by contrib/render")
+        return element(file, "the last state, " + (
+            "" if run.dimension == 2 else "from outside and cut open, ")
+            + "drawn by contrib/render")
 
 
 def element(file, words):

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-DEFAULT_FIELDS = ("energy_density", "volume", "elastic_volume_ratio",
-                  "growth_volume_ratio", "generation", "type", "phase",
+# The first that there is gives the colours when the page opens.
+DEFAULT_FIELDS = ("type", "energy_density", "volume", "elastic_volume_ratio",
+                  "growth_volume_ratio", "generation", "phase",
                   "held_at_checkpoint", "pressure")
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from morula.refusal import Refused
-from morula.run import places
+from morula.run import NoStates, places, time_of
 
 from .boundary import OUTSIDE, Boundary, cut_at_surface
 from .polyhedra import SURFACE, Polyhedra, joined
@@ -112,8 +112,20 @@ def neighbour_pairs(bodies, area, least):
 
 
 def regions_of_state(run, i):
-    """The regions of the cells of state i of a Run."""
-    cells, surface = run.cells(i), run.surface(i)
+    """The regions of the cells of state i of a Run. Throws Refused for tissue
+    without boundary points."""
+    cells = run.cells(i)
+    try:
+        surface = run.surface(i)
+    except NoStates:
+        files = [*run.directory.glob("surface-[0-9]*.csv")]
+        if not files or any(time_of(file) is not None for file in files):
+            raise
+        surface = ()  # files with the names of columns alone
+    if not len(surface):
+        raise Refused("The run", run.directory, "tissue with boundary points",
+                      "Regions of cells are cut off at its surface, and there is "
+                      "none: Tissue/Points surface = always makes one.")
     normals = surface[["nx", "ny", "nz"]].to_numpy(dtype=float)
     return regions_of(places(cells), cells["volume"].to_numpy(),
                       Boundary(places(surface), normals), run.dimension == 2)

@@ -19,6 +19,11 @@ class Camera {
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.enableKeys = false;
     this.controls.screenSpacePanning = true;
+    if (about.flat) {  // it is moved, not turned
+      this.controls.enableRotate = false;
+      this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
+      this.controls.touches.ONE = THREE.TOUCH.PAN;
+    }
     this.controls.minZoom = 0.3;
     this.controls.maxZoom = 60;
     this.controls.addEventListener("change", onChange);
@@ -68,7 +73,7 @@ class Camera {
   key(event) {
     const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1],
       ArrowDown: [0, 1]}[event.key];
-    if (step && event.shiftKey) this.move(...step);
+    if (step && (event.shiftKey || this.flat)) this.move(...step);
     else if (step) this.turn(0.12 * step[0], 0.12 * step[1]);
     else if (event.key === "+" || event.key === "=") this.zoom(1.15);
     else if (event.key === "-") this.zoom(1 / 1.15);

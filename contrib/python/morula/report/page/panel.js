@@ -45,12 +45,14 @@ class Panel {
     on("clone", "change", () => this.show());
     on("save", "click", () => this.save());
     on("film", "click", () => this.saveFilm());
-    for (const button of document.querySelectorAll("[data-look]"))
+    for (const button of document.querySelectorAll("[data-look]")) {
+      button.hidden = this.about.flat && button.dataset.look !== "home";
       button.addEventListener("click", () => {
         this.view.camera.look(button.dataset.look);
         this.faceCut();
         this.cut();
       });
+    }
     on("canvas", "keydown", (event) => {
       if (event.key === "[") this.go(-1);
       if (event.key === "]") this.go(1);
@@ -167,7 +169,8 @@ class Panel {
     byId("film").disabled = true;
     const blob = await recorded(canvas, this.about.states.length,
       async (i) => {
-        byId("film").textContent = `Recording ${i + 1}`;
+        byId("film").textContent = `Recording ${i + 1} of ${
+          this.about.states.length}`;
         byId("time").value = i;
         await this.show();
         this.draw(canvas);

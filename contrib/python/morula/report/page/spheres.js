@@ -33,7 +33,10 @@ void main() {
   colour = texture2D(palette, vec2(t, 0.5)).rgb;
 }`;
 
+// Cells of a 2-D run are discs: their colours are those of the legend, without
+// light and shade, and their rims darker.
 const CELL_FRAGMENT = `
+uniform float disc;
 varying vec3 colour;
 varying vec2 corner;
 varying float depth, halfDepth;
@@ -43,6 +46,10 @@ void main() {
   if (square > 1.0) discard;
   float height = sqrt(1.0 - square);
   gl_FragDepthEXT = depth + halfDepth * height;
+  if (disc > 0.5) {
+    gl_FragColor = vec4(colour * (square > 0.85 ? 0.62 : 1.0), 1.0);
+    return;
+  }
   vec3 normal = vec3(corner, height);
   float light = 0.85 * max(0.0, dot(normal, vec3(-0.37, 0.60, 0.71)))
     + 0.18 * max(0.0, dot(normal, vec3(0.80, 0.10, 0.59)));
@@ -86,7 +93,7 @@ class Spheres {
       size: {value: new THREE.Vector3(...about.size)},
       radii: {value: new THREE.Vector2(...about.radii)},
       range: {value: new THREE.Vector2(0, 1)},
-      steps: {value: 0}, swell: {value: 1}, palette: {value: texture}};
+      disc: {value: about.flat ? 1 : 0}, steps: {value: 0}, swell: {value: 1}, palette: {value: texture}};
     this.material = new THREE.ShaderMaterial({
       uniforms: this.uniforms, vertexShader: CELL_VERTEX,
       fragmentShader: CELL_FRAGMENT, extensions: {fragDepth: true}});

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The command contrib/export."""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from morula.command_line import Parser, tell
+from morula.refusal import Refused
+from morula.run import NoStates, Run
+
+DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
+
+    contrib/export output/bud tracks.geff          all cells over time, as a graph
+    contrib/export output/bud cells.h5ad           the last state, for scanpy
+    contrib/export output/bud cells.h5ad --all     all states in one table
+    contrib/export output/bud labels.tif --voxel 2 every voxel has its cell's label
+    contrib/export output/bud labels.tif --voxel 1,1,4 --all
+
+doc/python.md explains the files.
+"""
+ENDINGS = (".geff", ".h5ad", ".tif", ".tiff", ".npy")
+
+
+def parser():
+    result = Parser(prog="contrib/export", allow_abbrev=False,
+                    description=DESCRIPTION,
+                    formatter_class=argparse.RawTextHelpFormatter)
+    add = result.add_argument
+    add("directory", type=Path, help="output directory of a run, finished or not")
+    add("file", type=Path, nargs="+", metavar="FILE",
+        help=".geff: tracks; .h5ad: annotated data; .tif (OME),\n"
+        ".npy: a label image, id + 1, of the cells' regions")
+    add("--time", metavar="DAY", help="of the state; default: the last one "
+        "written")
+    add("--all", action="store_true", help="all states; each one's image is "
+        "FILE-NNNN")
+    add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or "
+        "one for all, um")
+    add("--again", action="store_true", help="replace files from before")
+    return result
+
+
+def voxel_of(text):
+    """Edges in the order x, y, z, um."""
+    try:
+        edges = [float(word) for word in (text or "").split(",")]
+    except ValueError:
+        edges = []
+    if len(edges) == 1:
+        edges *= 3
+    if len(edges) not in (2, 3) or not all(np.isfinite(edge) and edge > 0
+                                           for edge in edges):
+        raise Refused("--voxel", text or "", "edges of the voxels in um, X,Y,Z "
+                      "(2-D: X,Y), or one number",
+                      "A fifth of a cell's length shows its shape.")
+    return edges
+
+
+def check(options):
+    """Before anything is read; returns the edges of voxels, or None."""
+    for file in options.file:
+        if file.suffix.lower() not in ENDINGS:
+            raise Refused("The file", file, "a name that ends in one of "
+                          + ", ".join(ENDINGS))
+        if not file.parent.is_dir():
+            raise Refused("The file", file, "a file in a directory that exists")
+        if (file.exists() and not options.again) or (
+                file.is_dir() and file.suffix != ".geff"):
+            raise Refused("The file", file, "a name that is free",
+                          "Choose another one, or replace that one with --again.")
+    images = any(file.suffix not in (".geff", ".h5ad") for file in options.file)
+    if options.voxel and not images:
+        raise Refused("--voxel", options.voxel, "nothing without an image")
+    return voxel_of(options.voxel) if images else None
+
+
+def export(options):
+    from morula.shapes.tool import chosen_states
+    voxel = check(options)
+    run = Run(options.directory)
+    if voxel is not None and len(voxel) < run.dimension:
+        raise Refused("--voxel", options.voxel, "three edges, for a run in 3-D")
+    for file in options.file:
+        if file.suffix == ".geff":
+            from . import geff, tracks
+            found = tracks.tracks_of(run)
+            geff.write(found, file)
+            print(f"export: {file}: {len(run.lineage)} cells, {len(found)} nodes, "
+                  f"{len(found.edges)} edges")
+        elif file.suffix == ".h5ad":
+            from . import h5ad
+            rows, columns = h5ad.write(run, chosen_states(run, options), file)
+            print(f"export: {file}: {rows} rows, {columns} columns")
+        else:
+            from . import images
+            for written, words in images.write(run, chosen_states(run, options),
+                                               file, voxel):
+                print(f"export: {written}: {words}", flush=True)
+    return 0
+
+
+def main(words=None):
+    """Exit code 0; 1 for what makes no sense."""
+    try:
+        return export(parser().parse_args(words))
+    except (Refused, NoStates, OSError) as refusal:
+        print(f"export: {refusal}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        tell("export: stopped; files that were written are whole.")
+        return 130

@@ -6,6 +6,7 @@
 #include <morula/effects/fate/death.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
+#include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
@@ -17,6 +18,7 @@
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/surface_tension.h>
 #include <morula/effects/surface/traction.h>
+#include <morula/effects/surface/type_surface_tension.h>
 
 #include <algorithm>
 #include <cctype>
@@ -56,6 +58,7 @@ namespace Morula
     add<TangentialAxis>(division_rules, "tangential");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
+    add<TypeTension>(forces, "type tension");
     add<Fixed>(boundary_conditions, "fixed");
     add<Slip>(boundary_conditions, "slip");
     add<Traction>(boundary_conditions, "traction");
@@ -63,6 +66,14 @@ namespace Morula
     add<SurfaceTension>(boundary_conditions, "surface tension");
     add<Lumen>(boundary_conditions, "lumen");
     add<Obstacles>(boundary_conditions, "obstacles");
+    add<TypeSurfaceTension>(boundary_conditions, "type surface tension");
+  }
+
+
+  void
+  Catalogue::declare_types(const std::vector<std::string> &types)
+  {
+    for_each([&](auto &choice) { choice.keys().declare_types(types); });
   }
 
 

@@ -2,9 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/surface/surface_tension.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/cell_fields.h>
 #include <morula/scene/scene.h>
+#include <morula/scene/tensions.h>
 #include <morula/seeding/limits.h>
 
 #include <cmath>
@@ -125,7 +127,12 @@ namespace Morula
                               scene.fields.name_list());
       columns.need_growth();
       choice.template make<dim>(EffectSetting<dim>{
-        scene.random_seed, scene.time.slack(), columns, state});
+        scene.random_seed,
+        scene.time.slack(),
+        columns,
+        state,
+        Point<dim>(),
+        tensions_of(scene)});
     }
 
     /** Checks the effects that the scene names and makes them, for what they
@@ -246,6 +253,18 @@ namespace Morula
         }
     }
 
+    /** Refuses tensions that contradict each other, and two of the surface. */
+    void
+    check_tensions(const Scene &scene)
+    {
+      const TypeTensions   tensions = tensions_of(scene);
+      const ExpressionKey &of_all = scene.keys<SurfaceTensionParameters>().tension;
+      if (tensions.any_with_surface() && !of_all.is_default())
+        of_all.refuse("its default, as types of cells have tensions with the "
+                      "surface",
+                      "Remove this key, or each type's Tension/With surface.");
+    }
+
     /** Refuses fields that contradict themselves, and those whose columns have
      *  the names of others. */
     template <int dim>
@@ -315,6 +334,7 @@ namespace Morula
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
       check_types<dim>(scene);
+      check_tensions(scene);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,

@@ -5,6 +5,7 @@
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
 #include <morula/scene/scene.h>
+#include <morula/scene/tensions.h>
 #include <morula/seeding/shape.h>
 
 #include <map>
@@ -95,7 +96,8 @@ namespace Morula
                                      scene.time.slack(),
                                      effects.columns,
                                      effects.state,
-                                     center_of<dim>(scene.tissue)};
+                                     center_of<dim>(scene.tissue),
+                                     tensions_of(scene)};
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {

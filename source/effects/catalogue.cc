@@ -12,6 +12,8 @@
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/obstacles/obstacles.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/pressure.h>
@@ -56,6 +58,8 @@ namespace Morula
     add<RadialAxis>(division_rules, "radial");
     add<SurfaceNormalAxis>(division_rules, "surface normal");
     add<TangentialAxis>(division_rules, "tangential");
+    add<Rearrangement>(step_effects, "rearrangement");
+    add<NeighbourColumns>(step_effects, "neighbours");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
     add<TypeTension>(forces, "type tension");

@@ -2,9 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/surface_tension.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/cell_fields.h>
+#include <morula/scene/rearrangement_review.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/tensions.h>
 #include <morula/seeding/limits.h>
@@ -124,7 +126,8 @@ namespace Morula
       choice.keys().check_each(dim);
       CellColumns<dim>  columns;
       StateColumns<dim> state(scene.cell_types.name_list(),
-                              scene.fields.name_list());
+                              scene.fields.name_list(),
+                              scene.keys<NeighbourParameters>().variables);
       columns.need_growth();
       choice.template make<dim>(EffectSetting<dim>{
         scene.random_seed,
@@ -346,6 +349,7 @@ namespace Morula
       check_fields<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.traits);
       check_switched<dim>(scene, scene.catalogue.step_effects);
+      check_rearrangement(scene);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
       scene.solver.check_each(dim);

@@ -4,6 +4,7 @@
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/tensions.h>
 #include <morula/seeding/shape.h>
@@ -76,7 +77,9 @@ namespace Morula
     // reads.
     SceneEffects<dim> effects;
     effects.state =
-      StateColumns<dim>(scene.cell_types.name_list(), scene.fields.name_list());
+      StateColumns<dim>(scene.cell_types.name_list(),
+                        scene.fields.name_list(),
+                        scene.keys<NeighbourParameters>().variables);
     effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);

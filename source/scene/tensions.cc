@@ -3,6 +3,7 @@
 
 #include <morula/effects/forces/type_fractions.h>
 #include <morula/effects/forces/type_tension.h>
+#include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/surface/surface_tension.h>
 #include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/first_cells.h>
@@ -77,7 +78,8 @@ namespace Morula
                   Review                    &review)
   {
     const auto &keys = scene.keys<TypeTensionParameters>();
-    if (!keys.is_on())
+    // Exchanges of places make domains of a mixture.
+    if (!keys.is_on() || scene.keys<RearrangementParameters>().is_on())
       return;
     const auto gamma   = keys.matrix();
     const auto largest = largest_fractions(scene, founders, surface, comm);

@@ -68,7 +68,7 @@ namespace Morula
     const double         size = m.norm();
     if (smoothing > 0. && size == 0.)
       return;
-    // With smoothing, this is (4.16) with √(|m|² + ε²) for |m|.
+    // With smoothing, this is doc/theory.md (12.3): √(|m|² + ε²) for |m|.
     const double smooth = smoothing > 0. ? std::hypot(size, smoothing) : size;
     const double force =
       load.value * (smoothing > 0. ? size * size / smooth : size);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -108,18 +109,19 @@ namespace
 
   /** A tissue of cells of unit volume scaled to spacing 10. */
   template <int dim>
-  Tissue<dim>
+  std::unique_ptr<Tissue<dim>>
   tissue_of(const std::vector<Point<dim>> &points)
   {
     GridParameters parameters;
     parameters.spacing = 30.;
     CellColumns<dim> columns;
-    Tissue<dim>      tissue(parameters, columns, MPI_COMM_WORLD);
+    auto             tissue =
+      std::make_unique<Tissue<dim>>(parameters, columns, MPI_COMM_WORLD);
     PointList<dim>   list(columns.n_numbers());
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       for (unsigned int i = 0; i < points.size(); ++i)
         list.add(i, points[i], columns.founder(points[i], std::pow(10., dim)));
-    tissue.place(list, PointList<dim>());
+    tissue->place(list, PointList<dim>());
     return tissue;
   }
 
@@ -151,8 +153,8 @@ namespace
   {
     for (Point<dim> &x : points)
       x *= 10.;
-    const Tissue<dim> tissue = tissue_of(points);
-    const auto        edges  = all_edges(tissue, {true, 1.8});
+    const auto tissue = tissue_of(points);
+    const auto edges  = all_edges(*tissue, {true, 1.8});
     std::map<std::pair<types::particle_index, types::particle_index>, double>
          expected;
     auto shuffled = numbered(points);
@@ -183,7 +185,7 @@ namespace
     check_edges<dim>(points);
     for (Point<dim> &x : points)
       x *= 10.;
-    const auto edges = all_edges(tissue_of(points), {true, 1.8});
+    const auto edges = all_edges(*tissue_of(points), {true, 1.8});
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         double reach = 0.;
@@ -193,7 +195,9 @@ namespace
         for (unsigned int j = 0; j < points.size(); ++j)
           degree += edges.count({i, j});
         if (reach < 30.)
-          EXPECT_EQ(degree, 2u * dim);
+          {
+            EXPECT_EQ(degree, 2u * dim);
+          }
       }
   }
 
@@ -211,7 +215,7 @@ namespace
     std::vector<Point<dim>> points = random_box<dim>(700, 3);
     for (Point<dim> &x : points)
       x *= 10.;
-    const auto   edges = all_edges(tissue_of(points), {false, 1.5});
+    const auto   edges = all_edges(*tissue_of(points), {false, 1.5});
     std::size_t  n     = 0;
     for (unsigned int i = 0; i < points.size(); ++i)
       for (unsigned int j = 0; j < points.size(); ++j)

@@ -38,7 +38,7 @@ namespace Morula
   std::string
   TypeSurfaceTensionParameters::topic() const
   {
-    return "surface tension of types";
+    return "surfaces of types";
   }
 
 

@@ -162,7 +162,9 @@ TEST(Rearrangement, IsOffForATypeThatDoesNotDiffuse)
       const CellView<2, double> after(make_array_view(cell.second),
                                       result.columns);
       if (after.get(result.columns.find<unsigned int>("type")) == 1)
-        EXPECT_EQ(cell.first, result.before.at(id).first);
+        {
+          EXPECT_EQ(cell.first, result.before.at(id).first);
+        }
     }
   EXPECT_GT(result.numbers.at("exchanges"), 0.);
 }

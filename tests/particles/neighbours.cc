@@ -162,8 +162,10 @@ namespace
     std::vector<Point<dim>> places;
     for (const auto id : shuffled)
       places.push_back(points[id]);
-    const double face = std::pow(10., dim - 1);
-    for (const VoronoiFacet &facet : voronoi_facets(places, shuffled, 18.))
+    // The root of the mean volume is 10 but for rounding.
+    const double a    = std::pow(std::pow(10., dim), 1. / dim);
+    const double face = std::pow(a, dim - 1);
+    for (const VoronoiFacet &facet : voronoi_facets(places, shuffled, 1.8 * a))
       if (facet.area >= 0.02 * dim * face)
         {
           const auto i = shuffled[facet.a], j = shuffled[facet.b];

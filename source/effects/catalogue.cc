@@ -6,17 +6,21 @@
 #include <morula/effects/fate/death.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
+#include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/obstacles/obstacles.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/pressure.h>
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/surface_tension.h>
 #include <morula/effects/surface/traction.h>
+#include <morula/effects/surface/type_surface_tension.h>
 
 #include <algorithm>
 #include <cctype>
@@ -54,8 +58,11 @@ namespace Morula
     add<RadialAxis>(division_rules, "radial");
     add<SurfaceNormalAxis>(division_rules, "surface normal");
     add<TangentialAxis>(division_rules, "tangential");
+    add<Rearrangement>(step_effects, "rearrangement");
+    add<NeighbourColumns>(step_effects, "neighbours");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
+    add<TypeTension>(forces, "type tension");
     add<Fixed>(boundary_conditions, "fixed");
     add<Slip>(boundary_conditions, "slip");
     add<Traction>(boundary_conditions, "traction");
@@ -63,6 +70,14 @@ namespace Morula
     add<SurfaceTension>(boundary_conditions, "surface tension");
     add<Lumen>(boundary_conditions, "lumen");
     add<Obstacles>(boundary_conditions, "obstacles");
+    add<TypeSurfaceTension>(boundary_conditions, "type surface tension");
+  }
+
+
+  void
+  Catalogue::declare_types(const std::vector<std::string> &types)
+  {
+    for_each([&](auto &choice) { choice.keys().declare_types(types); });
   }
 
 

@@ -36,6 +36,11 @@ namespace Morula
   {}
 
 
+  void
+  EffectKeys::declare_types(const std::vector<std::string> &)
+  {}
+
+
   std::string
   EffectKeys::how_to_switch_on() const
   {

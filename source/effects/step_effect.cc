@@ -15,6 +15,18 @@ namespace Morula
 
   template <int dim>
   void
+  StepEffect<dim>::settle(Tissue<dim> &, const MomentOfRun<dim> &) const
+  {}
+
+
+  template <int dim>
+  void
+  StepEffect<dim>::rearrange(Tissue<dim> &, const MomentOfRun<dim> &) const
+  {}
+
+
+  template <int dim>
+  void
   StepEffect<dim>::before(Tissue<dim> &, const MomentOfRun<dim> &) const
   {}
 

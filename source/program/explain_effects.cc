@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/program/explain_effects.h>
+#include <morula/scene/rearrangement_review.h>
 
 #include <iomanip>
 #include <sstream>
@@ -169,6 +170,9 @@ namespace Morula
     add_fields(out, scene);
     add_effects(out, catalogue.traits);
     add_effects(out, catalogue.step_effects);
+    for (EffectRow &row : out)
+      if (row.name == "rearrangement")
+        row.further = rearrangement_lines(scene);
     for (const auto &choice : catalogue.boundary_conditions)
       {
         // A condition is on if it acts somewhere: its expression may be true

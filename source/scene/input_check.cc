@@ -2,9 +2,13 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/state/neighbour_columns.h>
+#include <morula/effects/surface/surface_tension.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/cell_fields.h>
+#include <morula/scene/rearrangement_review.h>
 #include <morula/scene/scene.h>
+#include <morula/scene/tensions.h>
 #include <morula/seeding/limits.h>
 
 #include <cmath>
@@ -122,10 +126,16 @@ namespace Morula
       choice.keys().check_each(dim);
       CellColumns<dim>  columns;
       StateColumns<dim> state(scene.cell_types.name_list(),
-                              scene.fields.name_list());
+                              scene.fields.name_list(),
+                              scene.keys<NeighbourParameters>().variables);
       columns.need_growth();
       choice.template make<dim>(EffectSetting<dim>{
-        scene.random_seed, scene.time.slack(), columns, state});
+        scene.random_seed,
+        scene.time.slack(),
+        columns,
+        state,
+        Point<dim>(),
+        tensions_of(scene)});
     }
 
     /** Checks the effects that the scene names and makes them, for what they
@@ -246,6 +256,18 @@ namespace Morula
         }
     }
 
+    /** Refuses tensions that contradict each other, and two of the surface. */
+    void
+    check_tensions(const Scene &scene)
+    {
+      const TypeTensions   tensions = tensions_of(scene);
+      const ExpressionKey &of_all = scene.keys<SurfaceTensionParameters>().tension;
+      if (tensions.any_with_surface() && !of_all.is_default())
+        of_all.refuse("its default, as types of cells have tensions with the "
+                      "surface",
+                      "Remove this key, or each type's Tension/With surface.");
+    }
+
     /** Refuses fields that contradict themselves, and those whose columns have
      *  the names of others. */
     template <int dim>
@@ -347,6 +369,7 @@ namespace Morula
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
       check_types<dim>(scene);
+      check_tensions(scene);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,
@@ -358,6 +381,7 @@ namespace Morula
       check_fields<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.traits);
       check_switched<dim>(scene, scene.catalogue.step_effects);
+      check_rearrangement(scene);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
       check_contact<dim>(scene);

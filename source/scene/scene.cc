@@ -3,6 +3,9 @@
 
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
+#include <morula/effects/forces/type_tension.h>
+#include <morula/effects/state/neighbour_columns.h>
+#include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/scene.h>
 
 #include <boost/algorithm/string.hpp>
@@ -232,6 +235,8 @@ namespace Morula
                              {of_cells.begin(), of_cells.end()},
                              laws,
                              fields.name_list());
+    if (cell_types.present())
+      catalogue.declare_types(cell_types.name_list());
     for (auto &condition : catalogue.boundary_conditions)
       if (const AnyKey *key = condition.keys().names_key())
         condition.keys().declare_sections(names_in(*key));
@@ -245,6 +250,11 @@ namespace Morula
     // that a type overrides go into the keys of all cells.
     for (ExpressionKey *key : keys_of_cells(list()))
       key->set_fields(fields.name_list());
+    keys<NeighbourParameters>().find_in(keys_of_cells(list()),
+                                        cell_types.name_list(),
+                                        fields.name_list());
+    keys<TypeSurfaceTensionParameters>().pulls =
+      keys<TypeTensionParameters>().force;
     if (!cell_types.present())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));

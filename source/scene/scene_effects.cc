@@ -4,7 +4,9 @@
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/scene/scene.h>
+#include <morula/scene/tensions.h>
 #include <morula/seeding/shape.h>
 
 #include <map>
@@ -75,7 +77,9 @@ namespace Morula
     // reads.
     SceneEffects<dim> effects;
     effects.state =
-      StateColumns<dim>(scene.cell_types.name_list(), scene.fields.name_list());
+      StateColumns<dim>(scene.cell_types.name_list(),
+                        scene.fields.name_list(),
+                        scene.keys<NeighbourParameters>().variables);
     effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);
@@ -97,7 +101,8 @@ namespace Morula
                                      scene.time.slack(),
                                      effects.columns,
                                      effects.state,
-                                     center_of<dim>(scene.tissue)};
+                                     center_of<dim>(scene.tissue),
+                                     tensions_of(scene)};
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {

@@ -3,6 +3,8 @@
 
 #include <morula/scene/estimates.h>
 #include <morula/scene/rate_warnings.h>
+#include <morula/scene/rearrangement_review.h>
+#include <morula/scene/tensions.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/grid_warnings.h>
 #include <morula/seeding/near_bodies.h>
@@ -107,6 +109,8 @@ namespace Morula
       effect->review(at, review);
     for (const auto &[name, force] : effects.forces)
       force->review(at, review);
+    review_rearrangement(scene, review);
+    review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())

@@ -107,6 +107,7 @@ namespace Morula
     // which conditions its patches had.
     const PointList<dim> former = surface.before_losses(tissue);
     remove_the_dead();
+    for_step_effects(&StepEffect<dim>::rearrange, time_steps.time(), row.dt);
     count(space);
     follow_surface(space, former);
     renew_carriers(tissue);

@@ -205,6 +205,7 @@ namespace Morula
         if (carve())
           find_steady();
         begin_step_effects();
+        for_step_effects(&StepEffect<dim>::settle, time_steps.time(), 0.);
         pieces.count(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();

@@ -19,6 +19,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -150,6 +151,10 @@ namespace Morula
     {
       return const_cast<Catalogue *>(this)->keys<Parameters>();
     }
+
+    /** Makes the keys that effects have in the sections of the cells' types. */
+    void
+    declare_types(const std::vector<std::string> &types);
 
     /** A copy whose keys have their defaults. */
     Catalogue

@@ -6,6 +6,7 @@
 
 #include <morula/base/key.h>
 #include <morula/base/review.h>
+#include <morula/effects/type_tensions.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
@@ -48,6 +49,11 @@ namespace Morula
     virtual void
     declare_sections(const std::string &text);
 
+    /** Makes the keys that stand in the sections of the cells' types, before any
+     *  key has its value. @param types names, in the order of their numbers */
+    virtual void
+    declare_types(const std::vector<std::string> &types);
+
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
     virtual std::string
@@ -88,6 +94,8 @@ namespace Morula
     StateColumns<dim> &state;
     /** Tissue/Center if the shape has one, else the origin, µm. */
     Point<dim> center = Point<dim>();
+    /** Tensions between types of cells. */
+    TypeTensions tensions = {};
   };
 
   /**

@@ -195,6 +195,15 @@ namespace Morula
 
 
   template <int dim>
+  double
+  PresentCell<dim>::value(const Variable variable, const double t) const
+  {
+    provide({variable}, t);
+    return values[static_cast<unsigned int>(variable)];
+  }
+
+
+  template <int dim>
   Tensor<1, dim>
   PresentCell<dim>::vector(const Expression &expression, const double t) const
   {
@@ -277,7 +286,17 @@ namespace Morula
     // variables to StateColumns.
     const StateColumns<dim> &columns = reader_.columns;
     if (is_field(variable))
-      return cell_.get(columns.fields[field_number(variable)]);
+      {
+        // Variables of neighbours are numbered behind the fields.
+        const unsigned int k = field_number(variable);
+        const unsigned int n = columns.field_names().size();
+        if (k < n)
+          return cell_.get(columns.fields[k]);
+        const NeighbourVariable &told = columns.neighbour_variables()[k - n];
+        return told.kind == NeighbourVariable::slope ?
+                 gradient(told.number).norm() :
+                 cell_.get(columns.neighbours[k - n]);
+      }
     switch (variable)
       {
         case Variable::x:

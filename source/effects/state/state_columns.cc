@@ -11,12 +11,22 @@
 namespace Morula
 {
   template <int dim>
-  StateColumns<dim>::StateColumns(const std::vector<std::string> &types,
-                                  const std::vector<std::string> &fields)
+  StateColumns<dim>::StateColumns(
+    const std::vector<std::string>       &types,
+    const std::vector<std::string>       &fields,
+    const std::vector<NeighbourVariable> &neighbours)
     : types(types)
     , names_of_fields(fields)
+    , of_neighbours(neighbours)
     , needs_gradient(fields.size(), false)
-  {}
+  {
+    // A variable of neighbours may itself read others of each cell.
+    for (const NeighbourVariable &told : of_neighbours)
+      if (told.kind == NeighbourVariable::slope)
+        needs_gradient[told.number] = true;
+      else if (told.kind == NeighbourVariable::around)
+        need(told.variable);
+  }
 
 
   template <int dim>
@@ -27,10 +37,18 @@ namespace Morula
     // looks at its last entry.
     const Expression &expression = key.expression(dim);
     for (const Variable variable : expression.used())
-      if (!uses(variable))
-        used.insert(std::upper_bound(used.begin(), used.end(), variable),
-                    variable);
+      need(variable);
     return expression;
+  }
+
+
+  template <int dim>
+  void
+  StateColumns<dim>::need(const Variable variable)
+  {
+    if (!uses(variable))
+      used.insert(std::upper_bound(used.begin(), used.end(), variable),
+                  variable);
   }
 
 
@@ -78,6 +96,14 @@ namespace Morula
 
 
   template <int dim>
+  const std::vector<NeighbourVariable> &
+  StateColumns<dim>::neighbour_variables() const
+  {
+    return of_neighbours;
+  }
+
+
+  template <int dim>
   const std::vector<std::string> &
   StateColumns<dim>::field_names() const
   {
@@ -118,6 +144,16 @@ namespace Morula
                                             0.,
                                             AtDivision::copied,
                                             true});
+    for (const NeighbourVariable &told : of_neighbours)
+      neighbours.push_back(told.kind == NeighbourVariable::slope ?
+                             Column<double>() :
+                             columns.template add<double>(
+                               {told.name,
+                                "",
+                                "what it says of the cell's neighbours",
+                                0.,
+                                AtDivision::copied,
+                                true}));
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});

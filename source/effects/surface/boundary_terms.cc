@@ -249,6 +249,7 @@ namespace Morula
         return store.condition(p) == SurfaceCondition::loaded;
       });
     LoadedPoints<dim> loaded;
+    loaded.tissue = &tissue;
     // The base class has the places, by grid cell; the other values follow in
     // the same order.
     static_cast<GroupedPoints<dim> &>(loaded) =

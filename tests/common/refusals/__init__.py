@@ -9,6 +9,7 @@ from tests.common.refusals.expressions import (EXPRESSIONS, GROWTH_BY_RATES,
 from tests.common.refusals.fields import FIELDS
 from tests.common.refusals.files import FILES
 from tests.common.refusals.lumen import LUMENS
+from tests.common.refusals.neighbours import NEIGHBOURS
 from tests.common.refusals.obstacles import OBSTACLES
 from tests.common.refusals.outliers import OUTLIERS
 from tests.common.refusals.scenes import SCENES
@@ -16,4 +17,4 @@ from tests.common.refusals.values import CHOICES, NUMBERS
 
 KEYS = NUMBERS + CHOICES + EXPRESSIONS + IN_2D + GROWTH_BY_RATES + \
     CONTRADICTIONS + CELL_TYPES + FIELDS + FILES + OUTLIERS + LUMENS + \
-    OBSTACLES
+    OBSTACLES + NEIGHBOURS

@@ -21,7 +21,8 @@ namespace Morula
   {
   public:
     /**
-     * The term at the end @p t1 (day) of a step from @p t0. Not collective.
+     * The term at the end @p t1 (day) of a step from @p t0. Collective: all
+     * ranks ask at once.
      * @param tissue    at the beginning of the step
      * @param reader    for its cells: present_cell(tissue, p, reader) is cell p
      *                  with its state, which evaluates expressions

@@ -125,6 +125,11 @@ namespace Morula
           const double       t,
           const unsigned int component = 0) const;
 
+    /** The value of a variable that some effect has announced to StateColumns,
+     *  at @p t (day). */
+    double
+    value(const Variable variable, const double t) const;
+
     /** The first dim components. @throws InputError */
     Tensor<1, dim>
     vector(const Expression &expression, const double t) const;

@@ -5,6 +5,7 @@
 #define morula_effects_state_state_columns_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/state/neighbour_variable.h>
 #include <morula/particles/cell_state.h>
 
 #include <string>
@@ -26,14 +27,22 @@ namespace Morula
     /**
      * @param types  names of the cells' types; empty: there are none
      * @param fields names of the fields by their numbers
+     * @param neighbours what expressions say of a cell's neighbours; their
+     *        numbers as variables follow those of the fields
      */
-    explicit StateColumns(const std::vector<std::string> &types  = {},
-                          const std::vector<std::string> &fields = {});
+    explicit StateColumns(
+      const std::vector<std::string>       &types      = {},
+      const std::vector<std::string>       &fields     = {},
+      const std::vector<NeighbourVariable> &neighbours = {});
 
     /** The key's expression, whose variables cells will have. An effect takes
      *  all its expressions of cells from here. @throws InputError */
     Expression
     use(const ExpressionKey &key);
+
+    /** Asks for a variable, for code that reads it without an expression. */
+    void
+    need(const Variable variable);
 
     /** Asks for the outward normal of the surface nearest to the founder, at t
      *  = 0: the column `surface_normal`. */
@@ -79,6 +88,13 @@ namespace Morula
     const std::vector<std::string> &
     field_names() const;
 
+    /** What expressions say of a cell's neighbours, by number. */
+    const std::vector<NeighbourVariable> &
+    neighbour_variables() const;
+
+    /** The values of neighbour_variables() at the cell. Slopes of fields follow
+     *  from the fields' gradients and have no column. */
+    std::vector<Column<double>> neighbours;
     /** Values of the scene's fields at the cell, by the fields' numbers. */
     std::vector<Column<double>> fields;
     /** The fields' gradients, in the configuration in which they were solved,
@@ -99,6 +115,7 @@ namespace Morula
   private:
     std::vector<std::string> types;
     std::vector<std::string> names_of_fields;
+    std::vector<NeighbourVariable> of_neighbours;
     std::vector<bool>        needs_gradient; // by field
     std::vector<Variable>    used;           // sorted
     bool                     needs_normal = false;

@@ -40,6 +40,8 @@ namespace Morula
 
     /** The points in the order of xi. */
     std::vector<Point> points;
+    /** The tissue whose points they are. */
+    const Tissue<dim> *tissue = nullptr;
     /** Time of the configuration, day. */
     double time = 0.;
     /** Young's modulus of the stiffest cell, kPa. */
@@ -73,7 +75,8 @@ namespace Morula
     displacement(const Point<dim> &X, const double t) const;
 
     /** The term of a condition that loads, at the end @p t (day) of a step, for
-     *  those of @p points on which it acts; null: it has none. Not collective.
+     *  those of @p points on which it acts; null: it has none. Collective: all
+     *  ranks ask at once.
      *  @throws StepFailed if the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const;

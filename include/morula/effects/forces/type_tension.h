@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_forces_type_tension_h
+#define morula_effects_forces_type_tension_h
+
+#include <morula/effects/forces/force.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Keys "Cell types/NAME/Tension/With OTHER", and what is done by them. */
+  struct TypeTensionParameters : public EffectKeys
+  {
+    TypeTensionParameters();
+
+    Key<bool> force;
+    /** γ_ab, by (a, b) in the order of the types, without a = b; kPa µm. */
+    std::deque<Key<double>>  between;
+    std::vector<std::string> types;
+
+    /** The tensions between types. @throws InputError if the two keys of a pair
+     *  contradict each other */
+    std::vector<std::vector<double>>
+    matrix() const;
+
+    bool
+    is_on() const override;
+    std::string
+    topic() const override;
+    std::string
+    details() const override;
+    void
+    declare_types(const std::vector<std::string> &types) override;
+    using Keys::list;
+    KeyList
+    list() override;
+
+  private:
+    /** The key of type @p a with another one. */
+    const Key<double> &
+    key(const unsigned int a, const unsigned int b) const;
+  };
+
+  /** Tension of the interfaces between types of cells, from the gradients of
+   *  the types' fractions: doc/theory.md (12.1)-(12.3). */
+  template <int dim>
+  class TypeTension : public Force<dim>
+  {
+  public:
+    using Parameters = TypeTensionParameters;
+
+    /** @throws InputError for a negative tension */
+    TypeTension(const Parameters &parameters, const EffectSetting<dim> &setting);
+
+    std::unique_ptr<Term<dim>>
+    term(const Tissue<dim>        &tissue,
+         const CellReader<dim>    &reader,
+         const GroupedPoints<dim> &positions,
+         const double              t0,
+         const double              t1) const override;
+
+    /** ε of doc/theory.md (12.2) times h. */
+    static constexpr double smoothing = 0.05;
+
+  private:
+    const std::vector<std::vector<double>> tensions;
+  };
+} // namespace Morula
+
+#endif

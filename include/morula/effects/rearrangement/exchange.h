@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_rearrangement_exchange_h
+#define morula_effects_rearrangement_exchange_h
+
+#include <morula/effects/type_tensions.h>
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace Morula
+{
+  /** A cell, as far as exchanges of places ask for it. */
+  struct Occupant
+  {
+    /** Its lineage key. */
+    std::uint64_t key;
+    unsigned int  type;
+    /** D, µm²/day; 0: it keeps its place. */
+    double diffusion;
+    /** f, kPa µm^dim/µm. */
+    std::array<double, 3> drive;
+    /** The rank of the cell, and its place there. */
+    unsigned int rank, number;
+  };
+
+  /** Places of cells and their neighbourhood, which stay as they are while
+   *  cells exchange them. */
+  struct Places
+  {
+    /** A neighbouring place. */
+    struct Edge
+    {
+      unsigned int other;
+      /** S, µm^(dim-1). */
+      double area;
+      /** S/(l V̄), with its cap, per µm². */
+      double rate;
+    };
+
+    /** Lineage keys of the cells that are there at the beginning. */
+    std::vector<std::uint64_t>         keys;
+    std::vector<std::array<double, 3>> positions; // µm
+    std::vector<double>                free;      // free surface, µm^(dim-1)
+    /** Edges of place p: [offsets[p], offsets[p + 1]), by the others' keys. */
+    std::vector<unsigned int> offsets;
+    std::vector<Edge>         edges;
+    /** Whether events of a place are run here, rather than told by others. */
+    std::vector<bool> own;
+
+    std::size_t
+    size() const
+    {
+      return keys.size();
+    }
+
+    /** Sorts the edges of each place. To be called when all are there. */
+    void
+    sort_edges();
+  };
+
+  /** The energy E = Σ γ S of the contacts between cells and of their free
+   *  surface, and its changes: doc/theory.md (12.5). */
+  class AdhesionEnergy
+  {
+  public:
+    /** @param temperature T, kPa µm^dim */
+    AdhesionEnergy(const TypeTensions &tensions, const double temperature);
+
+    /** ΔE if the cells at two neighbouring places change them. */
+    double
+    change(const Places                &places,
+           const std::vector<Occupant> &occupants,
+           const unsigned int           p,
+           const unsigned int           q) const;
+
+    /** Whether an exchange that changes the energy so is accepted; @p u is
+     *  uniform in (0, 1]. */
+    bool
+    accepts(const double change, const double u) const;
+
+    /** γ between two types. */
+    double
+    between(const unsigned int a, const unsigned int b) const;
+
+    /** γ of the free surface of a type. */
+    double
+    with_surface(const unsigned int a) const;
+
+  private:
+    const TypeTensions tensions;
+    const double       temperature;
+  };
+
+  /** An attempt of two cells to exchange their places. */
+  struct Attempt
+  {
+    /** When, from the beginning of the step, day. */
+    double time;
+    /** Which decides about acceptance. */
+    double u;
+    /** Places, that with the lower key first. */
+    unsigned int p, q;
+    /** Number among those of this pair. */
+    unsigned int n;
+  };
+
+  /**
+   * All attempts in a step of length @p dt (day), in the order of time: a
+   * Poisson process for each edge, from the keys of the cells that stand there
+   * at the beginning. doc/theory.md (12.4)
+   * @param t of the step, which makes its draws its own
+   */
+  std::vector<Attempt>
+  attempts(const Places                &places,
+           const std::vector<Occupant> &occupants,
+           const std::uint64_t          seed,
+           const double                 t,
+           const double                 dt);
+
+  /** What became of an attempt. */
+  struct ExchangeResult
+  {
+    std::uint64_t p, q; // keys of the places
+    unsigned int  n;
+    bool          accepted;
+    Occupant      at_p, at_q; // afterwards
+  };
+
+  /**
+   * Runs attempts. An event of the places (p, q) reads the cells at them and
+   * around them. It can run as soon as it is the first one that is left at each
+   * of these places, so that all that can run at once do not disturb each
+   * other: a round. The result is that in the order of time.
+   */
+  class ExchangeRounds
+  {
+  public:
+    ExchangeRounds(const Places          &places,
+                   std::vector<Occupant>  occupants,
+                   std::vector<Attempt>   attempts,
+                   const AdhesionEnergy  &energy);
+
+    /** Runs everything in the order of time; all places must be own. */
+    void
+    run_in_order();
+
+    /** Runs those attempts of own places that can run now. */
+    std::vector<ExchangeResult>
+    run_round();
+
+    /** Takes what another rank has run. */
+    void
+    take(const ExchangeResult &result);
+
+    /** How many attempts are left that are to be run here. */
+    std::size_t
+    n_left() const;
+
+    /** Who is where. */
+    const std::vector<Occupant> &
+    occupants() const;
+
+    /** How often places have changed their cell. */
+    const std::vector<unsigned int> &
+    n_exchanges() const;
+
+  private:
+    bool
+    is_before(const Attempt &a, const Attempt &b) const;
+    /** The first attempt that is left at a place, or null. */
+    const Attempt *
+    first_at(const unsigned int place);
+    bool
+    can_run(const Attempt &attempt);
+    bool
+    run(const Attempt &attempt);
+
+    const Places             &places;
+    std::vector<Occupant>     occupants_;
+    std::vector<Attempt>      list;
+    const AdhesionEnergy     &energy;
+    std::vector<unsigned int> n_exchanges_;
+    std::vector<bool>         done;
+    std::size_t               left = 0;
+    /** Attempts of each place in the order of time, and the first that may be
+     *  left. */
+    std::vector<std::vector<std::size_t>> of_place;
+    std::vector<std::size_t>              heads;
+    /** Places by their keys, if others tell of them. */
+    std::unordered_map<std::uint64_t, unsigned int> place_of;
+  };
+} // namespace Morula
+
+#endif

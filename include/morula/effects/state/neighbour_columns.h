@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_state_neighbour_columns_h
+#define morula_effects_state_neighbour_columns_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/step_effect.h>
+#include <morula/particles/neighbours.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Section "Neighbours". */
+  struct NeighbourParameters : public EffectKeys
+  {
+    NeighbourParameters();
+
+    Key<std::string> found_by;
+    Key<double>      reach; // mean spacings
+
+    /** What the scene's expressions say of neighbours. */
+    std::vector<NeighbourVariable> variables;
+
+    /** How they are found. */
+    NeighbourSearch
+    search() const;
+
+    bool
+    is_on() const override;
+    std::string
+    details() const override;
+    using Keys::list;
+    KeyList
+    list() override;
+
+    /**
+     * Looks for names of such variables in the texts of keys, and lets the keys
+     * use them besides the fields.
+     * @param keys of cells
+     * @throws InputError for one that does not exist, or stands in a key on
+     *         which the stress depends
+     */
+    void
+    find_in(const std::vector<ExpressionKey *> &keys,
+            const std::vector<std::string>     &types,
+            const std::vector<std::string>     &fields);
+  };
+
+  /** Tells cells of their neighbours: writes the columns of the variables, at
+   *  t = 0 and at the end of each step. doc/theory.md, section 12.1. */
+  template <int dim>
+  class NeighbourColumns : public StepEffect<dim>
+  {
+  public:
+    using Parameters = NeighbourParameters;
+
+    explicit NeighbourColumns(const Parameters &parameters);
+
+    void
+    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
+    void
+    after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
+
+  private:
+    const NeighbourSearch                search;
+    const std::vector<NeighbourVariable> variables;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_surface_type_surface_tension_h
+#define morula_effects_surface_type_surface_tension_h
+
+#include <morula/effects/surface/boundary_condition.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  /** Keys "Cell types/NAME/Tension/With surface". */
+  struct TypeSurfaceTensionParameters : public EffectKeys
+  {
+    /** γ_a0 by type, kPa µm. */
+    std::deque<Key<double>>  tensions;
+    std::vector<std::string> types;
+    /** Whether the tensions pull: `Tension/Force`. */
+    bool pulls = true;
+
+    bool
+    is_on() const override;
+    std::string
+    topic() const override;
+    std::string
+    details() const override;
+    void
+    declare_types(const std::vector<std::string> &types) override;
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Tension of the free surface by the type of the cell there, with the energy
+   *  of doc/theory.md (4.8a): a boundary point has that of the nearest cell. */
+  template <int dim>
+  class TypeSurfaceTension : public BoundaryCondition<dim>
+  {
+  public:
+    using Parameters = TypeSurfaceTensionParameters;
+
+    /** @throws InputError for a negative tension */
+    TypeSurfaceTension(const Parameters         &parameters,
+                       const EffectSetting<dim> &setting);
+
+    SurfaceCondition
+    kind() const override;
+    bool
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    std::unique_ptr<Term<dim>>
+    term(const LoadedPoints<dim> &points, const double t) const override;
+
+  private:
+    std::vector<double>  tensions; // by type
+    Column<unsigned int> type;
+  };
+} // namespace Morula
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_particles_neighbours_h
+#define morula_particles_neighbours_h
+
+#include <morula/particles/point_list.h>
+#include <morula/particles/tissue.h>
+
+#include <vector>
+
+namespace Morula
+{
+  /** How it is found out which cells touch. */
+  struct NeighbourSearch
+  {
+    /** Whether by facets of the Voronoi diagram, or by the distance alone. */
+    bool by_facets = true;
+    /** The farthest neighbour, in mean spacings a. */
+    double reach = 1.8;
+  };
+
+  /**
+   * Which cells touch, doc/theory.md, section 12.1: p and q are at most the
+   * reach apart, and the facet between them has 1 % of a cell's mean surface or
+   * more. The neighbours of the cells of this rank, which may belong to others.
+   */
+  template <int dim>
+  struct NeighbourGraph
+  {
+    /** A neighbour. */
+    struct Edge
+    {
+      /** Its place in `points`. */
+      unsigned int other;
+      /** S, µm^(dim-1): of the facet, or the same for all by distance. */
+      double area;
+      /** l, µm. */
+      double distance;
+    };
+
+    /** The cells of this rank in their order, then those of others around. */
+    PointList<dim> points;
+    /** How many of them belong to this rank. */
+    unsigned int n_own = 0;
+    /** The edges of own cell p are [offsets[p], offsets[p + 1]). */
+    std::vector<unsigned int> offsets;
+    /** By the ids of the neighbours. */
+    std::vector<Edge> edges;
+    /** a, the dim-th root of the cells' mean volume, µm. */
+    double spacing = 0.;
+
+    /** Calls visit(edge) for the neighbours of own cell @p p. */
+    template <typename Visit>
+    void
+    for_neighbours(const unsigned int p, const Visit &visit) const
+    {
+      for (unsigned int e = offsets[p]; e < offsets[p + 1]; ++e)
+        visit(edges[e]);
+    }
+  };
+
+  /**
+   * The neighbours of the tissue's cells. The same on any number of ranks.
+   * Collective.
+   * @param cells of this rank, in the order of Tissue::cells(): each with a row
+   *        of numbers that ranks tell each other of their cells
+   */
+  template <int dim>
+  NeighbourGraph<dim>
+  neighbours(const Tissue<dim>     &tissue,
+             const PointList<dim>  &cells,
+             const NeighbourSearch &search);
+
+  /** The mean volume of the tissue's cells, µm^dim: the same bits on any number
+   *  of ranks. Collective. */
+  template <int dim>
+  double
+  mean_cell_volume(const Tissue<dim> &tissue);
+
+  /** The free surface of each cell of this rank, µm^(dim-1): the boundary
+   *  points whose nearest cell it is. Collective. */
+  template <int dim>
+  std::vector<double>
+  free_surfaces(const Tissue<dim> &tissue);
+} // namespace Morula
+
+#endif

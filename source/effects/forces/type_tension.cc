@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/forces/type_fractions.h>
+#include <morula/effects/forces/type_tension.h>
+#include <morula/effects/surface/surface_energy.h>
+#include <morula/particles/point_exchange.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace Morula
+{
+  TypeTensionParameters::TypeTensionParameters()
+    : force("Tension/Force",
+            true,
+            "Whether the tensions between types pull at the tissue. false: only "
+            "Rearrangement knows them, as where the grid is too coarse for "
+            "them.")
+  {}
+
+
+  void
+  TypeTensionParameters::declare_types(const std::vector<std::string> &names)
+  {
+    types = names;
+    for (const std::string &name : names)
+      for (const std::string &other : names)
+        if (other != name)
+          between.emplace_back(
+            "Cell types/" + name + "/Tension/With " + other,
+            0.,
+            "Tension of the interface with cells of type " + other +
+              "; one of the two types may say it. Negative: only for "
+              "Rearrangement. Units: kPa um.");
+  }
+
+
+  const Key<double> &
+  TypeTensionParameters::key(const unsigned int a, const unsigned int b) const
+  {
+    return between[a * (types.size() - 1) + (b < a ? b : b - 1)];
+  }
+
+
+  std::vector<std::vector<double>>
+  TypeTensionParameters::matrix() const
+  {
+    const std::size_t                n = types.size();
+    std::vector<std::vector<double>> gamma(n, std::vector<double>(n, 0.));
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = a + 1; b < n; ++b)
+        {
+          const Key<double> &one = key(a, b), &other = key(b, a);
+          if (!one.is_default() && !other.is_default() &&
+              one.value() != other.value())
+            other.refuse("the value of " + one.path() + ", " + one.text() +
+                           " kPa um",
+                         "An interface has one tension: remove one of the two "
+                         "keys.");
+          gamma[a][b] = gamma[b][a] =
+            one.is_default() ? other.value() : one.value();
+        }
+    return gamma;
+  }
+
+
+  bool
+  TypeTensionParameters::is_on() const
+  {
+    return force && std::any_of(between.begin(),
+                                between.end(),
+                                [](const auto &key) { return key != 0.; });
+  }
+
+
+  std::string
+  TypeTensionParameters::topic() const
+  {
+    return "tension between types";
+  }
+
+
+  std::string
+  TypeTensionParameters::details() const
+  {
+    std::string text;
+    for (unsigned int a = 0; a < types.size(); ++a)
+      for (unsigned int b = 0; b < types.size(); ++b)
+        if (a != b && !key(a, b).is_default())
+          text += (text.empty() ? "" : ", ") + types[a] + " with " + types[b] +
+                  " " + key(a, b).text() + " kPa um";
+    return text + "; domains count from 2 h on";
+  }
+
+
+  KeyList
+  TypeTensionParameters::list()
+  {
+    KeyList list{&force};
+    for (Key<double> &key : between)
+      list.push_back(&key);
+    return list;
+  }
+
+
+  namespace
+  {
+    /** The volume and type of a cell, which ranks tell each other. */
+    using VolumeAndType = std::tuple<double, unsigned int>;
+
+    /** The fractions around this rank's cells, added up in an order that does
+     *  not depend on the ranks. Collective. */
+    template <int dim>
+    TypeFractions<dim>
+    fractions(const Tissue<dim>          &tissue,
+              const Column<unsigned int> &type,
+              const unsigned int          n_types)
+    {
+      // A spline reaches one grid cell to each side of its own, so that the
+      // splines of a cell need the cells two grid cells away.
+      const Cells<dim>    &cells = tissue.cells();
+      const GridBox<dim>  &box   = tissue.grid().box();
+      PointList<dim>       list(Flat<VolumeAndType>::n);
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        list.add_value(cells.id(p),
+                       cells.position(p),
+                       VolumeAndType(cells.volume(p), cells.get(type, p)));
+      list.append(halo(list, tissue.grid(), 2. * box.spacing()));
+      std::vector<std::pair<unsigned int, std::size_t>> order;
+      for (std::size_t i = 0; i < list.size(); ++i)
+        order.emplace_back(box.number(box.locate(list.positions[i])), i);
+      std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
+        return std::make_pair(a.first, list.ids[a.second]) <
+               std::make_pair(b.first, list.ids[b.second]);
+      });
+      TypeFractions<dim> found(box, n_types);
+      for (const auto &[number, i] : order)
+        {
+          const auto [V, of_cell] = list.template value<VolumeAndType>(i);
+          found.add(list.positions[i], V, of_cell);
+        }
+      return found;
+    }
+  } // namespace
+
+
+  template <int dim>
+  TypeTension<dim>::TypeTension(const Parameters &parameters,
+                                const EffectSetting<dim> &)
+    : tensions(parameters.matrix())
+  {
+    for (const Key<double> &key : parameters.between)
+      if (key < 0.)
+        key.refuse("a value >= 0 kPa um",
+                   "An interface with a negative tension would crumple: set " +
+                     parameters.force.path() +
+                     " = false, so that only Rearrangement knows it.");
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Term<dim>>
+  TypeTension<dim>::term(const Tissue<dim>        &tissue,
+                         const CellReader<dim>    &reader,
+                         const GroupedPoints<dim> &positions,
+                         const double,
+                         const double) const
+  {
+    // Each cell with a gradient has V |cof f g| of each interface that it is
+    // in, doc/theory.md (12.2): the term of a surface whose area is V g. A cell
+    // in the middle of a domain has none and costs nothing in the iterations.
+    // The smoothing ε is one number per length, and the volume stands in the
+    // tension.
+    const TypeFractions<dim> field =
+      fractions(tissue, reader.columns.type, tensions.size());
+    GroupedPoints<dim> points;
+    points.h       = positions.h;
+    points.offsets = {0};
+    std::vector<typename AreaTerm<dim>::Load> loads;
+    for (unsigned int c = 0; c + 1 < positions.offsets.size(); ++c)
+      {
+        for (unsigned int p = positions.offsets[c];
+             p < positions.offsets[c + 1];
+             ++p)
+          {
+            const auto at = field.at(tissue.cells().position(p));
+            for (unsigned int a = 0; a < tensions.size(); ++a)
+              for (unsigned int b = a + 1; b < tensions.size(); ++b)
+                {
+                  const Tensor<1, dim> g = at.fraction[a] * at.gradient[b] -
+                                           at.fraction[b] * at.gradient[a];
+                  if (tensions[a][b] == 0. || g.norm() * points.h < 1e-10)
+                    continue;
+                  points.xi.push_back(positions.xi[p]);
+                  loads.push_back(
+                    {tensions[a][b] * tissue.cells().volume(p), g});
+                }
+          }
+        points.offsets.push_back(points.xi.size());
+      }
+    return std::make_unique<SurfaceEnergy<dim>>(std::move(points),
+                                                std::move(loads),
+                                                smoothing / positions.h);
+  }
+
+
+  template class TypeTension<2>;
+  template class TypeTension<3>;
+} // namespace Morula

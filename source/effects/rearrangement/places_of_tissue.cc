@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/send_records.h>
+#include <morula/effects/rearrangement/places_of_tissue.h>
+#include <morula/particles/point_exchange.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace Morula
+{
+  namespace
+  {
+    /** S/l is at most this times a^(dim-2): to exchange daughters that stand
+     *  close changes nothing. */
+    constexpr double largest_ratio = 3.;
+    /** How many edges away a place can be of which an event must know. */
+    constexpr double n_edges = 3.;
+
+    /** What ranks tell each other of a cell at its place: key, type, D, f, free
+     *  surface, rank and number. */
+    template <int dim>
+    using Told = std::tuple<std::uint64_t,
+                            unsigned int,
+                            double,
+                            Tensor<1, 3>,
+                            double,
+                            unsigned int,
+                            unsigned int>;
+
+    /** An edge of another rank's place. */
+    struct EdgeRecord
+    {
+      types::particle_index place, other; // ids
+      double                area, distance;
+    };
+
+    template <int dim>
+    Told<dim>
+    told_of(const Occupant &cell, const double free)
+    {
+      Tensor<1, 3> drive;
+      for (unsigned int d = 0; d < 3; ++d)
+        drive[d] = cell.drive[d];
+      return Told<dim>(cell.key,
+                       cell.type,
+                       cell.diffusion,
+                       drive,
+                       free,
+                       cell.rank,
+                       cell.number);
+    }
+
+    template <int dim>
+    void
+    add_place(const Told<dim>  &told,
+              const Point<dim> &x,
+              const bool        own,
+              PlacesOfTissue   &around)
+    {
+      const auto &[key, type, D, f, free, rank, number] = told;
+      Occupant cell{key, type, D, {{f[0], f[1], f[2]}}, rank, number};
+      around.occupants.push_back(cell);
+      around.places.keys.push_back(key);
+      std::array<double, 3> place = {{0., 0., 0.}};
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = x[d];
+      around.places.positions.push_back(place);
+      around.places.free.push_back(free);
+      around.places.own.push_back(own);
+    }
+  } // namespace
+
+
+  template <int dim>
+  PlacesOfTissue
+  places_of(const Tissue<dim> &tissue, const std::vector<Occupant> &cells)
+  {
+    // First each rank finds the edges of its own places. Then it gets the
+    // places of others around, and asks their owners for the edges of these:
+    // that also tells the owners who listens to them. An edge of which one end
+    // is not known here is left out: no event here can feel it.
+    const MPI_Comm comm = tissue.communicator();
+    const std::vector<double> free = free_surfaces(tissue);
+    PointList<dim>            list(Flat<Told<dim>>::n);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      list.add_value(tissue.cells().id(p),
+                     tissue.cells().position(p),
+                     told_of<dim>(cells[p], free[p]));
+    const NeighbourSearch     search;
+    const NeighbourGraph<dim> graph = neighbours(tissue, list, search);
+    const double              a     = graph.spacing;
+    const PointList<dim>      ghosts =
+      halo(list, tissue.grid(), n_edges * search.reach * a);
+
+    const std::array<const PointList<dim> *, 2> parts = {{&list, &ghosts}};
+    PlacesOfTissue around;
+    std::map<unsigned int, std::vector<unsigned int>> wanted; // by rank
+    for (const PointList<dim> *part : parts)
+      for (std::size_t i = 0; i < part->size(); ++i)
+        {
+          add_place<dim>(part->template value<Told<dim>>(i),
+                         part->positions[i],
+                         part == &list,
+                         around);
+          const Occupant &cell = around.occupants.back();
+          if (part == &ghosts)
+            wanted[cell.rank].push_back(cell.number);
+        }
+    around.listeners.resize(cells.size());
+    std::map<unsigned int, std::vector<EdgeRecord>> edges_to;
+    for (const auto &[rank, numbers] : send_records(wanted, comm))
+      for (const unsigned int p : numbers)
+        {
+          around.listeners[p].push_back(rank);
+          graph.for_neighbours(p, [&, rank = rank](const auto &e) {
+            edges_to[rank].push_back(
+              {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
+          });
+        }
+    std::vector<EdgeRecord> edges;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      graph.for_neighbours(p, [&](const auto &e) {
+        edges.push_back(
+          {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
+      });
+    for (const auto &[rank, of_rank] : send_records(edges_to, comm))
+      edges.insert(edges.end(), of_rank.begin(), of_rank.end());
+
+    std::unordered_map<types::particle_index, unsigned int> place_of;
+    for (const PointList<dim> *part : parts)
+      for (const auto id : part->ids)
+        place_of.emplace(id, place_of.size());
+    std::vector<std::vector<Places::Edge>> of_place(around.places.size());
+    const double V   = std::pow(a, dim);
+    const double cap = largest_ratio * std::pow(a, dim - 2);
+    for (const EdgeRecord &edge : edges)
+      if (const auto other = place_of.find(edge.other); other != place_of.end())
+        of_place[place_of.at(edge.place)].push_back(
+          {other->second,
+           edge.area,
+           std::min(edge.area / edge.distance, cap) / V});
+    around.places.offsets.push_back(0);
+    for (const auto &of_one : of_place)
+      {
+        around.places.edges.insert(around.places.edges.end(),
+                                   of_one.begin(),
+                                   of_one.end());
+        around.places.offsets.push_back(around.places.edges.size());
+      }
+    around.places.sort_edges();
+    return around;
+  }
+
+
+  void
+  run(ExchangeRounds       &rounds,
+      const PlacesOfTissue &around,
+      const MPI_Comm        comm)
+  {
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      {
+        rounds.run_in_order();
+        return;
+      }
+    // After each round the ranks tell each other what they have run. The owner
+    // of a place knows who listens to it.
+    std::unordered_map<std::uint64_t, unsigned int> own;
+    for (unsigned int p = 0; p < around.listeners.size(); ++p)
+      own[around.places.keys[p]] = p;
+    while (Utilities::MPI::sum(rounds.n_left(), comm) > 0)
+      {
+        std::map<unsigned int, std::vector<ExchangeResult>> results_to;
+        for (const ExchangeResult &result : rounds.run_round())
+          for (const unsigned int rank : around.listeners[own.at(result.p)])
+            results_to[rank].push_back(result);
+        for (const auto &[rank, results] : send_records(results_to, comm))
+          for (const ExchangeResult &result : results)
+            rounds.take(result);
+      }
+  }
+
+
+  template PlacesOfTissue
+  places_of(const Tissue<2> &, const std::vector<Occupant> &);
+  template PlacesOfTissue
+  places_of(const Tissue<3> &, const std::vector<Occupant> &);
+} // namespace Morula

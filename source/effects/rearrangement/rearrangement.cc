@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/base/send_records.h>
+#include <morula/effects/rearrangement/places_of_tissue.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/mechanics/material.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
+#include <map>
+
+namespace Morula
+{
+  RearrangementParameters::RearrangementParameters()
+    : diffusion("Rearrangement/Diffusion",
+                "0",
+                "Diffusion coefficient of a cell among equal ones, which "
+                "exchanges its place with neighbours; a mean of two cells' "
+                "counts. An expression; 0: the cell keeps its place. Units: "
+                "um^2/day.",
+                Evaluated::step)
+    , energy("Rearrangement/Fluctuation energy",
+             0.,
+             "T in the probability 1/(1 + exp(E/T)) that an exchange is made "
+             "which changes the energy of adhesion (Cell types/NAME/Tension) "
+             "by E; 0: never one that raises it. In 3-D times um. Units: kPa "
+             "um^2.",
+             {0.})
+    , shear_released("Rearrangement/Shear released",
+                     1.,
+                     "Part of the elastic shear that each exchange takes from "
+                     "both places: 1 is a liquid as long as cells exchange "
+                     "places.",
+                     {0.})
+    , drive("Rearrangement/Drive",
+            "0; 0; 0",
+            "Force with which a cell looks for exchanges along it; none acts on "
+            "the tissue. An expression. In 3-D times um. Units: kPa um.",
+            Evaluated::step,
+            3)
+  {
+    diffusion.not_negative("um^2/day", "0 lets the cell keep its place.");
+    shear_released.require([](const double q) { return q <= 1.; },
+                           "a number from 0 to 1",
+                           "1 releases all shear at the two places.");
+  }
+
+
+  bool
+  RearrangementParameters::is_on() const
+  {
+    return !diffusion.is_default() || diffusion.differs_by_type();
+  }
+
+
+  const AnyKey *
+  RearrangementParameters::switch_key() const
+  {
+    return &diffusion;
+  }
+
+
+  std::string
+  RearrangementParameters::how_to_switch_on() const
+  {
+    return "Set " + diffusion.path() + " > 0";
+  }
+
+
+  void
+  RearrangementParameters::check_with(const MaterialParameters &material) const
+  {
+    // Other refusals, which need more of the scene, are those of
+    // scene/rearrangement_check.cc.
+    if (energy == 0. && !drive.is_default())
+      energy.refuse("a value > 0, as " + drive.path() + " is set",
+                    "A drive is followed at the rate D f/T.");
+    static_cast<void>(material);
+  }
+
+
+  KeyList
+  RearrangementParameters::list()
+  {
+    return {&diffusion, &energy, &shear_released, &drive};
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  with_less_shear(const Tensor<2, dim> &F_e, const double part)
+  {
+    // F_e = V R with V² = F_e F_eᵀ. The principal stretches λ become
+    // J^(1/d) (λ/J^(1/d))^part along the same directions.
+    const auto   b = symmetrize(F_e * transpose(F_e));
+    const auto   pairs = eigenvectors(b);
+    const double mean  = std::pow(determinant(F_e), 1. / dim);
+    Tensor<2, dim> change;
+    for (const auto &[square, direction] : pairs)
+      change += std::pow(std::sqrt(square) / mean, part - 1.) *
+                outer_product(direction, direction);
+    return change * F_e;
+  }
+
+
+  template <int dim>
+  Tensor<2, dim>
+  deformation_at(const Tensor<2, dim> &F_e,
+                 const double          V,
+                 const Tensor<2, dim> &F_g,
+                 const double          V0)
+  {
+    const Tensor<2, dim> F = F_e * F_g;
+    return std::pow(V / (V0 * determinant(F)), 1. / dim) * F;
+  }
+
+
+  template <int dim>
+  Rearrangement<dim>::Rearrangement(const Parameters         &parameters,
+                                    const EffectSetting<dim> &setting)
+    : diffusion(setting.state.use(parameters.diffusion))
+    , drive(setting.state.use(parameters.drive))
+    , energy(setting.tensions, parameters.energy)
+    , shear_released(parameters.shear_released)
+    , random_seed(setting.random_seed)
+    , death_time(setting.columns.template find<double>("death_time"))
+  {}
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::declare(Tables<dim> &tables) const
+  {
+    tables.add_number("exchanges");
+    tables.add_number("adhesion_energy");
+    tables.add_number("unlike_share");
+  }
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::check_cell(const PresentCell<dim> &founder,
+                                 const double) const
+  {
+    founder.value(diffusion, 0.);
+    founder.vector(drive, 0.);
+  }
+
+
+  template <int dim>
+  std::vector<Occupant>
+  Rearrangement<dim>::cells_of(const Tissue<dim>     &tissue,
+                               const CellReader<dim> &reader) const
+  {
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(tissue.communicator());
+    std::vector<Occupant> list;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const PresentCell<dim> cell = present_cell(tissue, p, reader);
+        // The dead keep their place.
+        const bool is_dead =
+          death_time.exists() && cell.cell().get(death_time) >= 0.;
+        const Tensor<1, dim> f = cell.vector(drive, reader.time);
+        Occupant             one{cell.lineage_key(),
+                     cell.type(),
+                     is_dead ? 0. : cell.value(diffusion, reader.time),
+                     {{f[0], f[1], dim == 3 ? f[dim - 1] : 0.}},
+                     rank,
+                     p};
+        list.push_back(one);
+      }
+    return list;
+  }
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::tell(const MomentOfRun<dim>      &moment,
+                           const Places                &places,
+                           const std::vector<Occupant> &occupants,
+                           const double                 n_exchanges,
+                           const MPI_Comm               comm) const
+  {
+    // Each contact is seen from both of its cells, and counts half each time.
+    double sum = 0., touching = 0., unlike = 0.;
+    for (unsigned int p = 0; p < places.size(); ++p)
+      if (places.own[p])
+        {
+          const unsigned int type = occupants[p].type;
+          for (unsigned int e = places.offsets[p]; e < places.offsets[p + 1];
+               ++e)
+            {
+              const unsigned int other = occupants[places.edges[e].other].type;
+              sum += 0.5 * places.edges[e].area * energy.between(type, other);
+              touching += places.edges[e].area;
+              unlike += other == type ? 0. : places.edges[e].area;
+            }
+          sum += places.free[p] * energy.with_surface(type);
+        }
+    touching = Utilities::MPI::sum(touching, comm);
+    moment.of_step["exchanges"] = Utilities::MPI::sum(n_exchanges, comm);
+    moment.of_step["adhesion_energy"] = Utilities::MPI::sum(sum, comm);
+    moment.of_step["unlike_share"] =
+      Utilities::MPI::sum(unlike, comm) / (touching > 0. ? touching : 1.);
+  }
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::settle(Tissue<dim>            &tissue,
+                             const MomentOfRun<dim> &moment) const
+  {
+    std::vector<Occupant> cells;
+    everywhere(tissue.communicator(),
+               [&]() { cells = cells_of(tissue, moment.reader); });
+    const PlacesOfTissue around = places_of(tissue, cells);
+    tell(moment, around.places, around.occupants, 0., tissue.communicator());
+  }
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::rearrange(Tissue<dim>            &tissue,
+                                const MomentOfRun<dim> &moment) const
+  {
+    // The events run on copies of the cells, while the places stay as they are.
+    // At the end the owner of each place tells the rank of the cell that has
+    // come there what the place keeps: position, volume, F_e, and the fields,
+    // whose amounts stay so. A cell comes from farther away than the places
+    // around a rank reach, if it has had many exchanges; so it carries its rank
+    // and number with it. The cells of this rank are moved at last, in one go.
+    const MPI_Comm             comm    = tissue.communicator();
+    const StateColumns<dim>   &columns = moment.reader.columns;
+    const CellColumns<dim>    &of_cell = tissue.cells().columns();
+    std::vector<Occupant>      cells;
+    everywhere(comm, [&]() { cells = cells_of(tissue, moment.reader); });
+    const PlacesOfTissue around = places_of(tissue, cells);
+    ExchangeRounds       rounds(
+      around.places,
+      around.occupants,
+      attempts(around.places, around.occupants, random_seed, moment.t, moment.dt),
+      energy);
+    run(rounds, around, comm);
+
+    std::map<unsigned int, std::vector<double>> sent;
+    double                                      n_exchanges = 0.;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const unsigned int n = rounds.n_exchanges()[p];
+        n_exchanges += 0.5 * n;
+        if (n == 0)
+          continue;
+        const auto      place = tissue.cells()[p];
+        const Occupant &comes = rounds.occupants()[p];
+        Tensor<2, dim>  F_e   = place.elastic_deformation();
+        if (shear_released > 0.)
+          F_e = with_less_shear(F_e, std::pow(1. - shear_released, n));
+        std::vector<double> &list = sent[comes.rank];
+        append_flat(list, comes.number);
+        append_flat(list, tissue.cells().position(p));
+        append_flat(list, place.volume());
+        append_flat(list, F_e);
+        for (const Column<double> &field : columns.fields)
+          append_flat(list, place.get(field));
+      }
+    std::vector<Point<dim>>   positions = tissue.cells().positions();
+    const std::size_t         width =
+      1 + dim + 1 + dim * dim + columns.fields.size();
+    for (const auto &[rank, list] : send_records(sent, comm))
+      for (std::size_t i = 0; i < list.size(); i += width)
+        {
+          const double      *next = &list[i];
+          const unsigned int p    = static_cast<unsigned int>(next[0]);
+          positions[p]            = Flat<Point<dim>>::read(next + 1);
+          const double         V    = next[1 + dim];
+          const Tensor<2, dim> F_e  = Flat<Tensor<2, dim>>::read(next + 2 + dim);
+          const CellView<dim, double> cell = tissue.cell(p);
+          cell.set(of_cell.deformation,
+                   deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
+          for (std::size_t k = 0; k < columns.fields.size(); ++k)
+            cell.set(columns.fields[k], next[2 + dim + dim * dim + k]);
+        }
+    tissue.move(positions, tissue.boundary_points().positions());
+    tell(moment, around.places, rounds.occupants(), n_exchanges, comm);
+  }
+
+
+#define INSTANTIATE(dim)                                                 \
+  template class Rearrangement<dim>;                                     \
+  template Tensor<2, dim> deformation_at(const Tensor<2, dim> &,         \
+                                         const double,                   \
+                                         const Tensor<2, dim> &,         \
+                                         const double);                  \
+  template Tensor<2, dim> with_less_shear(const Tensor<2, dim> &, const double);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

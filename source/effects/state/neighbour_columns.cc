@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
+#include <morula/effects/state/neighbour_columns.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace Morula
+{
+  namespace
+  {
+    constexpr double reach_of_distance = 1.5;
+
+
+    /** The names in a text. */
+    std::vector<std::string>
+    names_in(const std::string &text)
+    {
+      std::vector<std::string> names;
+      std::string              word;
+      const auto               end_word = [&] {
+        if (!word.empty() && !std::isdigit(static_cast<unsigned char>(word[0])))
+          names.push_back(word);
+        word.clear();
+      };
+      for (const char c : text)
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+          word += c;
+        else
+          end_word();
+      end_word();
+      return names;
+    }
+
+
+    bool
+    is_in(const std::vector<std::string> &list, const std::string &name)
+    {
+      return std::find(list.begin(), list.end(), name) != list.end();
+    }
+
+
+    std::string
+    joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text.empty() ? "none" : text;
+    }
+  } // namespace
+
+
+  NeighbourParameters::NeighbourParameters()
+    : found_by("Neighbours/Found by",
+               "facets",
+               "Which cells are neighbours: facets: those whose Voronoi cells "
+               "touch; radius: those that are near, in 3-D much cheaper, but "
+               "shares of the surface are estimates then.",
+               {"facets|radius"})
+    , reach("Neighbours/Reach",
+            1.8,
+            "Distance of the farthest neighbour; with Found by = radius 1.5 "
+            "unless it is set. At most 2.5. Units: mean cell spacings.")
+  {
+    reach.require([](const double value) { return value > 0. && value <= 2.5; },
+                  "a value > 0, at most 2.5",
+                  "Cells that far apart do not touch.");
+  }
+
+
+  NeighbourSearch
+  NeighbourParameters::search() const
+  {
+    const bool by_facets = found_by == "facets";
+    return {by_facets,
+            !by_facets && reach.is_default() ? reach_of_distance :
+                                               reach.value()};
+  }
+
+
+  bool
+  NeighbourParameters::is_on() const
+  {
+    return std::any_of(variables.begin(),
+                       variables.end(),
+                       [](const NeighbourVariable &told) {
+                         return told.kind != NeighbourVariable::slope;
+                       });
+  }
+
+
+  std::string
+  NeighbourParameters::details() const
+  {
+    std::string names;
+    for (const NeighbourVariable &told : variables)
+      names += (names.empty() ? "" : ", ") + told.name;
+    return names + ", found by " + found_by.value() + ", reach " +
+           as_text(search().reach);
+  }
+
+
+  KeyList
+  NeighbourParameters::list()
+  {
+    return {&found_by, &reach};
+  }
+
+
+  void
+  NeighbourParameters::find_in(const std::vector<ExpressionKey *> &keys,
+                               const std::vector<std::string>     &types,
+                               const std::vector<std::string>     &fields)
+  {
+    // The names are sorted, so that the numbers of variables, and with them the
+    // columns, do not depend on the order of keys. They follow the fields, as
+    // keys know variables of a scene's own by their numbers alone.
+    variables.clear();
+    std::map<std::string, NeighbourVariable> found;
+    for (const ExpressionKey *key : keys)
+      for (const std::string &name : names_in(key->text()))
+        {
+          const auto told = neighbour_variable(name, types, fields);
+          if (told && key->evaluated() == Evaluated::property)
+            key->refuse("an expression without '" + name + "'",
+                        "The stress may not depend on the neighbours, which "
+                        "depend on the stress: let cells change their type by "
+                        "it, and set this key for the type.");
+          if (told)
+            found.emplace(name, *told);
+          else if (tells_of_neighbours(name) && !is_in(types, name) &&
+                   !is_in(fields, name))
+            key->refuse("a variable that there is",
+                        "'" + name +
+                          "' ends with no name that it can be of. Types: " +
+                          joined(types) + "; fields: " + joined(fields) +
+                          "; around_ is followed by a variable of cells or a "
+                          "field.");
+        }
+    if (found.empty())
+      return;
+    std::vector<std::string> names = fields;
+    for (const auto &[name, told] : found)
+      {
+        variables.push_back(told);
+        names.push_back(name);
+      }
+    if (names.size() > most_fields)
+      throw InputError("Neighbours",
+                       joined(names),
+                       "at most " + std::to_string(most_fields) +
+                         " fields and variables of neighbours",
+                       "Use fewer of them in expressions.");
+    for (ExpressionKey *key : keys)
+      key->set_fields(names);
+  }
+
+
+  template <int dim>
+  NeighbourColumns<dim>::NeighbourColumns(const Parameters &parameters)
+    : search(parameters.search())
+    , variables(parameters.variables)
+  {}
+
+
+  template <int dim>
+  void
+  NeighbourColumns<dim>::settle(Tissue<dim>            &tissue,
+                                const MomentOfRun<dim> &moment) const
+  {
+    after(tissue, moment);
+  }
+
+
+  template <int dim>
+  void
+  NeighbourColumns<dim>::after(Tissue<dim>            &tissue,
+                               const MomentOfRun<dim> &moment) const
+  {
+    // Each cell tells the others its type, and the values that some mean over
+    // neighbours asks for. These are read before any column is written, as a
+    // mean may be one of a variable that is written here. Then the sums over
+    // the neighbours are made in the order of their ids.
+    const StateColumns<dim>      &columns = moment.reader.columns;
+    const Cells<dim>             &cells   = tissue.cells();
+    std::vector<const NeighbourVariable *> means;
+    for (const NeighbourVariable &told : variables)
+      if (told.kind == NeighbourVariable::around)
+        means.push_back(&told);
+    PointList<dim> told_by_cells(1 + means.size());
+    everywhere(tissue.communicator(), [&]() {
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          const PresentCell<dim> cell = present_cell(tissue, p, moment.reader);
+          std::vector<double>    row  = {double(cell.type())};
+          for (const NeighbourVariable *const mean : means)
+            row.push_back(cell.value(mean->variable, moment.t));
+          told_by_cells.add(cells.id(p),
+                            cells.position(p),
+                            make_array_view(row));
+        }
+    });
+    const auto uses = [&](const NeighbourVariable::Kind kind) {
+      return std::any_of(variables.begin(), variables.end(), [&](const auto &v) {
+        return v.kind == kind;
+      });
+    };
+    const NeighbourGraph<dim> graph = neighbours(tissue, told_by_cells, search);
+    // A share of the surface is one of all of it, so that the free part is
+    // needed for each of them.
+    const bool shares = uses(NeighbourVariable::free) ||
+                        uses(NeighbourVariable::unlike) ||
+                        uses(NeighbourVariable::share_of_type);
+    const std::vector<double> free =
+      shares ? free_surfaces(tissue) : std::vector<double>(cells.size(), 0.);
+
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const auto own      = graph.points.row(p);
+        double     touching = 0.;
+        graph.for_neighbours(p, [&](const auto &e) { touching += e.area; });
+        const double surface = touching + free[p];
+        // The sum over the neighbours of something, and over what they touch.
+        const auto sum = [&](const auto &value) {
+          double total = 0.;
+          graph.for_neighbours(p, [&](const auto &e) {
+            total += value(graph.points.row(e.other), e.area);
+          });
+          return total;
+        };
+        const auto share = [&](const double part) {
+          return surface > 0. ? part / surface : 0.;
+        };
+        unsigned int n_means = 0;
+        for (std::size_t k = 0; k < variables.size(); ++k)
+          {
+            const NeighbourVariable &told = variables[k];
+            const auto is_of_type = [&](const ArrayView<const double> &row) {
+              return row[0] == told.number;
+            };
+            double value = 0.;
+            switch (told.kind)
+              {
+                case NeighbourVariable::count:
+                  value = graph.offsets[p + 1] - graph.offsets[p];
+                  break;
+                case NeighbourVariable::count_of_type:
+                  value = sum([&](const auto &row, const double) {
+                    return is_of_type(row) ? 1. : 0.;
+                  });
+                  break;
+                case NeighbourVariable::share_of_type:
+                  value = share(sum([&](const auto &row, const double S) {
+                    return is_of_type(row) ? S : 0.;
+                  }));
+                  break;
+                case NeighbourVariable::unlike:
+                  value = share(sum([&](const auto &row, const double S) {
+                    return row[0] != own[0] ? S : 0.;
+                  }));
+                  break;
+                case NeighbourVariable::free:
+                  value = share(free[p]);
+                  break;
+                case NeighbourVariable::around:
+                  ++n_means;
+                  // A cell without neighbours has its own value around it.
+                  value = touching > 0. ?
+                            sum([&](const auto &row, const double S) {
+                              return S * row[n_means];
+                            }) / touching :
+                            own[n_means];
+                  break;
+                case NeighbourVariable::slope:
+                  continue;
+              }
+            tissue.cell(p).set(columns.neighbours[k], value);
+          }
+      }
+  }
+
+
+  template class NeighbourColumns<2>;
+  template class NeighbourColumns<3>;
+} // namespace Morula

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/particles/voronoi_facets.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+// A facet between two points is dual to their edge in Delaunay's triangulation.
+// Its area is a sum over the simplices at the edge. CGAL's own dual() looks for
+// its simplex among all where assertions are on, so circumcentres are computed
+// here, from the vertices in the order of their ids.
+
+namespace Morula
+{
+  namespace
+  {
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+    template <int dim>
+    struct Simplices;
+
+    template <>
+    struct Simplices<2>
+    {
+      using Vertex =
+        CGAL::Triangulation_vertex_base_with_info_2<unsigned int, Kernel>;
+      using Structure     = CGAL::Triangulation_data_structure_2<Vertex>;
+      using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
+
+      static Kernel::Point_2
+      point(const Point<2> &x)
+      {
+        return {x[0], x[1]};
+      }
+    };
+
+    template <>
+    struct Simplices<3>
+    {
+      using Vertex =
+        CGAL::Triangulation_vertex_base_with_info_3<unsigned int, Kernel>;
+      using Structure = CGAL::Triangulation_data_structure_3<
+        Vertex,
+        CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+      using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
+
+      static Kernel::Point_3
+      point(const Point<3> &x)
+      {
+        return {x[0], x[1], x[2]};
+      }
+    };
+
+    /** What a simplex adds to a facet. */
+    struct Part
+    {
+      unsigned int b;
+      double       area;
+    };
+
+    /** The parts of the facets of each point a with points b > a. */
+    using Parts = std::vector<std::vector<Part>>;
+
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+    void
+    add_part(Parts             &parts,
+             const unsigned int i,
+             const unsigned int j,
+             const double       area)
+    {
+      parts[std::min(i, j)].push_back({std::max(i, j), area});
+    }
+
+    /** Circumcentre of a triangle minus its first corner, from its edges @p u
+     *  and @p v there. */
+    Tensor<1, 3>
+    circumcenter(const Tensor<1, 3> &u, const Tensor<1, 3> &v)
+    {
+      const Tensor<1, 3> n = cross_product_3d(u, v);
+      return (u.norm_square() * cross_product_3d(v, n) +
+              v.norm_square() * cross_product_3d(n, u)) /
+             (2. * n.norm_square());
+    }
+
+    /** The parts of a triangle: of each edge the signed distance from its
+     *  middle to the circumcentre. */
+    void
+    add_parts(const std::vector<Point<2>>       &x,
+              const std::array<unsigned int, 3> &corners,
+              const double                       reach,
+              Parts                             &parts)
+    {
+      const Tensor<1, 2> u = x[corners[1]] - x[corners[0]];
+      const Tensor<1, 2> v = x[corners[2]] - x[corners[0]];
+      const double       twice = 2. * (u[0] * v[1] - u[1] * v[0]);
+      Tensor<1, 2>       c;
+      c[0] = (v[1] * u.norm_square() - u[1] * v.norm_square()) / twice;
+      c[1] = (u[0] * v.norm_square() - v[0] * u.norm_square()) / twice;
+      const std::array<Tensor<1, 2>, 3> y = {{Tensor<1, 2>(), u, v}};
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
+          const Tensor<1, 2> edge = y[j] - y[i];
+          if (edge.norm() > reach)
+            continue;
+          const Tensor<1, 2> middle = 0.5 * (y[i] + y[j]);
+          const Tensor<1, 2> inward = cross_product_2d(edge) / edge.norm();
+          const double sign = inward * (y[k] - middle) > 0. ? 1. : -1.;
+          add_part(parts,
+                   corners[i],
+                   corners[j],
+                   sign * (inward * (c - middle)));
+        }
+    }
+
+    /** The parts of a tetrahedron: of each edge the signed quadrilateral of the
+     *  edge's middle, the circumcentres of the two faces there, and that of the
+     *  tetrahedron. */
+    void
+    add_parts(const std::vector<Point<3>>       &x,
+              const std::array<unsigned int, 4> &corners,
+              const double                       reach,
+              Parts                             &parts)
+    {
+      std::array<Tensor<1, 3>, 4> y;
+      for (unsigned int i = 1; i < 4; ++i)
+        y[i] = x[corners[i]] - x[corners[0]];
+      const Tensor<1, 3> c =
+        (y[1].norm_square() * cross_product_3d(y[2], y[3]) +
+         y[2].norm_square() * cross_product_3d(y[3], y[1]) +
+         y[3].norm_square() * cross_product_3d(y[1], y[2])) /
+        (2. * (y[1] * cross_product_3d(y[2], y[3])));
+      // The circumcentre of the face opposite of each corner.
+      std::array<Tensor<1, 3>, 4> of_face;
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int i = k == 0 ? 1 : 0, j = k <= 1 ? 2 : 1,
+                             l = k == 3 ? 2 : 3;
+          of_face[k] = y[i] + circumcenter(y[j] - y[i], y[l] - y[i]);
+        }
+      for (unsigned int i = 0; i < 4; ++i)
+        for (unsigned int j = i + 1; j < 4; ++j)
+          {
+            const Tensor<1, 3> edge = y[j] - y[i];
+            if (edge.norm() > reach)
+              continue;
+            const unsigned int k = i == 0 ? (j == 1 ? 2 : 1) : 0;
+            const unsigned int l = 6 - i - j - k;
+            const Tensor<1, 3> axis = edge / edge.norm();
+            const Tensor<1, 3> m    = 0.5 * (y[i] + y[j]);
+            // The face without l holds k, and the other way round.
+            const Tensor<1, 3> to_k = of_face[l] - m, to_l = of_face[k] - m;
+            const double       turns =
+              axis * cross_product_3d(y[k] - m, y[l] - m) > 0. ? 1. : -1.;
+            add_part(parts,
+                     corners[i],
+                     corners[j],
+                     0.5 * turns *
+                       (axis * (cross_product_3d(to_k, c - m) +
+                                cross_product_3d(c - m, to_l))));
+          }
+    }
+
+    /** Calls @p visit(corners) for all simplices, and @p open(i, j) for the
+     *  edges of the hull. */
+    template <typename Visit, typename Open>
+    void
+    for_simplices(const Simplices<2>::Triangulation &triangulation,
+                  const Visit                       &visit,
+                  const Open                        &open)
+    {
+      for (auto face = triangulation.all_faces_begin();
+           face != triangulation.all_faces_end();
+           ++face)
+        if (triangulation.is_infinite(face))
+          {
+            std::array<unsigned int, 2> edge = {};
+            unsigned int                n = 0;
+            for (int k = 0; k < 3; ++k)
+              if (!triangulation.is_infinite(face->vertex(k)) && n < 2)
+                edge[n++] = face->vertex(k)->info();
+            open(edge[0], edge[1]);
+          }
+        else
+          visit(std::array<unsigned int, 3>{{face->vertex(0)->info(),
+                                             face->vertex(1)->info(),
+                                             face->vertex(2)->info()}});
+    }
+
+    template <typename Visit, typename Open>
+    void
+    for_simplices(const Simplices<3>::Triangulation &triangulation,
+                  const Visit                       &visit,
+                  const Open                        &open)
+    {
+      for (auto cell = triangulation.all_cells_begin();
+           cell != triangulation.all_cells_end();
+           ++cell)
+        if (triangulation.is_infinite(cell))
+          {
+            std::array<unsigned int, 3> face = {};
+            unsigned int                n = 0;
+            for (int k = 0; k < 4; ++k)
+              if (!triangulation.is_infinite(cell->vertex(k)) && n < 3)
+                face[n++] = cell->vertex(k)->info();
+            for (unsigned int k = 0; k < 3; ++k)
+              open(face[k], face[(k + 1) % 3]);
+          }
+        else
+          visit(std::array<unsigned int, 4>{{cell->vertex(0)->info(),
+                                             cell->vertex(1)->info(),
+                                             cell->vertex(2)->info(),
+                                             cell->vertex(3)->info()}});
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<VoronoiFacet>
+  voronoi_facets(const std::vector<Point<dim>>            &points,
+                 const std::vector<types::particle_index> &ids,
+                 const double                              reach)
+  {
+    // The parts of all facets are collected by their first point. Those of a
+    // facet are then sorted by size and added up, so that the order in which
+    // CGAL visits its simplices leaves no trace. Fewer than dim + 1 points, or
+    // points in one plane, have no simplex and no facet.
+    std::vector<std::pair<decltype(Simplices<dim>::point(points[0])),
+                          unsigned int>>
+      list;
+    for (unsigned int i = 0; i < points.size(); ++i)
+      list.emplace_back(Simplices<dim>::point(points[i]), i);
+    const typename Simplices<dim>::Triangulation triangulation(list.begin(),
+                                                               list.end());
+    std::vector<VoronoiFacet>                    facets;
+    if (triangulation.dimension() < dim)
+      return facets;
+    Parts parts(points.size());
+    for_simplices(
+      triangulation,
+      [&](auto corners) {
+        std::sort(corners.begin(),
+                  corners.end(),
+                  [&](const unsigned int i, const unsigned int j) {
+                    return ids[i] < ids[j];
+                  });
+        add_parts(points, corners, reach, parts);
+      },
+      [&](const unsigned int i, const unsigned int j) {
+        if (points[i].distance(points[j]) <= reach)
+          add_part(parts, i, j, unbounded);
+      });
+    for (unsigned int a = 0; a < parts.size(); ++a)
+      {
+        std::sort(parts[a].begin(),
+                  parts[a].end(),
+                  [](const Part &one, const Part &other) {
+                    return std::make_pair(one.b, one.area) <
+                           std::make_pair(other.b, other.area);
+                  });
+        for (const Part &part : parts[a])
+          if (!facets.empty() && facets.back().a == a &&
+              facets.back().b == part.b)
+            facets.back().area += part.area;
+          else
+            facets.push_back(
+              {a, part.b, part.area, points[a].distance(points[part.b])});
+      }
+    return facets;
+  }
+
+
+  template std::vector<VoronoiFacet>
+  voronoi_facets(const std::vector<Point<2>> &,
+                 const std::vector<types::particle_index> &,
+                 const double);
+  template std::vector<VoronoiFacet>
+  voronoi_facets(const std::vector<Point<3>> &,
+                 const std::vector<types::particle_index> &,
+                 const double);
+} // namespace Morula

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/forces/type_fractions.h>
+#include <morula/effects/forces/type_tension.h>
+#include <morula/effects/surface/surface_energy.h>
+#include <morula/scene/tensions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "common/complaint.h"
+#include "common/finite_differences.h"
+#include "effects/fate/lives.h"
+
+using namespace Morula;
+
+namespace
+{
+  template <int dim>
+  GridBox<dim>
+  unit_box(const double h)
+  {
+    return GridBox<dim>({}, {}, h, Point<dim>());
+  }
+
+  /** Cells of a lattice, turned by an angle about the first axes' plane. */
+  template <int dim>
+  std::vector<Point<dim>>
+  turned_lattice(const double half, const double angle)
+  {
+    std::vector<Point<dim>> list;
+    for (const Point<dim> &x :
+         lattice_points<dim>(Point<dim>(), half, 1., [](const auto &) {
+           return true;
+         }))
+      {
+        Point<dim> y = x;
+        y[0]         = std::cos(angle) * x[0] - std::sin(angle) * x[1];
+        y[1]         = std::sin(angle) * x[0] + std::cos(angle) * x[1];
+        list.push_back(y);
+      }
+    return list;
+  }
+
+  template <int dim>
+  void
+  check_derivatives()
+  {
+    // Areas as small as the smoothing and far larger ones.
+    std::mt19937                              generator(3);
+    const GroupedPoints<dim>                  points =
+      random_points_in_cell<dim>(generator, 6);
+    std::vector<typename AreaTerm<dim>::Load> loads;
+    for (unsigned int p = 0; p < 6; ++p)
+      loads.push_back({1. + p,
+                       std::pow(10., 0.5 * p - 1.5) *
+                         random_tensor<1, dim>(generator)});
+    expect_derivatives(SurfaceEnergy<dim>(points, loads, 0.1),
+                       random_field<dim>(generator, 0.2));
+  }
+
+  /** The energy of a flat interface at this angle over its area, with h = 5
+   *  cells, inside of a large tissue. */
+  template <int dim>
+  double
+  energy_per_area(const double angle)
+  {
+    const double         h    = 5.;
+    const double         half = dim == 2 ? 40. : 20.;
+    const double         r    = dim == 2 ? 20. : 8.;
+    TypeFractions<dim>   field(unit_box<dim>(h), 2);
+    const Tensor<1, dim> normal = [&] {
+      Tensor<1, dim> n;
+      n[0] = std::cos(angle), n[1] = std::sin(angle);
+      return n;
+    }();
+    const double along = 0.7; // the interface cuts the lattice anywhere
+    const auto   cells = turned_lattice<dim>(half, 0.3);
+    for (const Point<dim> &x : cells)
+      field.add(x, 1., x * normal > along);
+    double sum = 0.;
+    for (const Point<dim> &x : cells)
+      {
+        // The part of the tissue that counts is a cylinder along the normal.
+        const Tensor<1, dim> across = x - (x * normal) * normal;
+        if (across.norm() < r && std::abs(x * normal) < 15.)
+          sum += field.at(x).gradient[1].norm();
+      }
+    return sum / (dim == 2 ? 2. * r : numbers::PI * r * r);
+  }
+} // namespace
+
+
+TEST(TypeTension, HasExactDerivativesWithSmoothing)
+{
+  MORULA_BOTH_DIMENSIONS(check_derivatives)
+}
+
+
+TEST(TypeFractions, AddUpToOneAlsoBesideTheSurface)
+{
+  std::mt19937     generator(1);
+  TypeFractions<3> field(unit_box<3>(3.), 3);
+  const auto       cells = ball_points<3>(Point<3>(), 9., 1.);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    field.add(cells[i], 1. + 0.1 * (i % 4), generator() % 3);
+  for (const Point<3> &x : cells)
+    {
+      const auto   at = field.at(x);
+      double       sum = 0.;
+      Tensor<1, 3> slope;
+      for (unsigned int type = 0; type < 3; ++type)
+        sum += at.fraction[type], slope += at.gradient[type];
+      EXPECT_NEAR(sum, 1., 1e-12);
+      EXPECT_LT(slope.norm(), 1e-12);
+    }
+}
+
+
+TEST(TypeTension, OfAFlatInterfaceIsTheSameInAllDirections)
+{
+  for (const double angle : {0., 0.2, 0.4, 0.7854})
+    EXPECT_NEAR(energy_per_area<2>(angle), 1., 0.02) << angle;
+  for (const double angle : {0.1, 0.6})
+    EXPECT_NEAR(energy_per_area<3>(angle), 1., 0.04) << angle;
+}
+
+
+TEST(TypeTension, MixturesHaveSmallGradients)
+{
+  // With h = 5 cells, far below the 0.75 / h of an interface.
+  std::mt19937     generator(2);
+  TypeFractions<2> field(unit_box<2>(5.), 2);
+  const auto       cells = turned_lattice<2>(40., 0.3);
+  for (const Point<2> &x : cells)
+    field.add(x, 1., generator() % 2);
+  double sum = 0.;
+  for (const Point<2> &x : cells)
+    sum += 5. * field.at(x).gradient[0].norm();
+  EXPECT_LT(sum / cells.size(), 0.1);
+}
+
+
+TEST(TypeTension, StandsInOneOfTwoSections)
+{
+  const std::vector<std::string> settings = {
+    "Dimension=2",
+    "Cell types/Names=a, b, c",
+    "Cell types/b/Tension/With a=0.5",
+    "Cell types/a/Tension/With c=2",
+    "Cell types/c/Tension/With surface=3"};
+  const TypeTensions tensions = tensions_of(scene_of(settings));
+  const std::vector<std::vector<double>> expected = {{0., 0.5, 2.},
+                                                     {0.5, 0., 0.},
+                                                     {2., 0., 0.}};
+  EXPECT_EQ(tensions.between, expected);
+  EXPECT_EQ(tensions.with_surface, std::vector<double>({0., 0., 3.}));
+  const SceneEffects<2> effects = effects_of<2>(scene_of(settings));
+  EXPECT_EQ(effects.forces.size(), 1u);
+  EXPECT_EQ(effects.conditions.size(), 1u);
+
+  // Switched off, there is neither force nor condition.
+  auto off = settings;
+  off.push_back("Tension/Force=false");
+  EXPECT_TRUE(effects_of<2>(scene_of(off)).forces.empty());
+  EXPECT_TRUE(effects_of<2>(scene_of(off)).conditions.empty());
+}

@@ -16,6 +16,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ namespace Morula
     virtual std::string
     how_to_switch_on() const;
 
+    /** Whether cells divide by the effect, so that the scene's division axes
+     *  are its own. */
+    virtual bool
+    divides_cells() const;
+
     /** Refuses what the keys contradict in the material. @throws InputError */
     virtual void
     check_with(const MaterialParameters &material) const;
@@ -66,6 +72,8 @@ namespace Morula
     details() const;
   };
 
+  template <int dim>
+  class DivisionAxes;
   template <int dim>
   class PresentCell;
   template <int dim>
@@ -88,6 +96,8 @@ namespace Morula
     StateColumns<dim> &state;
     /** Tissue/Center if the shape has one, else the origin, µm. */
     Point<dim> center = Point<dim>();
+    /** Along what cells divide, for fates that divide them; null: at random. */
+    std::shared_ptr<const DivisionAxes<dim>> axes = nullptr;
   };
 
   /**

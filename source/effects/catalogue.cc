@@ -3,7 +3,9 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/long_axis.h>
 #include <morula/effects/fate/death.h>
+#include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/type_tension.h>
@@ -51,6 +53,7 @@ namespace Morula
     add<RateGrowth>(growth_laws, "rate");
     add<Contraction>(growth_factors, "contraction");
     add<Relaxation>(flows, "relaxation");
+    add<DivisionBySize>(fates, "division by size");
     add<Death>(fates, "death");
     add<FixedAxis>(division_rules, "fixed");
     add<StretchAxis>(division_rules, "stretch");
@@ -60,6 +63,7 @@ namespace Morula
     add<TangentialAxis>(division_rules, "tangential");
     add<Rearrangement>(step_effects, "rearrangement");
     add<NeighbourColumns>(step_effects, "neighbours");
+    add<LongAxis>(division_rules, "long axis");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
     add<TypeTension>(forces, "type tension");

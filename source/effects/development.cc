@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/development.h>
+#include <morula/effects/fate/random.h>
 
 #include <algorithm>
 #include <utility>
@@ -44,6 +45,11 @@ namespace Morula
     // costs more memory than its second computation costs time.
     keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
                  !this->effects.flows.empty();
+    announces_growth =
+      this->effects.law &&
+      std::any_of(this->effects.fates.begin(),
+                  this->effects.fates.end(),
+                  [](const auto &fate) { return fate->follows_growth(); });
   }
 
 
@@ -136,6 +142,44 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  CellDevelopment<dim>::divides() const
+  {
+    return std::any_of(effects.fates.begin(),
+                       effects.fates.end(),
+                       [](const auto &fate) { return fate->divides(); });
+  }
+
+
+  template <int dim>
+  const Fate<dim> &
+  CellDevelopment<dim>::dividing_fate() const
+  {
+    // A scene has one at most: a cell cycle refuses others.
+    return **std::find_if(effects.fates.begin(),
+                          effects.fates.end(),
+                          [](const auto &fate) { return fate->divides(); });
+  }
+
+
+  template <int dim>
+  double
+  CellDevelopment<dim>::time_of_division(
+    const CellView<dim, const double> &cell, const double t) const
+  {
+    return dividing_fate().time_of_division(cell, t);
+  }
+
+
+  template <int dim>
+  bool
+  CellDevelopment<dim>::stays_inside() const
+  {
+    return dividing_fate().stays_inside();
+  }
+
+
+  template <int dim>
   CellReader<dim>
   CellDevelopment<dim>::reader(const double t, const PastStep &past) const
   {
@@ -186,6 +230,8 @@ namespace Morula
     if (effects.types)
       cell.set(state_.type,
                given.type ? *given.type : effects.types->founder_type(X));
+    if (columns_.lineage_key.exists())
+      cell.set(columns_.lineage_key, Random::founder_key(random_seed, id));
     const PresentCell<dim> founder(cell, id, X, reader);
     if (effects.proliferation)
       effects.proliferation->found(founder, cell, step, given.phase);
@@ -241,6 +287,8 @@ namespace Morula
           // The integral of a rate gets what the last step missed of it,
           // doc/theory.md (5.9), before thresholds are looked for.
           fate->make_good(before, after);
+        if (announces_growth)
+          announce_growth(before, after, t0, t1);
         // A clock that no other fate can interrupt never has to be taken back,
         // so it needs no search for the earliest event.
         if (effects.proliferation && effects.fates.size() == 1)
@@ -408,7 +456,7 @@ namespace Morula
       state_.type.exists() ? daughter.get(state_.type) : 0;
     // Where the clock is the only fate there is nothing to do now: it has exact
     // times, so the next step finds what happened since the birth.
-    if (effects.fates.size() > 1)
+    if (!effects.proliferation || effects.fates.size() > 1)
       {
         const CellReader<dim>  reader = this->reader(t1);
         const PresentCell<dim> cell(daughter, id, position, reader);
@@ -423,7 +471,7 @@ namespace Morula
   CellDevelopment<dim>::placement_axis(
     const CellView<dim, const double> &cell) const
   {
-    return effects.proliferation->placement_axis(
+    return dividing_fate().placement_axis(
       cell, state_.type.exists() ? cell.get(state_.type) : 0);
   }
 

@@ -53,6 +53,28 @@ namespace Morula
 
 
   template <int dim>
+  void
+  CellDevelopment<dim>::announce_growth(const PresentCell<dim>      &before,
+                                        const CellView<dim, double> &after,
+                                        const double                 t0,
+                                        const double                 t1) const
+  {
+    // What befalls the cell in the step does not change its growth, but for a
+    // death, which ends it. So the ratio of the whole step is known before any
+    // event is. Factors besides the law count at the beginning of a step only.
+    double ratio = 1.;
+    if (grows_by_law(before))
+      {
+        const GrowingCell<dim> growing = this->growing(before, t0);
+        ratio = determinant(effects.law->growth(growing, t0, t1)) /
+                determinant(growing.growth);
+      }
+    for (const auto &fate : effects.fates)
+      fate->grow(before, after, ratio, {t0, t1});
+  }
+
+
+  template <int dim>
   Tensor<2, dim>
   CellDevelopment<dim>::living_growth(const PresentCell<dim>      &before,
                                       const CellView<dim, double> &after,

@@ -50,6 +50,13 @@ namespace Morula
   }
 
 
+  bool
+  EffectKeys::divides_cells() const
+  {
+    return false;
+  }
+
+
   void
   EffectKeys::check_with(const MaterialParameters &) const
   {}

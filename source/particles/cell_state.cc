@@ -59,6 +59,15 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  CellColumns<dim>::need_lineage_key()
+  {
+    if (!lineage_key.exists())
+      lineage_key =
+        add<std::uint64_t>({"lineage_key", "", "key of the random numbers"});
+  }
+
+  template <int dim>
   std::vector<double>
   CellColumns<dim>::founder(const Point<dim> &X, const double volume) const
   {

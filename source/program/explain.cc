@@ -90,6 +90,8 @@ namespace Morula
     std::string
     bound_of_cells(const Scene &scene)
     {
+      if (scene.divides_by_fate())
+        return "about ";
       if (!scene.has_proliferation())
         return "";
       // Only the run can tell times that depend on the cells' state: the sum
@@ -237,8 +239,14 @@ namespace Morula
       // founders stands for it, and is printed with the size.
       if (result.free && !result.free->known_before)
         result.growth = result.free->mean;
-      result.size =
-        estimated_size(scene, tissue.founders, comm, n_unknowns, result.growth);
+      result.size       = estimated_size(scene,
+                                   tissue.founders,
+                                   comm,
+                                   n_unknowns,
+                                   result.growth,
+                                   result.free && scene.divides_by_fate() ?
+                                           result.free->cells :
+                                           0.);
       result.memory     = physical_memory(comm);
       result.n_of_types = founders_of_types(scene,
                                             tissue.founders.positions,

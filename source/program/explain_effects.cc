@@ -160,9 +160,9 @@ namespace Morula
                "J_th = " + cycle.size_checkpoint.text());
     add_effect(out,
                "division (Voronoi)",
-               divides,
-               "axis = " + cycle.division_axis +
-                 details_of(catalogue.division_rules, cycle.division_axis) +
+               divides || scene.divides_by_fate(),
+               "axis = " + scene.division_axis() +
+                 details_of(catalogue.division_rules, scene.division_axis()) +
                  (cycle.axis_follows_rotation ? ", follows rotation" : "") +
                  (cycle.stay_inside ? ", inside the surface" : ""));
     add_effects(out, catalogue.growth_factors);

@@ -108,13 +108,16 @@ namespace Morula
                  const Founders<dim>         &founders,
                  const MPI_Comm               comm,
                  const unsigned int           n_unknowns,
-                 const std::optional<double> &free_growth)
+                 const std::optional<double> &free_growth,
+                 const double                 cells_per_founder)
   {
     // The number of equations is estimated for the beginning and the end, and
     // scaled if the true one is known. Then memory is that of the end, and the
     // time is that of a mean step.
     SceneSize last = expected_size(scene, founders.positions, comm);
     last.volume *= free_growth.value_or(1.);
+    if (cells_per_founder > 0.)
+      last.cells = cells_per_founder * founders.n_global;
     const double first_volume =
       founders.n_global * std::pow(scene.tissue.cell_spacing.value(), dim);
 
@@ -148,11 +151,13 @@ namespace Morula
                  const Founders<2> &,
                  const MPI_Comm,
                  const unsigned int,
-                 const std::optional<double> &);
+                 const std::optional<double> &,
+                 const double);
   template SizeEstimate
   estimated_size(const Scene &,
                  const Founders<3> &,
                  const MPI_Comm,
                  const unsigned int,
-                 const std::optional<double> &);
+                 const std::optional<double> &,
+                 const double);
 } // namespace Morula

@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/expected_cells.h>
 #include <morula/scene/first_cells.h>
 #include <morula/scene/free_growth.h>
 
@@ -21,6 +23,27 @@ namespace Morula
     /** Rates are taken at the beginning of a step. With 64 steps that is an
      * error of some percent, which is enough for an estimate. */
     constexpr double most_steps = 64.;
+
+    /** Number of cells that founder number @p i of this rank has become when it
+     *  has grown by this ratio: one, unless cells divide by size. */
+    template <int dim>
+    double
+    descendants(const Scene           &scene,
+                const FirstCells<dim> &cells,
+                const std::size_t      i,
+                const double           ratio)
+    {
+      if (!scene.divides_by_fate())
+        return 1.;
+      const auto            &keys    = scene.keys<DivisionBySizeParameters>();
+      std::vector<double>    row     = cells.row(i);
+      const PresentCell<dim> founder = cells.cell(row, i);
+      const double mean = founder.value(keys.volume.expression(dim), 0.);
+      return mean > 0. ? expected_cells_by_size(
+                           founder.cell().initial_volume() * ratio / mean,
+                           founder.value(keys.noise.expression(dim), 0.)) :
+                         1.;
+    }
   } // namespace
 
 
@@ -47,7 +70,7 @@ namespace Morula
       std::min(most_steps, std::ceil(end / scene.time.step));
     const std::size_t every = std::max<std::size_t>(
       1, std::ceil(n_steps * founders.positions.size() / most_evaluations));
-    double n = 0., sum = 0.;
+    double n = 0., sum = 0., n_cells = 0.;
     for (std::size_t i = 0; i < founders.positions.size(); i += every)
       {
         double ratio = 1.;
@@ -63,10 +86,13 @@ namespace Morula
           {}
         ++n;
         sum += ratio;
+        n_cells += descendants(scene, cells, i, ratio);
         growth.least = std::min(growth.least, ratio);
         growth.most  = std::max(growth.most, ratio);
       }
     growth.mean = Utilities::MPI::sum(sum, comm) / Utilities::MPI::sum(n, comm);
+    growth.cells =
+      Utilities::MPI::sum(n_cells, comm) / Utilities::MPI::sum(n, comm);
     growth.least = Utilities::MPI::min(growth.least, comm);
     growth.most  = Utilities::MPI::max(growth.most, comm);
     return growth;

@@ -188,6 +188,49 @@ namespace Morula
         }
     }
 
+    /** Refuses what does not go with fates that divide cells, and what only a
+     *  cell cycle has. */
+    void
+    check_division_by_fates(const Scene &scene)
+    {
+      // A scene has one way of dividing cells, so its lineage has one clock or
+      // none. Without growth no cell ever gets to the size at which it divides.
+      for (const auto &choice : scene.catalogue.fates)
+        {
+          const AnyKey *const key = choice.keys().switch_key();
+          if (!choice.keys().is_on() || !choice.keys().divides_cells() ||
+              key == nullptr)
+            continue;
+          if (scene.has_proliferation())
+            key->refuse("its default, as cells divide by the cell cycle",
+                        "Remove this key, or " +
+                          scene.proliferation_law.path() +
+                          " = cell cycle, also in the sections of types.");
+          if (!scene.has_growth())
+            key->refuse("its default, as no cell grows",
+                        "Set " + scene.growth_law.path() +
+                          ", or remove this key.");
+        }
+      if (!scene.divides_by_fate())
+        return;
+      const CellCycleParameters &cycle = scene.cell_cycle;
+      for (const AnyKey *key :
+           std::vector<const AnyKey *>{&cycle.start,
+                                       &cycle.duration,
+                                       &cycle.exit_rate,
+                                       &cycle.size_checkpoint,
+                                       &cycle.where})
+        {
+          const std::string allowed = "its default, as there is no cell cycle",
+                            remedy  = "Remove this key: only those about axes "
+                                      "and daughters hold for cells that divide "
+                                      "without a cycle.";
+          if (!key->is_default())
+            key->refuse(allowed, remedy);
+          refuse_for_types(scene, *key, allowed, remedy);
+        }
+    }
+
     template <int dim>
     void
     check_proliferation(const Scene &scene)
@@ -197,7 +240,8 @@ namespace Morula
       // refused where the axis is that by chance; then the cycle and the rules
       // are made, for what they refuse.
       const CellCycleParameters &cycle = scene.cell_cycle;
-      if (!scene.has_proliferation())
+      check_division_by_fates(scene);
+      if (!scene.has_proliferation() && !scene.divides_by_fate())
         {
           refuse_forgotten(scene,
                            scene.proliferation_law,
@@ -219,13 +263,15 @@ namespace Morula
       cycle.check_each(dim);
       for (const ExpressionKey *key :
            {&cycle.axis_spread, &cycle.least_anisotropy})
-        if (!key->is_default() && !scene.has_set(cycle.division_axis) &&
-            scene.division_axes().size() == 1)
+        if (!key->is_default() &&
+            scene.division_axes() == std::set<std::string>{"random"} &&
+            !scene.has_set(cycle.division_axis))
           key->refuse("its default, as " + cycle.division_axis.path() +
                         " is not set",
                       "Say by " + cycle.division_axis.path() +
                         " along what cells divide, or remove this key.");
-      CellCycle<dim>(cycle, scene.random_seed, scene.time.slack());
+      if (scene.has_proliferation())
+        CellCycle<dim>(cycle, scene.random_seed, scene.time.slack());
       check_named<dim>(scene,
                        scene.catalogue.division_rules,
                        cycle.division_axis,

@@ -148,12 +148,24 @@ namespace Morula
 
 
   const std::string &
+  Scene::division_axis() const
+  {
+    // A cell that divides without a clock may have grown along any axis, so it
+    // is the long one that is to be cut, unless the scene says otherwise.
+    static const std::string long_axis = "long axis";
+    return divides_by_fate() && !has_set(cell_cycle.division_axis) ?
+             long_axis :
+             cell_cycle.division_axis.value();
+  }
+
+
+  const std::string &
   Scene::division_axis(const unsigned int type) const
   {
     const bool has_own =
       cell_types.present() && !cell_types.types[type].division_axis.empty();
-    return has_own ? cell_types.types[type].division_axis :
-                     cell_cycle.division_axis;
+    return has_own ? cell_types.types[type].division_axis.value() :
+                     division_axis();
   }
 
 
@@ -208,6 +220,18 @@ namespace Morula
                        cell_types.types.end(),
                        [](const CellTypeKeys &type) {
                          return type.proliferation_law == "cell cycle";
+                       });
+  }
+
+
+  bool
+  Scene::divides_by_fate() const
+  {
+    return std::any_of(catalogue.fates.begin(),
+                       catalogue.fates.end(),
+                       [](const auto &choice) {
+                         return choice.keys().is_on() &&
+                                choice.keys().divides_cells();
                        });
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/division_axes.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -33,16 +34,14 @@ namespace Morula
     /** Makes each of the rules that types of cells have once. @param make makes
      *  one of the catalogue's effects */
     template <int dim, typename Make>
-    void
-    add_rules(const Scene              &scene,
-              const EffectSetting<dim> &setting,
-              const Make               &make,
-              Proliferation<dim>       &proliferation)
+    typename DivisionAxes<dim>::Rules
+    rules_of(const Scene              &scene,
+             const EffectSetting<dim> &setting,
+             const Make               &make)
     {
       // Types may share an axis, so each rule is made once, by its name, and
       // types point to it. The random axis is no rule: it is a null pointer.
-      typename Proliferation<dim>::Rules               list;
-      std::vector<const DivisionRule<dim> *>           of_type;
+      typename DivisionAxes<dim>::Rules                all;
       std::map<std::string, const DivisionRule<dim> *> rules;
       for (const std::string &axis : scene.division_axes())
         {
@@ -53,14 +52,15 @@ namespace Morula
           if (field.empty() && choice == nullptr)
             continue;
           if (field.empty())
-            list.push_back(make(*choice));
+            all.list.push_back(make(*choice));
           else
-            list.push_back(std::make_unique<GradientAxis<dim>>(field, setting));
-          rules[axis] = list.back().get();
+            all.list.push_back(
+              std::make_unique<GradientAxis<dim>>(field, setting));
+          rules[axis] = all.list.back().get();
         }
       for (unsigned int type = 0; type < scene.cell_types.types.size(); ++type)
-        of_type.push_back(rules.at(scene.division_axis(type)));
-      proliferation.set_rules(std::move(list), std::move(of_type));
+        all.of_type.push_back(rules.at(scene.division_axis(type)));
+      return all;
     }
   } // namespace
 
@@ -97,12 +97,12 @@ namespace Morula
                                                             effects.state),
                                              effects.columns,
                                              scene.random_seed);
-    const EffectSetting<dim> setting{scene.random_seed,
-                                     scene.time.slack(),
-                                     effects.columns,
-                                     effects.state,
-                                     center_of<dim>(scene.tissue),
-                                     tensions_of(scene)};
+    EffectSetting<dim> setting{scene.random_seed,
+                               scene.time.slack(),
+                               effects.columns,
+                               effects.state,
+                               center_of<dim>(scene.tissue),
+                               tensions_of(scene)};
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {
@@ -130,7 +130,17 @@ namespace Morula
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
     if (proliferation)
-      add_rules(scene, setting, make, *proliferation);
+      {
+        auto rules = rules_of(scene, setting, make);
+        proliferation->set_rules(std::move(rules.list),
+                                 std::move(rules.of_type));
+      }
+    else if (scene.divides_by_fate())
+      setting.axes =
+        std::make_shared<DivisionAxes<dim>>(scene.cell_cycle,
+                                            effects.state,
+                                            rules_of(scene, setting, make),
+                                            scene.random_seed);
     make_all(catalogue.growth_factors, [&](const auto &, auto factor) {
       development.factors.push_back(std::move(factor));
     });

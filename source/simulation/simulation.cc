@@ -323,21 +323,29 @@ namespace Morula
   void
   Simulation<dim>::divide()
   {
-    if (model.development.cycle() == nullptr)
+    row.dividing = 0;
+    if (!model.development.divides())
       return;
     const TimerOutput::Scope section(timer, "division");
     // Each rank lists its own cells that are due. divide() communicates, as
     // daughters are placed between cells of other ranks and get ids in an order
     // of all ranks' events; so it is called on all ranks if any has a cell that
-    // is due.
-    const std::vector<unsigned int> due =
-      cells_due(tissue, model.development, time_steps.time());
-    row.dividing = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
-    if (row.dividing > 0)
+    // is due. A daughter that divides by size may be due again in the same
+    // step: rounds go on until no cell is.
+    const double t = time_steps.time();
+    while (true)
       {
-        Divisions<dim> divisions = Morula::divide(
-          tissue, model.development, due, time_steps.time(), run_state.next_id);
-        births = std::move(divisions.births);
+        const std::vector<unsigned int> due =
+          cells_due(tissue, model.development, t);
+        const auto n = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
+        if (n == 0)
+          return;
+        row.dividing += n;
+        const Divisions<dim> divisions =
+          Morula::divide(tissue, model.development, due, t, run_state.next_id);
+        births.insert(births.end(),
+                      divisions.births.begin(),
+                      divisions.births.end());
         events.insert(events.end(),
                       divisions.events.begin(),
                       divisions.events.end());

@@ -104,7 +104,10 @@ namespace Morula
     if (row.lengths.n_too_long > 0 && !warned_of_long_cells)
       {
         warned_of_long_cells = true;
-        files->message(long_cells_warning<dim>(row, model.scene.grid.spacing));
+        files->message(long_cells_warning<dim>(row,
+                                               model.scene.grid.spacing,
+                                               model.scene.has_growth() &&
+                                                 !model.development.divides()));
       }
     if (surface_misfits() && !warned_of_misfit)
       {

@@ -103,7 +103,9 @@ namespace Morula
 
   template <int dim>
   std::string
-  long_cells_warning(const StatisticsRow &row, const double grid_spacing)
+  long_cells_warning(const StatisticsRow &row,
+                     const double         grid_spacing,
+                     const bool           grows_undivided)
   {
     // The row is that of all ranks. The length is the grid spacing over the
     // least number of cells in it, which is how the column is defined
@@ -120,8 +122,12 @@ namespace Morula
     text << ") um, " << grid_spacing / row.lengths.min_cells_per_spacing
          << " um. Do not rely on positions and stresses there, and if it gets "
             "worse the run may fail. Start anew with a smaller Tissue/Cell "
-            "spacing or a larger Grid/Spacing; the column "
-            "min_cells_per_spacing of statistics.csv has the number.";
+            "spacing or a larger Grid/Spacing"
+         << (grows_undivided ? ", or with cells that divide when they have "
+                               "grown: Division by size/Volume" :
+                               "")
+         << "; the column min_cells_per_spacing of statistics.csv has the "
+            "number.";
     return text.str();
   }
 
@@ -154,7 +160,8 @@ namespace Morula
   template SurfaceFields<dim> surface_table(const Tissue<dim> &,             \
                                             const double);                   \
   template std::string        long_cells_warning<dim>(const StatisticsRow &, \
-                                               const double);
+                                               const double,          \
+                                               const bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

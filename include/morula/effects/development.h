@@ -241,6 +241,21 @@ namespace Morula
     const Fates<dim> &
     fates() const;
 
+    /** Whether cells can divide. */
+    bool
+    divides() const;
+
+    /** When a cell divides, if at or before @p t; day; infinity: it does not.
+     */
+    double
+    time_of_division(const CellView<dim, const double> &cell,
+                     const double                       t) const;
+
+    /** Whether daughters stay inside the whole surface, not only inside its
+     *  held parts. Only where cells divide. */
+    bool
+    stays_inside() const;
+
     /** Whether cells can die. */
     bool
     is_mortal() const;
@@ -248,7 +263,7 @@ namespace Morula
     /**
      * Sets what distinguishes a daughter from her mother, and lets her live
      * until the end of the step.
-     * @param daughter has her mother's columns, by their rules, and her clock
+     * @param daughter has her mother's columns, by their rules
      * @param which    0 for the one at -n_s, 1 for the other
      * @param birth    exact time, day
      * @param t1       end of the step, day
@@ -263,7 +278,8 @@ namespace Morula
                   const double                 t1,
                   std::vector<CellEvent>      &changes) const;
 
-    /** Unit direction along which the daughters of a cell are placed. */
+    /** Unit direction along which the daughters of a cell are placed. Only
+     *  where cells divide. */
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell) const;
 
@@ -299,6 +315,18 @@ namespace Morula
     /** What the law sees of a cell in its state at t0. */
     GrowingCell<dim>
     growing(const PresentCell<dim> &cell, const double t0) const;
+
+    /** Tells the fates that follow growth how the law lets a living cell grow
+     *  in the step, in @p after. */
+    void
+    announce_growth(const PresentCell<dim>      &before,
+                    const CellView<dim, double> &after,
+                    const double                 t0,
+                    const double                 t1) const;
+
+    /** The fate by which cells divide. */
+    const Fate<dim> &
+    dividing_fate() const;
 
     /** The factors of F_g to the right of the law's part, at the time @p t of
      *  the clock: the cycle's part and what has relaxed. */
@@ -341,6 +369,7 @@ namespace Morula
     TissueMaterial          material;
     std::uint64_t           random_seed;
     bool                    keeps_rows;
+    bool                    announces_growth; // to some fate
   };
 } // namespace Morula
 

@@ -17,6 +17,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,11 @@ namespace Morula
     virtual std::string
     how_to_switch_on() const;
 
+    /** Whether cells divide by the effect, so that the scene's division axes
+     *  are its own. */
+    virtual bool
+    divides_cells() const;
+
     /** Refuses what the keys contradict in the material. @throws InputError */
     virtual void
     check_with(const MaterialParameters &material) const;
@@ -72,6 +78,8 @@ namespace Morula
     details() const;
   };
 
+  template <int dim>
+  class DivisionAxes;
   template <int dim>
   class PresentCell;
   template <int dim>
@@ -96,6 +104,8 @@ namespace Morula
     Point<dim> center = Point<dim>();
     /** Tensions between types of cells. */
     TypeTensions tensions = {};
+    /** Along what cells divide, for fates that divide them; null: at random. */
+    std::shared_ptr<const DivisionAxes<dim>> axes = nullptr;
   };
 
   /**

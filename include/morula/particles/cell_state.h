@@ -11,6 +11,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <cstdint>
+
 namespace Morula
 {
   using namespace dealii;
@@ -40,6 +42,11 @@ namespace Morula
     void
     need_bodies();
 
+    /** Declares the lineage key, if not yet declared. Effects that divide cells
+     *  call it. */
+    void
+    need_lineage_key();
+
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
     founder(const Point<dim> &X, const double volume) const;
@@ -58,6 +65,9 @@ namespace Morula
     Column<unsigned int> generation;
     /** Number of the body that the cell belongs to; only with contact. */
     Column<unsigned int> body;
+
+    /** Key of the cell's random numbers, which follows from the mother's. */
+    Column<std::uint64_t> lineage_key;
   };
 
   /**

@@ -29,6 +29,8 @@ namespace Morula
    * @param n_unknowns of the first step; 0: estimated, too
    * @param free_growth what free_growth() says; else growth that depends on
    *        the cells' state counts as none
+   * @param cells_per_founder at the end, where only free_growth() knows; 0: it
+   *        is estimated
    * @throws InputError, on some ranks only, where an expression has no value
    */
   template <int dim>
@@ -36,8 +38,9 @@ namespace Morula
   estimated_size(const Scene                 &scene,
                  const Founders<dim>         &founders,
                  const MPI_Comm               comm,
-                 const unsigned int           n_unknowns  = 0,
-                 const std::optional<double> &free_growth = {});
+                 const unsigned int           n_unknowns        = 0,
+                 const std::optional<double> &free_growth       = {},
+                 const double                 cells_per_founder = 0.);
 
   /**
    * Memory that a run of this size needs on all ranks together, bytes:

@@ -91,6 +91,10 @@ namespace Morula
     std::string
     law_of_growth() const;
 
+    /** `Division axis` of types that have none of their own. */
+    const std::string &
+    division_axis() const;
+
     /** `Division axis` of the type of cells number @p type. */
     const std::string &
     division_axis(const unsigned int type) const;
@@ -127,6 +131,10 @@ namespace Morula
 
     bool
     has_proliferation() const;
+
+    /** Whether cells divide without a cell cycle, by one of the fates. */
+    bool
+    divides_by_fate() const;
 
     /** The keys of an effect, by their type: e.g. keys<FixedParameters>(). */
     template <typename Parameters>

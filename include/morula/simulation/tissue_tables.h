@@ -36,7 +36,9 @@ namespace Morula
   /** The warning about cells that are too long for the grid. */
   template <int dim>
   std::string
-  long_cells_warning(const StatisticsRow &row, const double grid_spacing);
+  long_cells_warning(const StatisticsRow &row,
+                     const double         grid_spacing,
+                     const bool           grows_undivided);
 
   /** The warning about a surface that does not enclose its cells any more.
    *  @param share_at_start as RunState::enclosed_share */

@@ -99,9 +99,7 @@ namespace Morula
     const Cells<dim>         &cells = tissue.cells();
     std::vector<unsigned int> due;
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (development.cycle()->divides(development.clock(cells[p]),
-                                       cells.founder_position(p),
-                                       t))
+      if (std::isfinite(development.time_of_division(cells[p], t)))
         due.push_back(p);
     return due;
   }
@@ -123,7 +121,6 @@ namespace Morula
     const MPI_Comm          comm     = tissue.communicator();
     const Cells<dim>       &cells    = tissue.cells();
     const CellColumns<dim> &columns  = cells.columns();
-    const CellCycle<dim>   &cycle    = *development.cycle();
     const auto              dividing = dividing_cells(tissue, development, due);
     double                  longest  = 0.;
     for (const auto &cell : dividing)
@@ -138,14 +135,13 @@ namespace Morula
       daughter_distances(dividing,
                          neighbors.ids,
                          neighbors.positions,
-                         walls(tissue, longest, cycle.stays_inside()),
+                         walls(tissue, longest, development.stays_inside()),
                          tissue.grid().box());
 
     std::vector<DivisionEvent> events;
     for (const unsigned int p : due)
-      events.push_back({cycle.division_time(development.clock(cells[p]),
-                                            cells.founder_position(p)),
-                        cells.id(p)});
+      events.push_back(
+        {development.time_of_division(cells[p], t1), cells.id(p)});
     // Ids follow the exact times on all ranks, not the ranks or the order of
     // cells on them, so that any number of ranks gives the same cells.
     const auto first_ids = number_daughters(events, next_id, comm);
@@ -156,17 +152,13 @@ namespace Morula
       {
         const auto         mother     = cells[due[k]];
         const unsigned int generation = mother.generation() + 1;
-        // Both daughters go on with the mother's cycle, but each gets a random
-        // key of its own from hers.
-        const auto [minus, plus] = cycle.daughters(development.clock(mother));
         for (unsigned int which = 0; which < 2; ++which)
           {
             // The columns' rules make the row: most values are copied, V⁰ is
-            // halved. What they cannot know, as clock, parent and generation,
-            // is set after them.
+            // halved. What they cannot know, as parent and generation, is set
+            // after them.
             std::vector<double>         row = columns.daughter(mother.row());
             const CellView<dim, double> daughter(make_array_view(row), columns);
-            development.set_clock(daughter, which == 0 ? minus : plus);
             daughter.set(columns.parent, static_cast<int>(events[k].mother));
             daughter.set(columns.generation, generation);
 

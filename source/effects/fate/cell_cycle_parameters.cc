@@ -54,12 +54,13 @@ namespace Morula
     , division_axis(
         path("Division axis"),
         "random",
-        "n_s, chosen at every onset of S: 'random': uniform on the sphere "
+        "n_s, chosen at every onset of S, or at a Division by size: 'random': uniform on the sphere "
         "(2-D: circle); 'fixed': along Fixed axis; in the present "
         "configuration, 'stretch': along the largest elastic stretch, "
         "'stress': along the most tensile stress, 'radial': away from Radial "
         "center, 'surface normal', 'tangential': across or along the surface "
-        "that was nearest to the founder at t = 0; 'gradient of NAME': along "
+        "that was nearest to the founder at t = 0, 'long axis': along which "
+        "the cell is longest; 'gradient of NAME': along "
         "which a field rises fastest.",
         {"random"})
     , axis_spread(path("Axis spread"),

@@ -21,8 +21,8 @@ namespace Morula
       {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
     event_time = columns.template add<double>(
       {"event_time", "day", "end of the G0 wait, or onset of S"});
-    lineage_key_ = columns.template add<std::uint64_t>(
-      {"lineage_key", "", "key of the random numbers"});
+    columns.need_lineage_key();
+    lineage_key_  = columns.lineage_key;
     division_axis = columns.template add<Tensor<1, dim>>(
       {"division_axis", "", "n_s of the running cycle"});
     growth_pre = columns.template add<Tensor<2, dim>>(

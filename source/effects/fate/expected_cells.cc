@@ -39,6 +39,27 @@ namespace Morula
   }
 
 
+  double
+  expected_cells_by_size(const double ratio, const double noise)
+  {
+    // The k-th division of a lineage adds 2^(k-1) cells, if all before it have
+    // come and the cells of that generation, which have 2^(1-k) of the volume,
+    // are beyond their threshold. Thresholds of a mother and a daughter are
+    // independent.
+    const double s = std::sqrt(std::log1p(noise * noise));
+    double       n = 1., share = 1.;
+    for (unsigned int k = 1; share > 1e-6; ++k)
+      {
+        const double log_size = std::log(ratio) - (k - 1.) * std::log(2.);
+        share *= s == 0. ?
+                   (log_size >= 0. ? 1. : 0.) :
+                   0.5 * std::erfc(-(log_size / s + 0.5 * s) / std::sqrt(2.));
+        n += std::exp2(k - 1.) * share;
+      }
+    return n;
+  }
+
+
   template <int dim>
   Descendants<dim>::Descendants(const CellCycleParameters &cycle,
                                 const double               end_time)

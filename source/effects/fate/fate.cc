@@ -63,6 +63,59 @@ namespace Morula
 
   template <int dim>
   bool
+  Fate<dim>::divides() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  bool
+  Fate<dim>::follows_growth() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  void
+  Fate<dim>::grow(const PresentCell<dim> &,
+                  const CellView<dim, double> &,
+                  const double,
+                  const Stretch &) const
+  {}
+
+
+  template <int dim>
+  double
+  Fate<dim>::time_of_division(const CellView<dim, const double> &,
+                              const double) const
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Fate<dim>::placement_axis(const CellView<dim, const double> &,
+                            const unsigned int) const
+  {
+    // Only fates that divide cells are asked.
+    Assert(false, ExcNotImplemented());
+    return {};
+  }
+
+
+  template <int dim>
+  bool
+  Fate<dim>::stays_inside() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
+  bool
   Fate<dim>::is_deadly() const
   {
     return false;

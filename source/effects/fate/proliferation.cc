@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 
+#include <limits>
 #include <utility>
 
 namespace Morula
@@ -175,6 +177,57 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  Proliferation<dim>::divides() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  double
+  Proliferation<dim>::time_of_division(const CellView<dim, const double> &cell,
+                                       const double t) const
+  {
+    const CycleState<dim> state = clock(cell);
+    const CellAt<dim>     at(cell.founder_position());
+    return cycle_.divides(state, at, t) ?
+             cycle_.division_time(state, at) :
+             std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  bool
+  Proliferation<dim>::stays_inside() const
+  {
+    return cycle_.stays_inside();
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::inherit(const CellView<dim, double> &daughter,
+                              const StateColumns<dim>     &columns,
+                              const unsigned int           which,
+                              const double) const
+  {
+    // The clock in the row is still the mother's, and so is the type: this fate
+    // is the first, and that of types the last. Both daughters go on with the
+    // mother's cycle, but each gets a random key of its own from hers.
+    if (!rules_.empty())
+      {
+        const Tensor<1, dim> axis = placement_axis(
+          daughter, columns.type.exists() ? daughter.get(columns.type) : 0);
+        for (const auto &rule : rules_)
+          rule->divided(daughter, axis);
+      }
+    const auto [minus, plus] = cycle_.daughters(clock(daughter));
+    set_clock(daughter, which == 0 ? minus : plus);
+  }
+
+
+  template <int dim>
   void
   Proliferation<dim>::make_good(const PresentCell<dim>      &before,
                                 const CellView<dim, double> &row) const
@@ -340,20 +393,16 @@ namespace Morula
     if (rule == nullptr || !(begins || has_begun))
       return;
     const CellView<dim, const double> &view = cell.cell();
-    Tensor<1, dim> axis   = rule->axis({view.founder_position(),
-                                        view.elastic_deformation(),
-                                        after.axis,
-                                        &cell,
-                                        t,
-                                        cycle_.least_anisotropy(cell, t)});
-    const double   spread = cycle_.axis_spread(cell, t);
-    if (spread > 0.)
-      axis = Random::direction_around(axis / axis.norm(),
-                                      spread,
-                                      random_seed,
-                                      has_begun ? Random::past_key(random_seed,
-                                                                   after.key) :
-                                                  after.key);
+    Tensor<1, dim>                     axis =
+      axis_by_rule(*rule,
+                   cell,
+                   t,
+                   after.axis,
+                   {cycle_.axis_spread(cell, t),
+                    cycle_.least_anisotropy(cell, t),
+                    random_seed,
+                    has_begun ? Random::past_key(random_seed, after.key) :
+                                after.key});
     // A present direction is pulled back through all growth but the cycle's,
     // doc/theory.md (6.3e), since the cycle's stretch acts before that.
     if (rule->frame() == AxisFrame::present)

@@ -94,11 +94,11 @@ namespace Morula
   std::uint64_t
   PresentCell<dim>::lineage_key() const
   {
-    // Without a cell cycle nothing divides, so every cell is its own founder
-    // and its key follows from its id.
-    return reader_.clock != nullptr ?
-             reader_.clock->lineage_key(cell_) :
-             Random::founder_key(reader_.random_seed, id_);
+    // Where nothing divides, every cell is its own founder and its key follows
+    // from its id.
+    const Column<std::uint64_t> &key = cell_.columns().lineage_key;
+    return key.exists() ? cell_.get(key) :
+                          Random::founder_key(reader_.random_seed, id_);
   }
 
 

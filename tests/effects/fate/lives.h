@@ -139,11 +139,11 @@ namespace Morula
         development.commit(tissue, of_step, t0, t1);
         past = {t0, t1};
         note(of_step.events);
-        const auto due = development.cycle() != nullptr ?
-                           cells_due(tissue, development, t1) :
-                           std::vector<unsigned int>();
-        if (!due.empty())
+        while (development.divides())
           {
+            const auto due = cells_due(tissue, development, t1);
+            if (due.empty())
+              break;
             const auto divisions =
               divide(tissue, development, due, t1, next_id);
             note(divisions.events);

@@ -13,7 +13,7 @@
 namespace Morula
 {
   /** Positions, in the order of Tissue::cells(), of this rank's cells that
-   *  divide at or before @p t (day). Only with a cell cycle. */
+   *  divide at or before @p t (day). Only where cells divide. */
   template <int dim>
   std::vector<unsigned int>
   cells_due(const Tissue<dim>          &tissue,
@@ -33,8 +33,8 @@ namespace Morula
   /**
    * Divides each of these cells into two. daughter_distances() gives the
    * daughters' places. They inherit every column by its rule: F, equation (17)
-   * of the paper, F_g and half of V⁰, equation (18), and the clock of the
-   * cycle. All divisions see the same configuration. Collective.
+   * of the paper, F_g and half of V⁰, equation (18), and what their fates say.
+   * All divisions see the same configuration. Collective.
    * @param t1 end of the step, day
    * @param next_id first free id, the same on all ranks; advanced
    */

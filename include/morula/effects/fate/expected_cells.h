@@ -24,6 +24,15 @@ namespace Morula
                  const double t,
                  const bool   together);
 
+  /**
+   * Expected number of cells that descend from one which divides by size, when
+   * the volume of all of them together is @p ratio times the mean of the
+   * volume at which cells divide, and @p noise its coefficient of variation:
+   * doc/theory.md (6.10). Death is not in it.
+   */
+  double
+  expected_cells_by_size(const double ratio, const double noise);
+
   /** How many descendants the founders of a scene with a cell cycle have at
    *  its end, on average. */
   template <int dim>

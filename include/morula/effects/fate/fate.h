@@ -91,8 +91,9 @@ namespace Morula
                 const CellView<dim, double> &row,
                 const double                 s) const;
 
-    /** Sets what distinguishes a daughter from her mother. @param which 0 for
-     *  the one at -n_s, 1 for the other. @param birth day */
+    /** Sets what distinguishes a daughter, whose row is her mother's by the
+     *  columns' rules, from her mother. @param which 0 for the one at -n_s, 1
+     *  for the other. @param birth day */
     virtual void
     inherit(const CellView<dim, double> &daughter,
             const StateColumns<dim>     &columns,
@@ -102,6 +103,48 @@ namespace Morula
     /** The rates, 1/day, with which the fate befalls cells of a type. */
     virtual std::vector<const Expression *>
     rates(const unsigned int type) const;
+
+    /** @name Fates that divide cells */
+    ///@{
+
+    /** Whether cells may divide by this fate at all. Then it sets the columns
+     *  of both daughters in inherit(). */
+    virtual bool
+    divides() const;
+
+    /** Whether grow() is to be called. */
+    virtual bool
+    follows_growth() const;
+
+    /** Tells of a living cell how its grown volume V⁰ det F_g will change in
+     *  the step, before its events are looked for.
+     *  @param ratio that at the end over that at the beginning, by the law of
+     *         growth */
+    virtual void
+    grow(const PresentCell<dim>      &before,
+         const CellView<dim, double> &row,
+         const double                 ratio,
+         const Stretch               &step) const;
+
+    /** When the cell divides by this fate, if at or before @p t; day; infinity:
+     *  it does not. */
+    virtual double
+    time_of_division(const CellView<dim, const double> &cell,
+                     const double                       t) const;
+
+    /** Unit direction along which the daughters of a cell that divides by this
+     *  fate are placed, in the present configuration.
+     *  @param type of the cell */
+    virtual Tensor<1, dim>
+    placement_axis(const CellView<dim, const double> &cell,
+                   const unsigned int                 type) const;
+
+    /** Whether daughters stay inside the whole surface, not only inside its
+     *  held parts. */
+    virtual bool
+    stays_inside() const;
+
+    ///@}
 
     /** @name Fates that end lives */
     ///@{

@@ -101,7 +101,23 @@ namespace Morula
      *  @param type of the cell */
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
-                   const unsigned int                 type) const;
+                   const unsigned int                 type) const override;
+
+    bool
+    divides() const override;
+
+    double
+    time_of_division(const CellView<dim, const double> &cell,
+                     const double                       t) const override;
+
+    bool
+    stays_inside() const override;
+
+    void
+    inherit(const CellView<dim, double> &daughter,
+            const StateColumns<dim>     &columns,
+            const unsigned int           which,
+            const double                 birth) const override;
 
     void
     make_good(const PresentCell<dim>      &before,

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_effects_fate_division_by_size_h
+#define morula_effects_fate_division_by_size_h
+
+#include <morula/base/expression_key.h>
+#include <morula/effects/division/division_axes.h>
+#include <morula/effects/fate/fate.h>
+
+#include <memory>
+#include <optional>
+
+namespace Morula
+{
+  /** Section "Division by size". */
+  struct DivisionBySizeParameters : public EffectKeys
+  {
+    DivisionBySizeParameters();
+
+    ExpressionKey volume; // µm^dim
+    ExpressionKey noise;
+
+    bool
+    is_on() const override;
+
+    const AnyKey *
+    switch_key() const override;
+
+    std::string
+    how_to_switch_on() const override;
+
+    bool
+    divides_cells() const override;
+
+    std::string
+    details() const override;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /**
+   * Cells that grow by a law divide when their grown volume V⁰ det F_g reaches
+   * a threshold, which is drawn from the lineage key: doc/theory.md, section
+   * 6.10. There is no clock. V⁰ halves, F and F_g stay, so that no stress
+   * changes. The event has an exact time, if the volume grows exponentially
+   * within the step; a daughter may divide again in the same step.
+   */
+  template <int dim>
+  class DivisionBySize : public Fate<dim>
+  {
+  public:
+    using Parameters = DivisionBySizeParameters;
+
+    /** Declares the columns. @throws InputError */
+    DivisionBySize(const Parameters         &parameters,
+                   const EffectSetting<dim> &setting);
+
+    bool
+    divides() const override;
+
+    bool
+    follows_growth() const override;
+
+    void
+    grow(const PresentCell<dim>      &before,
+         const CellView<dim, double> &row,
+         const double                 ratio,
+         const Stretch               &step) const override;
+
+    std::optional<double>
+    next(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch) const override;
+
+    void
+    pass(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch,
+         const double                 s) const override;
+
+    /** Chooses the axis, too. */
+    LifeAfter
+    happen(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &row,
+           const Stretch               &stretch,
+           const double                 s,
+           std::vector<CellEvent>      &events) const override;
+
+    double
+    time_of_division(const CellView<dim, const double> &cell,
+                     const double                       t) const override;
+
+    Tensor<1, dim>
+    placement_axis(const CellView<dim, const double> &cell,
+                   const unsigned int                 type) const override;
+
+    bool
+    stays_inside() const override;
+
+    void
+    inherit(const CellView<dim, double> &daughter,
+            const StateColumns<dim>     &columns,
+            const unsigned int           which,
+            const double                 birth) const override;
+
+    /** Refuses a founder of more than twice the volume at which it divides. */
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+    void
+    check(const Preview<dim> &scene) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
+  private:
+    /** The grown volume at which a cell divides, µm^dim; infinity: it does not
+     *  divide. @throws InputError */
+    double
+    threshold(const PresentCell<dim> &cell, const double t) const;
+
+    /** Takes the grown volume from the beginning of the stretch, where @p cell
+     *  has it, to @p s, day. */
+    void
+    grow_until(const double                 s,
+               const PresentCell<dim>      &cell,
+               const CellView<dim, double> &row,
+               const Stretch               &stretch) const;
+
+    Expression    volume, noise;
+    std::uint64_t random_seed;
+    double        rounding; // of times, day
+    /** Null before a scene is complete. */
+    std::shared_ptr<const DivisionAxes<dim>> axes;
+    Column<double>                           grown_volume; // µm^dim
+    Column<double>                           growth_rate;  // 1/day
+    Column<double>                           time;         // day
+    Column<Tensor<1, dim>>                   axis;
+  };
+} // namespace Morula
+
+#endif

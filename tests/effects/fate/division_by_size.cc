@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/input_error.h>
+#include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/expected_cells.h>
+
+#include <cmath>
+#include <map>
+
+#include "effects/fate/lives.h"
+
+// Tissue without mechanics: cells stay where they are and grow by the law, so
+// that the numbers are those of closed forms.
+
+using namespace Morula;
+
+namespace
+{
+  using SizeSettings = std::vector<std::string>;
+
+  /** Cells that grow at the rate k (1/day) and divide at this volume, µm². */
+  SizeSettings
+  growing_to(const std::string &k, const std::string &volume)
+  {
+    return {"Dimension = 2",
+            "Growth/Law = rate",
+            "Growth/Rate/Rate = " + k,
+            "Division by size/Volume = " + volume};
+  }
+
+  /** What became of founders with given volumes. */
+  struct SizedColony
+  {
+    std::vector<double>        volumes; // grown, µm²
+    std::vector<Birth<2>>      births;
+    std::vector<std::uint64_t> keys;
+  };
+
+  SizedColony
+  grow_colony(const SizeSettings        &settings,
+              const std::vector<double> &volumes,
+              const double               end,
+              const unsigned int         n_steps)
+  {
+    std::vector<Point<2>> positions;
+    for (unsigned int i = 0; i < volumes.size(); ++i)
+      positions.emplace_back(20. * (i % 100), 20. * (i / 100));
+    const CellDevelopment<2> development = development_of(scene_of(settings));
+    Tissue<2> tissue(GridParameters(), development.columns(), MPI_COMM_WORLD);
+    tissue.place(founders(positions,
+                          100.,
+                          development,
+                          [](const Point<2> &) {
+                            return Tensor<2, 2>(unit_symmetric_tensor<2>());
+                          }),
+                 PointList<2>());
+    const auto &columns = development.columns();
+    for (unsigned int p = 0; p < volumes.size(); ++p)
+      tissue.cell(p).set(columns.initial_volume, volumes[tissue.cells().id(p)]);
+    types::particle_index next_id = volumes.size();
+    SizedColony           colony;
+    for (unsigned int n = 0; n < n_steps; ++n)
+      {
+        const double t0 = n * end / n_steps, t1 = (n + 1) * end / n_steps;
+        grow(tissue, development, t0, t1);
+        while (true)
+          {
+            const auto due = cells_due(tissue, development, t1);
+            if (due.empty())
+              break;
+            const auto births =
+              divide(tissue, development, due, t1, next_id).births;
+            colony.births.insert(colony.births.end(),
+                                 births.begin(),
+                                 births.end());
+          }
+      }
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const auto cell = tissue.cells()[p];
+        colony.volumes.push_back(cell.initial_volume() *
+                                 determinant(cell.growth()));
+        colony.keys.push_back(cell.get(columns.lineage_key));
+      }
+    return colony;
+  }
+
+  void
+  refuses_by(const SizeSettings &settings, const std::string &key)
+  {
+    try
+      {
+        scene_of(settings).check();
+        FAIL() << "accepted, and not refused because of " << key;
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find(key), std::string::npos)
+          << error.what();
+      }
+  }
+} // namespace
+
+
+TEST(DivisionBySize, ComesWhenTheVolumeIsReached)
+{
+  // A volume of 100 is 150 at t = ln(1.5)/k, however long the steps are.
+  for (const unsigned int n_steps : {1, 3, 10})
+    {
+      const SizedColony colony =
+        grow_colony(growing_to("0.5", "150"), {100.}, 1., n_steps);
+      ASSERT_EQ(colony.births.size(), 2u);
+      for (const auto &birth : colony.births)
+        {
+          EXPECT_NEAR(birth.time, std::log(1.5) / 0.5, 1e-6);
+          EXPECT_EQ(birth.generation, 1u);
+          EXPECT_EQ(birth.parent, 0);
+        }
+      for (const double V : colony.volumes)
+        EXPECT_NEAR(V, 50. * std::exp(0.5), 1e-10);
+      EXPECT_NE(colony.keys[0], colony.keys[1]);
+    }
+}
+
+
+TEST(DivisionBySize, MayComeTwiceInAStep)
+{
+  // The founder divides at the volume 150, and its daughters do when they
+  // have it, which is at a volume of 300 of both.
+  for (const unsigned int n_steps : {1, 8})
+    {
+      const SizedColony colony =
+        grow_colony(growing_to("ln(5)", "150"), {100.}, 1., n_steps);
+      std::map<unsigned int, std::vector<double>> times;
+      for (const auto &birth : colony.births)
+        times[birth.generation].push_back(birth.time);
+      ASSERT_EQ(times[1].size(), 2u);
+      ASSERT_EQ(times[2].size(), 4u);
+      for (const double t : times[1])
+        EXPECT_NEAR(t, std::log(1.5) / std::log(5.), 1e-6);
+      for (const double t : times[2])
+        EXPECT_NEAR(t, std::log(3.) / std::log(5.), 1e-6);
+      ASSERT_EQ(colony.volumes.size(), 4u);
+      for (const double V : colony.volumes)
+        EXPECT_NEAR(V, 125., 1e-9);
+    }
+}
+
+
+TEST(DivisionBySize, KeepsNumbersToVolumes)
+{
+  // Volumes from V*/2 to V* with the density V*/V² stay so: there are
+  // N0 exp(kt) cells, and one for each V* ln 2.
+  constexpr unsigned int N0 = 2000;
+  std::vector<double>    volumes;
+  for (unsigned int i = 0; i < N0; ++i)
+    volumes.push_back(100. / (2. - (i + 0.5) / N0));
+  for (const double end : {0.9, 2.})
+    {
+      const SizedColony colony =
+        grow_colony(growing_to("0.7", "100"), volumes, end, 4);
+      const double n   = colony.volumes.size();
+      double       all = 0.;
+      for (const double V : colony.volumes)
+        {
+          EXPECT_GE(V, 50. - 1e-4);
+          EXPECT_LE(V, 100. + 1e-4);
+          all += V;
+        }
+      EXPECT_NEAR(n / (N0 * std::exp(0.7 * end)), 1., 2e-3);
+      EXPECT_NEAR(all / n / (100. * std::log(2.)), 1., 2e-3);
+    }
+}
+
+
+TEST(DivisionBySize, HasTheNoiseThatIsAsked)
+{
+  constexpr unsigned int N0       = 4000;
+  SizeSettings           settings = growing_to("1", "100");
+  settings.push_back("Division by size/Noise = 0.1");
+  const SizedColony colony =
+    grow_colony(settings, std::vector<double>(N0, 60.), 0.9, 9);
+  std::map<int, double> of_founder;
+  for (const auto &birth : colony.births)
+    if (birth.generation == 1)
+      of_founder[birth.parent] = 60. * std::exp(birth.time);
+  ASSERT_EQ(of_founder.size(), N0); // 60 exp(0.9) is 4 deviations beyond
+  double sum = 0., squares = 0., logs = 0.;
+  for (const auto &[id, V] : of_founder)
+    {
+      sum += V;
+      squares += V * V;
+      logs += std::log(V);
+    }
+  const double mean = sum / N0;
+  EXPECT_NEAR(mean, 100., 3. * 10. / std::sqrt(N0));
+  EXPECT_NEAR(std::sqrt(squares / N0 - mean * mean) / mean, 0.1, 0.004);
+  EXPECT_NEAR(logs / N0,
+              std::log(100.) - 0.5 * std::log1p(0.01),
+              3. * 0.1 / std::sqrt(N0));
+}
+
+
+TEST(DivisionBySize, IsExpectedAsItComes)
+{
+  // Founders of one volume divide at once; what is expected of their numbers
+  // is what comes, with noise and without.
+  for (const double noise : {0., 0.2})
+    {
+      SizeSettings settings = growing_to("1", "100");
+      settings.push_back("Division by size/Noise = " + std::to_string(noise));
+      const SizedColony colony =
+        grow_colony(settings, std::vector<double>(1000, 60.), 1.5, 3);
+      const double expected =
+        1000. * expected_cells_by_size(0.6 * std::exp(1.5), noise);
+      EXPECT_NEAR(colony.volumes.size() / expected,
+                  1.,
+                  noise == 0. ? 1e-12 : 0.03);
+    }
+}
+
+
+TEST(DivisionBySize, HasExactTimesBesideOtherFates)
+{
+  // Steps of other lengths change neither the order of a death, a change of
+  // type and a division in a step, nor their times.
+  SizeSettings settings = growing_to("0.9", "150");
+  for (const char *line : {"Division by size/Noise = 0.2",
+                           "Cell types/Names = first, second",
+                           "Cell types/first/Transitions/To second = 0.4",
+                           "Cell types/second/Division by size/Volume = 120",
+                           "Death/Rate = 0.3",
+                           "Death/Shrinking time = 0.2",
+                           "Material/Energy per = grown volume"})
+    settings.push_back(line);
+  const Scene scene  = scene_of(settings);
+  const Lives fine   = lead(scene, 60, 2., 0.05),
+              coarse = lead(scene, 60, 2., 1.);
+  ASSERT_GT(fine.births.size(), 150u);
+  ASSERT_GT(fine.events.size(), 80u);
+  // Times of divisions are rounded to a millionth of a step.
+  ASSERT_EQ(fine.births.size(), coarse.births.size());
+  for (std::size_t i = 0; i < fine.births.size(); ++i)
+    EXPECT_NEAR(fine.births[i], coarse.births[i], 1e-5);
+  ASSERT_EQ(fine.events.size(), coarse.events.size());
+  for (std::size_t i = 0; i < fine.events.size(); ++i)
+    {
+      EXPECT_NEAR(fine.events[i].time, coarse.events[i].time, 1e-5);
+      EXPECT_EQ(fine.events[i].kind, coarse.events[i].kind);
+    }
+  EXPECT_EQ(fine.numbers, coarse.numbers);
+}
+
+
+TEST(DivisionBySize, LeavesTypesOfZeroVolumeAlone)
+{
+  SizeSettings settings = growing_to("1", "120");
+  settings.push_back("Cell types/Names = first, second");
+  settings.push_back("Cell types/second/Where = X > 1000");
+  settings.push_back("Cell types/second/Division by size/Volume = 0");
+  const Lives lives = lead(scene_of(settings), 100, 1., 0.25);
+  EXPECT_EQ(lives.numbers[1], 49.);      // founders at 1020 ... 1980
+  EXPECT_EQ(lives.numbers[0], 4. * 51.); // a volume of 272 to 326
+}
+
+
+TEST(DivisionBySize, CutsTheLongAxis)
+{
+  // A cell of twice the length divides across it; then it is as long as wide,
+  // and the next axis is that by chance. With four times, the axis is the
+  // same again.
+  for (const double stretch : {2., 4.})
+    {
+      Alone        alone(growing_to("1", "120"));
+      const auto  &development = alone.development;
+      Tensor<2, 2> F;
+      F[0][0] = stretch * 0.6;
+      F[1][0] = stretch * 0.8;
+      F[0][1] = -0.8;
+      F[1][1] = 0.6;
+      const Tensor<1, 2> along({0.6, 0.8});
+      alone.tissue.cell(0).set(development.columns().deformation, F);
+      alone.live(0., 0.5);
+      const auto axis = development.placement_axis(alone.cell());
+      EXPECT_NEAR(std::abs(axis * along), 1., 1e-12);
+      types::particle_index next_id = 1;
+      divide(alone.tissue,
+             development,
+             cells_due(alone.tissue, development, 0.5),
+             0.5,
+             next_id);
+      ASSERT_EQ(alone.tissue.cells().size(), 2u);
+      alone.live(0.5, 1.5);
+      for (unsigned int p = 0; p < 2; ++p)
+        {
+          const double cosine = std::abs(
+            development.placement_axis(alone.tissue.cells()[p]) * along);
+          if (stretch == 4.)
+            EXPECT_NEAR(cosine, 1., 1e-12);
+          else
+            EXPECT_LT(cosine, 0.9999);
+        }
+    }
+}
+
+
+TEST(DivisionBySize, RefusesWhatDoesNothing)
+{
+  SizeSettings cycle = growing_to("1", "120");
+  cycle.push_back("Proliferation/Law = cell cycle");
+  refuses_by(cycle, "Division by size/Volume");
+  refuses_by({"Dimension = 2", "Division by size/Volume = 120"},
+             "Division by size/Volume");
+  refuses_by({"Dimension = 2", "Division by size/Noise = 0.1"},
+             "Division by size/Noise");
+  refuses_by(growing_to("1", "-3"), "Division by size/Volume");
+  SizeSettings noisy = growing_to("1", "120");
+  noisy.push_back("Division by size/Noise = 0.7");
+  refuses_by(noisy, "Division by size/Noise");
+  SizeSettings clock = growing_to("1", "120");
+  clock.push_back("Proliferation/Cell cycle/Duration = 2");
+  refuses_by(clock, "Proliferation/Cell cycle/Duration");
+  SizeSettings fixed = growing_to("1", "120");
+  fixed.push_back("Proliferation/Cell cycle/Fixed axis = 1, 0, 0");
+  refuses_by(fixed, "Proliferation/Cell cycle/Fixed axis");
+  fixed.push_back("Proliferation/Cell cycle/Division axis = fixed");
+  scene_of(fixed).check();
+}
+
+
+TEST(DivisionBySize, RefusesFoundersOfMoreThanTwiceTheVolume)
+{
+  const Scene               scene       = scene_of(growing_to("1", "40"));
+  const CellDevelopment<2>  development = development_of(scene);
+  std::vector<double>       row = development.columns().founder({}, 100.);
+  const CellView<2, double> cell(make_array_view(row), development.columns());
+  EXPECT_THROW(development.initialize(0, cell, 0.1), InputError);
+  cell.set(development.columns().initial_volume, 79.);
+  development.initialize(0, cell, 0.1);
+}

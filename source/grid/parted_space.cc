@@ -73,7 +73,7 @@ namespace Morula
     for (const SplineSpace &body : bodies)
       n_own.push_back(body.owned().n_elements());
     const std::vector<CommonNumbers> numbers = number_together(n_own, comm);
-    unsigned int n_all = 0;
+    unsigned int                     n_all   = 0;
     for (const SplineSpace &body : bodies)
       n_all += body.n_unknowns();
     owned_ = IndexSet(n_all);
@@ -139,8 +139,7 @@ namespace Morula
     relevant_.compress();
     for (GridCell &grid_cell : grid_cells_)
       for (unsigned int &unknown : grid_cell.unknowns)
-        unknown =
-          relevant_.index_within_set(before.nth_index_in_set(unknown));
+        unknown = relevant_.index_within_set(before.nth_index_in_set(unknown));
   }
 
 
@@ -173,13 +172,13 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template SplineSpace<dim>::SplineSpace(std::vector<SplineSpace<dim>>,       \
-                                         const MPI_Comm);                     \
-  template unsigned int SplineSpace<dim>::entry(const unsigned int,           \
-                                                const unsigned int) const;    \
-  template void SplineSpace<dim>::add_relevant(const IndexSet &);             \
-  template std::vector<double> SplineSpace<dim>::affine_coefficients_of_body( \
+#define INSTANTIATE(dim)                                                          \
+  template SplineSpace<dim>::SplineSpace(std::vector<SplineSpace<dim>>,           \
+                                         const MPI_Comm);                         \
+  template unsigned int        SplineSpace<dim>::entry(const unsigned int,        \
+                                                const unsigned int) const; \
+  template void                SplineSpace<dim>::add_relevant(const IndexSet &);  \
+  template std::vector<double> SplineSpace<dim>::affine_coefficients_of_body(     \
     const unsigned int, const double, const Tensor<1, dim> &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -182,10 +182,9 @@ namespace Morula
     remembered.clear();
     n_pieces = space.n_pieces();
     for (const auto &grid_cell : space.grid_cells())
-      remembered.push_back(
-        {box.index(grid_cell.number),
-         space.piece(grid_cell.number, grid_cell.body),
-         grid_cell.body});
+      remembered.push_back({box.index(grid_cell.number),
+                            space.piece(grid_cell.number, grid_cell.body),
+                            grid_cell.body});
     return place;
   }
 

@@ -183,7 +183,8 @@ namespace Morula
     const double        length = box.spacing();
     Points<dim>         points;
     for (const auto &point : held)
-      points.emplace_back(space.piece(box.number(box.locate(point.x)), point.body),
+      points.emplace_back(space.piece(box.number(box.locate(point.x)),
+                                      point.body),
                           point);
     Fits<dim> fits(space.n_pieces());
     find_centers(points, fits, comm);

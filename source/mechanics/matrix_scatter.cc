@@ -16,11 +16,12 @@
 namespace Morula
 {
   template <int dim, int n_components>
-  MatrixScatter<dim, n_components>::MatrixScatter(const SplineSpace<dim> &space,
-                                                  const IndexSet &own_rows,
-                                                  Matrix         &matrix,
-                                                  const MPI_Comm  comm,
-                                                  std::vector<UnknownLink> links)
+  MatrixScatter<dim, n_components>::MatrixScatter(
+    const SplineSpace<dim>  &space,
+    const IndexSet          &own_rows,
+    Matrix                  &matrix,
+    const MPI_Comm           comm,
+    std::vector<UnknownLink> links)
     : space(space)
     , links(std::move(links))
     , matrix(matrix)
@@ -43,9 +44,9 @@ namespace Morula
   MatrixScatter<dim, n_components>::couplings() const
   {
     // Unknowns are numbered here as in space.relevant(): 0, 1, ... on this
-    // rank. Two unknowns couple if they share a grid cell or a link. `last` marks the
-    // columns that a row has already, so that none enters twice without a
-    // search.
+    // rank. Two unknowns couple if they share a grid cell or a link. `last`
+    // marks the columns that a row has already, so that none enters twice
+    // without a search.
     Couplings columns(space.relevant().n_elements());
     Couplings grid_cells_of(columns.size());
     for (unsigned int c = 0; c < n_elements(); ++c)

@@ -145,12 +145,8 @@ namespace Morula
       energies[0] += sums.energy;
       energies[1] += sums.energy_magnitude;
     };
-    const std::vector<double> sums =
-      assembly.residual(u,
-                        system,
-                        add,
-                        magnitudes != nullptr ? &sizes : nullptr,
-                        add_pairs);
+    const std::vector<double> sums = assembly.residual(
+      u, system, add, magnitudes != nullptr ? &sizes : nullptr, add_pairs);
     energies[2] = system.inverted;
     double totals[3];
     Utilities::MPI::sum(energies, comm, totals);

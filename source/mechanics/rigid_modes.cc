@@ -57,11 +57,12 @@ namespace Morula
                  const unsigned int      piece)
     {
       const unsigned int number = space.box().number(space.box().locate(x));
-      auto               found  = std::lower_bound(
-        space.grid_cells().begin(),
-        space.grid_cells().end(),
-        number,
-        [](const auto &c, const unsigned int n) { return c.number < n; });
+      auto               found  = std::lower_bound(space.grid_cells().begin(),
+                                    space.grid_cells().end(),
+                                    number,
+                                    [](const auto &c, const unsigned int n) {
+                                      return c.number < n;
+                                    });
       // The grid cell stands there once for each of its bodies.
       while (space.piece(number, found->body) != piece)
         ++found;

@@ -35,13 +35,12 @@ namespace Morula
       const GridBox<dim> &box   = tissue.grid().box();
       const auto         &store = tissue.cells();
       const auto          is_in = [&](const unsigned int number) {
-        auto cell =
-          std::lower_bound(store.grid_cells().begin(),
-                           store.grid_cells().end(),
-                           number,
-                           [](const auto &c, const unsigned int n) {
-                             return c.number < n;
-                           });
+        auto cell = std::lower_bound(store.grid_cells().begin(),
+                                     store.grid_cells().end(),
+                                     number,
+                                     [](const auto &c, const unsigned int n) {
+                                       return c.number < n;
+                                     });
         for (; cell != store.grid_cells().end() && cell->number == number;
              ++cell)
           for (unsigned int p = cell->begin;
@@ -98,17 +97,18 @@ namespace Morula
       // a reach is never below a quarter of a grid spacing. Only for the others
       // ranks exchange what their cells near them have. If no rank has any, no
       // rank enters the second part.
-      const std::vector<unsigned int> far = points_without_cell(
-        points,
-        tissue,
-        reaches * least_reach * tissue.grid().box().spacing(),
-        bodies);
+      const std::vector<unsigned int> far =
+        points_without_cell(points,
+                            tissue,
+                            reaches * least_reach *
+                              tissue.grid().box().spacing(),
+                            bodies);
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
         return {};
       const auto [queries, of_queries] = selected(far, points, bodies);
-      const Cells<dim> &cells   = tissue.cells();
-      const double      h       = tissue.grid().box().spacing();
-      const auto        nearest = nearest_values(
+      const Cells<dim> &cells          = tissue.cells();
+      const double      h              = tissue.grid().box().spacing();
+      const auto        nearest        = nearest_values(
         queries,
         cells,
         [&](const unsigned int p) {
@@ -163,10 +163,8 @@ namespace Morula
   {
     std::vector<unsigned int> found;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (!has_cell_near(points[p],
-                         bodies.empty() ? 0 : bodies[p],
-                         tissue,
-                         near))
+      if (!has_cell_near(
+            points[p], bodies.empty() ? 0 : bodies[p], tissue, near))
         found.push_back(p);
     return found;
   }
@@ -216,8 +214,10 @@ namespace Morula
   {
     const std::vector<Point<dim>> positions =
       tissue.boundary_points().positions();
-    const auto [far, nearest] = far_points(
-      positions, tissue.boundary_points().bodies(), tissue, most_reaches);
+    const auto [far, nearest] = far_points(positions,
+                                           tissue.boundary_points().bodies(),
+                                           tissue,
+                                           most_reaches);
     std::vector<unsigned int> found;
     for (std::size_t k = 0; k < far.size(); ++k)
       if (way_back(positions[far[k]], nearest[k]).norm() > 0.)
@@ -298,21 +298,20 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                  \
-  template std::vector<unsigned int> points_without_cell(                 \
-    const std::vector<Point<dim>> &,                                      \
-    const Tissue<dim> &,                                                  \
-    const double,                                                         \
-    const std::vector<unsigned int> &);                                   \
-  template double surface_reach(const CellView<dim, const double> &,      \
-                                const double);                            \
-  template std::vector<double> attachment(                                \
-    const std::vector<Point<dim>> &,                                      \
-    const Tissue<dim> &,                                                  \
-    const std::vector<unsigned int> &);                                   \
-  template std::vector<unsigned int> detached_points(const Tissue<dim> &); \
-  template std::uint64_t pull_back_detached_points(Tissue<dim> &);        \
-  template std::uint64_t pull_to_cells(Tissue<dim> &, const double);
+#define INSTANTIATE(dim)                                                            \
+  template std::vector<unsigned int> points_without_cell(                           \
+    const std::vector<Point<dim>> &,                                                \
+    const Tissue<dim> &,                                                            \
+    const double,                                                                   \
+    const std::vector<unsigned int> &);                                             \
+  template double surface_reach(const CellView<dim, const double> &,                \
+                                const double);                                      \
+  template std::vector<double>       attachment(const std::vector<Point<dim>> &,    \
+                                                const Tissue<dim> &,                \
+                                                const std::vector<unsigned int> &); \
+  template std::vector<unsigned int> detached_points(const Tissue<dim> &);          \
+  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);      \
+  template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -179,13 +179,13 @@ namespace Morula
       // even the whole box holds no point of a query's body, that body is gone,
       // and the nearest of all points counts.
       NearestQuery with_body{wanted.n + 1,
-                             [&](const unsigned int p,
+                             [&](const unsigned int   p,
                                  std::vector<double> &numbers) {
                                numbers.push_back(points.body(p));
                                wanted.append(p, numbers);
                              },
                              wanted.ties};
-      int largest = 0;
+      int          largest = 0;
       for (const int n : grid.box().n())
         largest = std::max(largest, n);
       for (int radius = 1;; radius *= 2)

@@ -243,10 +243,9 @@ namespace Morula
         if (order.size() == begin)
           continue;
         const auto body_of = [&](const Iterator &point) {
-          return body_column.exists() ?
-                   body_column.get(
-                     ArrayView<const double>(point->get_properties())) :
-                   0;
+          return body_column.exists() ? body_column.get(ArrayView<const double>(
+                                          point->get_properties())) :
+                                        0;
         };
         std::sort(order.begin() + begin,
                   order.end(),

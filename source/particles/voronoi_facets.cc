@@ -103,8 +103,8 @@ namespace Morula
               const double                       reach,
               Parts                             &parts)
     {
-      const Tensor<1, 2> u = x[corners[1]] - x[corners[0]];
-      const Tensor<1, 2> v = x[corners[2]] - x[corners[0]];
+      const Tensor<1, 2> u     = x[corners[1]] - x[corners[0]];
+      const Tensor<1, 2> v     = x[corners[2]] - x[corners[0]];
       const double       twice = 2. * (u[0] * v[1] - u[1] * v[0]);
       Tensor<1, 2>       c;
       c[0] = (v[1] * u.norm_square() - u[1] * v.norm_square()) / twice;
@@ -118,7 +118,7 @@ namespace Morula
             continue;
           const Tensor<1, 2> middle = 0.5 * (y[i] + y[j]);
           const Tensor<1, 2> inward = cross_product_2d(edge) / edge.norm();
-          const double sign = inward * (y[k] - middle) > 0. ? 1. : -1.;
+          const double       sign   = inward * (y[k] - middle) > 0. ? 1. : -1.;
           add_part(parts,
                    corners[i],
                    corners[j],
@@ -149,7 +149,7 @@ namespace Morula
         {
           const unsigned int i = k == 0 ? 1 : 0, j = k <= 1 ? 2 : 1,
                              l = k == 3 ? 2 : 3;
-          of_face[k] = y[i] + circumcenter(y[j] - y[i], y[l] - y[i]);
+          of_face[k]           = y[i] + circumcenter(y[j] - y[i], y[l] - y[i]);
         }
       for (unsigned int i = 0; i < 4; ++i)
         for (unsigned int j = i + 1; j < 4; ++j)
@@ -157,8 +157,8 @@ namespace Morula
             const Tensor<1, 3> edge = y[j] - y[i];
             if (edge.norm() > reach)
               continue;
-            const unsigned int k = i == 0 ? (j == 1 ? 2 : 1) : 0;
-            const unsigned int l = 6 - i - j - k;
+            const unsigned int k    = i == 0 ? (j == 1 ? 2 : 1) : 0;
+            const unsigned int l    = 6 - i - j - k;
             const Tensor<1, 3> axis = edge / edge.norm();
             const Tensor<1, 3> m    = 0.5 * (y[i] + y[j]);
             // The face without l holds k, and the other way round.
@@ -188,7 +188,7 @@ namespace Morula
         if (triangulation.is_infinite(face))
           {
             std::array<unsigned int, 2> edge = {};
-            unsigned int                n = 0;
+            unsigned int                n    = 0;
             for (int k = 0; k < 3; ++k)
               if (!triangulation.is_infinite(face->vertex(k)) && n < 2)
                 edge[n++] = face->vertex(k)->info();
@@ -212,7 +212,7 @@ namespace Morula
         if (triangulation.is_infinite(cell))
           {
             std::array<unsigned int, 3> face = {};
-            unsigned int                n = 0;
+            unsigned int                n    = 0;
             for (int k = 0; k < 4; ++k)
               if (!triangulation.is_infinite(cell->vertex(k)) && n < 3)
                 face[n++] = cell->vertex(k)->info();
@@ -238,8 +238,8 @@ namespace Morula
     // facet are then sorted by size and added up, so that the order in which
     // CGAL visits its simplices leaves no trace. Fewer than dim + 1 points, or
     // points in one plane, have no simplex and no facet.
-    std::vector<std::pair<decltype(Simplices<dim>::point(points[0])),
-                          unsigned int>>
+    std::vector<
+      std::pair<decltype(Simplices<dim>::point(points[0])), unsigned int>>
       list;
     for (unsigned int i = 0; i < points.size(); ++i)
       list.emplace_back(Simplices<dim>::point(points[i]), i);

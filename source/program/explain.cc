@@ -166,8 +166,7 @@ namespace Morula
       for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
         text << "; body " << b << ": " << bodies[b].cells << " cells, "
              << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
-             << ", surface " << bodies[b].area
-             << (dim == 3 ? " um^2" : " um");
+             << ", surface " << bodies[b].area << (dim == 3 ? " um^2" : " um");
       for (const BodyMeasures &body : bodies)
         thinnest = std::min(thinnest, body.thickness());
       add_effect(rows, "bodies", true, text.str());
@@ -175,14 +174,13 @@ namespace Morula
       const double h = scene.grid.spacing;
       text << "boundary points that face each other press from their first "
               "overlap on, "
-           << as_text(scene.contact.stiffness)
-           << " E/h: bodies overlap by h/" << as_text(scene.contact.stiffness)
-           << " (" << h / scene.contact.stiffness
+           << as_text(scene.contact.stiffness) << " E/h: bodies overlap by h/"
+           << as_text(scene.contact.stiffness) << " ("
+           << h / scene.contact.stiffness
            << " um) at a pressure of E; without friction; in a step two of "
               "them come nearer by at most "
            << h << " um; the thinnest body is about " << thinnest
-           << " um thick (2 V/A), the least is " << 0.4 * h
-           << " um; fields "
+           << " um thick (2 V/A), the least is " << 0.4 * h << " um; fields "
            << (scene.contact.fields_pass ? "pass from body to body" :
                                            "end at each body's surface");
       add_effect(rows, "contact", true, text.str());

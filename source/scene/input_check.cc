@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/surface_tension.h>
 #include <morula/mechanics/materials/material.h>
@@ -129,13 +130,12 @@ namespace Morula
                               scene.fields.name_list(),
                               scene.keys<NeighbourParameters>().variables);
       columns.need_growth();
-      choice.template make<dim>(EffectSetting<dim>{
-        scene.random_seed,
-        scene.time.slack(),
-        columns,
-        state,
-        Point<dim>(),
-        tensions_of(scene)});
+      choice.template make<dim>(EffectSetting<dim>{scene.random_seed,
+                                                   scene.time.slack(),
+                                                   columns,
+                                                   state,
+                                                   Point<dim>(),
+                                                   tensions_of(scene)});
     }
 
     /** Checks the effects that the scene names and makes them, for what they
@@ -307,7 +307,8 @@ namespace Morula
     check_tensions(const Scene &scene)
     {
       const TypeTensions   tensions = tensions_of(scene);
-      const ExpressionKey &of_all = scene.keys<SurfaceTensionParameters>().tension;
+      const ExpressionKey &of_all =
+        scene.keys<SurfaceTensionParameters>().tension;
       if (tensions.any_with_surface() && !of_all.is_default())
         of_all.refuse("its default, as types of cells have tensions with the "
                       "surface",
@@ -388,10 +389,17 @@ namespace Morula
                               "Name the types of the cells, or choose apart.");
       if (scene.has_active_tissue() && !scene.tissue.refine_surface)
         scene.tissue.refine_surface.refuse(
-          "true, as " + contact.between.path() + " = " + contact.between.text() +
-            " and the tissue grows or flows",
+          "true, as " + contact.between.path() + " = " +
+            contact.between.text() + " and the tissue grows or flows",
           "Patches that grow longer than half a grid spacing let bodies pass "
           "through each other.");
+      const auto &exchange = scene.keys<RearrangementParameters>();
+      if (exchange.is_on())
+        contact.between.refuse(
+          "none, as " + exchange.switch_key()->path() + " = " +
+            exchange.switch_key()->text(),
+          "Cells that exchange places would change their body. Do without one of "
+          "the two.");
       if (contact.fusion_time > 0. && !scene.tissue.refine_surface)
         scene.tissue.refine_surface.refuse(
           "true, as " + contact.fusion_time.path() + " = " +

@@ -63,10 +63,9 @@ namespace Morula
       // A surface from a file is that of all bodies, and so is that of a shape
       // whose bodies stand apart. Each patch learns its body from the cells
       // behind it. Otherwise each body's cells get a surface of their own.
-      const bool is_of_all = scene.tissue.has_surface_file() ||
-                             scene.tissue.is_mesh() ||
-                             (!scene.tissue.is_points() &&
-                              scene.contact.bodies == "apart");
+      const bool is_of_all =
+        scene.tissue.has_surface_file() || scene.tissue.is_mesh() ||
+        (!scene.tissue.is_points() && scene.contact.bodies == "apart");
       if (!is_of_all)
         return seed_points_surface(scene.tissue, founders, comm);
       Founders<dim> as_one(founders);
@@ -94,10 +93,11 @@ namespace Morula
       const double least = 0.4 * scene.grid.spacing;
       for (std::size_t b = 0; b < bodies.size(); ++b)
         if (bodies[b].cells > 0. && bodies[b].area == 0.)
-          scene.contact.between.refuse(
-            "none, as body " + std::to_string(b) + " has no boundary points",
-            "Give it a surface of its own in " +
-              scene.tissue.points_surface.path() + ".");
+          scene.contact.between.refuse("none, as body " + std::to_string(b) +
+                                         " has no boundary points",
+                                       "Give it a surface of its own in " +
+                                         scene.tissue.points_surface.path() +
+                                         ".");
         else if (bodies[b].cells > 0. && bodies[b].thickness() < least)
           scene.contact.between.refuse(
             "none, as body " + std::to_string(b) + " is about " +

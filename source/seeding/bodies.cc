@@ -98,14 +98,14 @@ namespace Morula
   {
     // The nearest founder may stand on the other side of a narrow gap, but not
     // behind the patch. A patch without any behind it takes the nearest of all.
-    const std::vector<Point<dim>>   positions = of_all(founders.positions, comm);
-    const std::vector<unsigned int> bodies    = of_all(founders.bodies, comm);
-    const auto                      tree = pack_rtree_of_indices(positions);
+    const std::vector<Point<dim>> positions = of_all(founders.positions, comm);
+    const std::vector<unsigned int> bodies  = of_all(founders.bodies, comm);
+    const auto                      tree    = pack_rtree_of_indices(positions);
     std::vector<unsigned int>       list;
     for (std::size_t k = 0; k < patches.positions.size(); ++k)
       {
-        const Point<dim>     &x = patches.positions[k];
-        const Tensor<1, dim> &n = patches.normals[k];
+        const Point<dim>         &x = patches.positions[k];
+        const Tensor<1, dim>     &n = patches.normals[k];
         std::vector<unsigned int> found;
         tree.query(bgi::nearest(x, 1) &&
                      bgi::satisfies([&](const unsigned int i) {
@@ -125,8 +125,9 @@ namespace Morula
   part_bodies(SurfacePatches<dim> &patches)
   {
     // Each pass measures all overlaps and moves all patches then, so that the
-    // order of the patches does not matter. Halves of the overlaps of both sides
-    // add up to all of it; curved and uneven surfaces take some passes more.
+    // order of the patches does not matter. Halves of the overlaps of both
+    // sides add up to all of it; curved and uneven surfaces take some passes
+    // more.
     constexpr unsigned int most_passes = 10;
     const std::size_t      n           = patches.positions.size();
     for (unsigned int pass = 0; pass < most_passes; ++pass)
@@ -136,7 +137,7 @@ namespace Morula
         bool                any = false;
         for (std::size_t b = 0; b < n; ++b)
           {
-            const Point<dim>     &x = patches.positions[b];
+            const Point<dim>     &x      = patches.positions[b];
             const Tensor<1, dim> &normal = patches.normals[b];
             const double l     = std::pow(patches.areas[b], 1. / (dim - 1));
             const double reach = 2. * l;
@@ -156,8 +157,7 @@ namespace Morula
                     patches.normals[c] * normal >= -0.3)
                   continue;
                 const Tensor<1, dim> way = x - patches.positions[c];
-                const double         gap =
-                  0.5 * (patches.normals[c] - normal) * way;
+                const double gap = 0.5 * (patches.normals[c] - normal) * way;
                 const double along =
                   way.norm_square() - (way * normal) * (way * normal);
                 const double weight =
@@ -205,13 +205,13 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template void part_bodies(SurfacePatches<dim> &);                           \
-  template std::vector<BodyMeasures> measures_of_bodies(                      \
-    const Founders<dim> &, const SurfacePatches<dim> &, const MPI_Comm);      \
-  template std::vector<unsigned int> bodies_apart(const Founders<dim> &,      \
-                                                  const MPI_Comm);            \
-  template std::vector<unsigned int> bodies_of_patches(                       \
+#define INSTANTIATE(dim)                                                 \
+  template void                      part_bodies(SurfacePatches<dim> &); \
+  template std::vector<BodyMeasures> measures_of_bodies(                 \
+    const Founders<dim> &, const SurfacePatches<dim> &, const MPI_Comm); \
+  template std::vector<unsigned int> bodies_apart(const Founders<dim> &, \
+                                                  const MPI_Comm);       \
+  template std::vector<unsigned int> bodies_of_patches(                  \
     const SurfacePatches<dim> &, const Founders<dim> &, const MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -475,7 +475,7 @@ namespace Morula
     const std::vector<AllCells<dim>> bodies = gather(founders, comm);
     const bool                       know_bodies =
       Utilities::MPI::logical_or(!founders.bodies.empty(), comm);
-    SurfacePatches<dim>              all;
+    SurfacePatches<dim> all;
     on_root(comm, [&]() {
       std::vector<ClosedSurface<dim>> surfaces;
       double                          area = 0.;
@@ -490,12 +490,13 @@ namespace Morula
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
           const double of_body = total_area(surfaces[b]);
-          append_patches(tiled(surfaces[b],
-                       parameters.boundary_points > 0 ?
-                         std::ceil(parameters.boundary_points * of_body / area) :
-                         of_body / std::pow(bodies[b].length, dim - 1)),
-                 know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
-                 all);
+          append_patches(
+            tiled(surfaces[b],
+                  parameters.boundary_points > 0 ?
+                    std::ceil(parameters.boundary_points * of_body / area) :
+                    of_body / std::pow(bodies[b].length, dim - 1)),
+            know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
+            all);
         }
       if (know_bodies)
         part_bodies(all);

@@ -111,8 +111,8 @@ namespace Morula
             const double *const row = near.row(i).data();
             if (row[2 * dim] == store.body(p))
               continue;
-            const auto area  = Flat<Tensor<1, dim>>::read(row);
-            const auto way   = Flat<Tensor<1, dim>>::read(row + dim);
+            const auto           area   = Flat<Tensor<1, dim>>::read(row);
+            const auto           way    = Flat<Tensor<1, dim>>::read(row + dim);
             const Tensor<1, dim> across = 0.5 * (area / area.norm() - n);
             if (n * area > -0.3 * area.norm())
               continue;
@@ -120,10 +120,9 @@ namespace Morula
             const Tensor<1, dim> after  = before + ways[p] - way;
             const Tensor<1, dim> normal = across / across.norm();
             const double         s = (after - (normal * after) * normal).norm();
-            crossed =
-              crossed || (across * before > 0. &&
-                          across * after < -deepest_crossing * law.h &&
-                          s < points.largest_spacing());
+            crossed                = crossed || (across * before > 0. &&
+                                  across * after < -deepest_crossing * law.h &&
+                                  s < points.largest_spacing());
           }
       }
     return Utilities::MPI::logical_or(crossed, comm);
@@ -139,11 +138,11 @@ namespace Morula
     // forces are read from the state that was solved for. Otherwise the pairs
     // take their new geometry, and the weak drag a new centre.
     const TimerOutput::Scope section(timer, "contact");
-    const auto renewal = pairs.look(balance.relevant_values(u));
-    double     sums[4] = {renewal.normal,
-                          renewal.tangential,
-                          renewal.of_new_pairs,
-                          1. * renewal.has_new_links};
+    const auto               renewal = pairs.look(balance.relevant_values(u));
+    double                   sums[4] = {renewal.normal,
+                                        renewal.tangential,
+                                        renewal.of_new_pairs,
+                                        1. * renewal.has_new_links};
     Utilities::MPI::sum(sums, comm, sums);
     const double crossed = Utilities::MPI::max(renewal.crossed, comm),
                  slid    = Utilities::MPI::max(renewal.slid, comm);

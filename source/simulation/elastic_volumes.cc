@@ -37,8 +37,8 @@ namespace Morula
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
         if (space.grid_cells()[c].body == body)
           values.push_back(
-          {space.grid_cells()[c].number,
-           force.log_volume_ratio(c, displacement.on_grid_cell(c))});
+            {space.grid_cells()[c].number,
+             force.log_volume_ratio(c, displacement.on_grid_cell(c))});
       const auto of_others = space.occupancy(body).window().to_windows(values);
       values.insert(values.end(), of_others.begin(), of_others.end());
       std::vector<double> theta(boxes.size(), 0.);
@@ -117,13 +117,12 @@ namespace Morula
       {
         const unsigned int    body      = tissue.cells().body(p);
         const Occupancy<dim> &occupancy = space.occupancy(body);
-        ratios.push_back(form == VolumetricStrain::pooled ?
-                           mean_of_parts(tissue.domain(p),
-                                         occupancy,
-                                         values[body]) :
-                           std::exp(mean_of_shares(tissue.cells().position(p),
-                                                   occupancy,
-                                                   values[body])));
+        ratios.push_back(
+          form == VolumetricStrain::pooled ?
+            mean_of_parts(tissue.domain(p), occupancy, values[body]) :
+            std::exp(mean_of_shares(tissue.cells().position(p),
+                                    occupancy,
+                                    values[body])));
       }
     return ratios;
   }

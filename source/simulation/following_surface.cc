@@ -343,8 +343,8 @@ namespace Morula
   FollowingSurface<dim>::fuse_bodies(Tissue<dim> &tissue, const double dt)
   {
     // A body that several go into gets its new surface once, around all its
-    // cells. Where these have no common surface, as some have been lost, the old
-    // patches stay.
+    // cells. Where these have no common surface, as some have been lost, the
+    // old patches stay.
     const TimerOutput::Scope section(timer, "fusion");
     age_contact(tissue, dt);
     const Fusions fusions =
@@ -358,7 +358,9 @@ namespace Morula
     renew_bodies(tissue,
                  tissue.boundary_points().copy(),
                  SurfaceWish(),
-                 [&](const unsigned int body) { return fused.count(body) > 0; });
+                 [&](const unsigned int body) {
+                   return fused.count(body) > 0;
+                 });
     refine(tissue, [](const Point<dim> &) { return false; });
   }
 
@@ -374,8 +376,8 @@ namespace Morula
     // Each body gets a surface around its own cells, which encloses its share
     // of the wished volume: one around all would close the gaps between them.
     // If one of them has no common surface the old ones stay.
-    const Cells<dim>          &cells  = tissue.cells();
-    const BoundaryPoints<dim> &points = tissue.boundary_points();
+    const Cells<dim>          &cells   = tissue.cells();
+    const BoundaryPoints<dim> &points  = tissue.boundary_points();
     const auto                &columns = points.columns();
     const auto of_body = [&](const PointList<dim> &list, const unsigned int b) {
       PointList<dim> some(list.n_numbers);
@@ -394,7 +396,7 @@ namespace Morula
     for (unsigned int p = 0; p < cells.size(); ++p)
       volumes[cells.body(p)] += cells.volume(p);
     Utilities::MPI::sum(volumes, comm, volumes);
-    const double all = std::accumulate(volumes.begin(), volumes.end(), 0.);
+    const double   all = std::accumulate(volumes.begin(), volumes.end(), 0.);
     PointList<dim> list(columns.n_numbers());
     for (unsigned int b = 0; b < n; ++b)
       {

@@ -86,9 +86,9 @@ namespace Morula
       {
         // The condition of a patch is decided here, once for the whole run: it
         // depends on the initial position and normal only.
-        const Point<dim>          X   = patches.positions[i];
-        const Tensor<1, dim>      N   = patches.normals[i];
-        std::vector<double>       row = boundary.initial_point(
+        const Point<dim>     X   = patches.positions[i];
+        const Tensor<1, dim> N   = patches.normals[i];
+        std::vector<double>  row = boundary.initial_point(
           X, N, patches.areas[i], model.boundary_conditions.condition(X, N));
         if (boundary.body.exists())
           boundary.body.set(make_array_view(row), patches.bodies.at(i));

@@ -130,10 +130,10 @@ namespace Morula
         const Point<dim>    x = queries[p];
         std::vector<double> numbers;
         normal(p, numbers);
-        const auto n    = Flat<Tensor<1, dim>>::read(numbers.data());
+        const auto         n    = Flat<Tensor<1, dim>>::read(numbers.data());
         const unsigned int body = store.body(p);
         const Entry        here{box.number(box.locate(x)), body};
-        Point<dim> lower, upper;
+        Point<dim>         lower, upper;
         for (unsigned int d = 0; d < dim; ++d)
           {
             lower[d] = x[d] - widest * h;

@@ -113,10 +113,9 @@ namespace Morula
     // integrate over that configuration. Points away from the cells lose their
     // traction (4.13).
     const std::vector<unsigned int> points = held_groups(tissue, space).points;
-    const std::vector<double>       attached =
-      attachment(held_places(tissue, space),
-                 tissue,
-                 held_bodies(tissue, space));
+    const std::vector<double> attached = attachment(held_places(tissue, space),
+                                                    tissue,
+                                                    held_bodies(tissue, space));
     for (std::size_t k = 0; k < points.size(); ++k)
       {
         const BoundaryView<dim> point = tissue.boundary_points()[points[k]];

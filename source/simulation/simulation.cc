@@ -66,8 +66,8 @@ namespace Morula
     ++run_state.n_steps;
     fields.begin_step();
 
-    SplineSpace<dim>                      space = splines();
-    const std::optional<SplineSpace<dim>> apart = splines_of_fields(space);
+    SplineSpace<dim>                      space     = splines();
+    const std::optional<SplineSpace<dim>> apart     = splines_of_fields(space);
     const SplineSpace<dim>               &of_fields = apart ? *apart : space;
     pieces.look(space, tissue.grid(), time_steps.time());
     gaps.look(tissue, space, time_steps.time());

@@ -39,12 +39,12 @@ namespace Morula
 
 
   template <int dim>
-  StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim> &model,
-                                        const Tissue<dim>      &tissue,
-                                        const SplineSpace<dim> &space,
-                                        const Supports         &supports,
-                                        TimerOutput            &timer,
-                                        const MPI_Comm          comm,
+  StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim>   &model,
+                                        const Tissue<dim>        &tissue,
+                                        const SplineSpace<dim>   &space,
+                                        const Supports           &supports,
+                                        TimerOutput              &timer,
+                                        const MPI_Comm            comm,
                                         const ContactPoints<dim> *contact)
     : model(model)
     , tissue(tissue)
@@ -115,11 +115,11 @@ namespace Morula
     std::optional<ContactPairs<dim>> pairs;
     Drag<dim>                       *drag = nullptr;
     const double                     h    = space.box().spacing();
-    const ContactLaw                 law{
-      model.scene.contact.stiffness * stiffness / h,
-      stiffness,
-      h,
-      model.scene.contact.friction / (attempt.t_next - attempt.t)};
+    const ContactLaw law{model.scene.contact.stiffness * stiffness / h,
+                         stiffness,
+                         h,
+                         model.scene.contact.friction /
+                           (attempt.t_next - attempt.t)};
     if (has_contact())
       {
         const TimerOutput::Scope section(timer, "contact");
@@ -242,9 +242,9 @@ namespace Morula
 
   template <int dim>
   SurfaceForces<dim>
-  StepEquilibrium<dim>::forces(const Attempt                       &attempt,
-                               const TermList                      &list,
-                               const std::optional<Enclosure<dim>> &lumen,
+  StepEquilibrium<dim>::forces(const Attempt                        &attempt,
+                               const TermList                       &list,
+                               const std::optional<Enclosure<dim>>  &lumen,
                                const std::vector<ContactForce<dim>> &of_contact,
                                const Solution &solution) const
   {
@@ -466,9 +466,9 @@ namespace Morula
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {
-    // Obstacles and other bodies may hold motions that no support is known of before the step.
-    // With them nothing is projected out, and the weak drag (4.8f) decides
-    // instead of (4.10).
+    // Obstacles and other bodies may hold motions that no support is known of
+    // before the step. With them nothing is projected out, and the weak drag
+    // (4.8f) decides instead of (4.10).
     if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
         has_contact())
       return {};

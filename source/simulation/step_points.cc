@@ -125,7 +125,7 @@ namespace Morula
           const PointData<dim>      data = data_of(tissue, i, growth, material);
           const Lame                lame = lame_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain = tissue.domain(i);
-          const unsigned int body = tissue.cells().body(i);
+          const unsigned int        body   = tissue.cells().body(i);
           const auto   n    = space.occupancy(body).n_points_per_edge(domain);
           const double part = 1. / n_points(n);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {

@@ -264,8 +264,8 @@ namespace Morula
   void
   ForceSums<dim>::add_contact(const std::vector<ContactForce<dim>> &forces)
   {
-    // Which bodies touch is known only from the forces of all ranks. All of them
-    // make the same rows, also where they have no points in them.
+    // Which bodies touch is known only from the forces of all ranks. All of
+    // them make the same rows, also where they have no points in them.
     using Bodies = std::pair<unsigned int, unsigned int>;
     std::set<Bodies>          touching;
     std::vector<unsigned int> numbers;

@@ -212,9 +212,9 @@ namespace Morula
     std::vector<unsigned int>                    pieces_; // of owned unknowns
     std::vector<SplineSpace>                     bodies;  // if parted
     std::vector<unsigned int> first_piece; // of each body, and the end
-    unsigned int                                 n_active = 0;
-    unsigned int                                 n_inner  = 0;
-    unsigned int                                 n_outer  = 0;
+    unsigned int              n_active = 0;
+    unsigned int              n_inner  = 0;
+    unsigned int              n_outer  = 0;
   };
 } // namespace Morula
 

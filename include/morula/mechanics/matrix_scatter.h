@@ -36,10 +36,10 @@ namespace Morula
     /** Initialises @p matrix; it must outlive this object. Collective.
      *  @param own_rows as FieldUnknowns::owned()
      *  @param links beside those of the grid cells, see PairTerm */
-    MatrixScatter(const SplineSpace<dim> &space,
-                  const IndexSet         &own_rows,
-                  Matrix                 &matrix,
-                  const MPI_Comm          comm,
+    MatrixScatter(const SplineSpace<dim>  &space,
+                  const IndexSet          &own_rows,
+                  Matrix                  &matrix,
+                  const MPI_Comm           comm,
                   std::vector<UnknownLink> links = {});
 
     /**

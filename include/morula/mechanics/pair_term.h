@@ -25,8 +25,8 @@ namespace Morula
   /**
    * A term of the momentum balance that couples places in different grid cells,
    * whose splines need not have anything in common. It knows the displacement
-   * by its values at the relevant unknowns of this rank (FieldUnknowns::fetch(),
-   * µm): component i of unknown s is number s dim + i.
+   * by its values at the relevant unknowns of this rank
+   * (FieldUnknowns::fetch(), µm): component i of unknown s is number s dim + i.
    */
   class PairTerm
   {
@@ -37,7 +37,7 @@ namespace Morula
     struct Sums
     {
       std::vector<double> &residual; // at the relevant unknowns
-      std::vector<double> *magnitudes = nullptr; // likewise, if wanted
+      std::vector<double> *magnitudes       = nullptr; // likewise, if wanted
       double               energy           = 0.;
       double               energy_magnitude = 0.;
     };
@@ -56,9 +56,9 @@ namespace Morula
      *  rows, and columns likewise. */
     virtual void
     add_tangent(
-      const std::vector<double>                                         &u,
-      const std::function<void(unsigned int, const std::vector<double> &)>
-        &add) const = 0;
+      const std::vector<double>                                            &u,
+      const std::function<void(unsigned int, const std::vector<double> &)> &add)
+      const = 0;
   };
 } // namespace Morula
 

@@ -107,9 +107,8 @@ namespace Morula
     unsigned int c = 0;
     for (const auto &grid_cell : store.grid_cells())
       {
-        while (!space.is_at(space.grid_cells()[c],
-                            grid_cell.number,
-                            grid_cell.body))
+        while (
+          !space.is_at(space.grid_cells()[c], grid_cell.number, grid_cell.body))
           ++c;
         action(grid_cell, on_grid_cell(c), box().index(grid_cell.number));
       }

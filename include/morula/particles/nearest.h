@@ -74,9 +74,8 @@ namespace Morula
     const auto append = [&](const unsigned int p, std::vector<double> &list) {
       append_flat(list, value(p));
     };
-    const std::vector<double> numbers =
-      nearest_numbers(
-        queries, points, {Flat<T>::n, append, ties}, grid, bodies);
+    const std::vector<double> numbers = nearest_numbers(
+      queries, points, {Flat<T>::n, append, ties}, grid, bodies);
     std::vector<T> values;
     for (std::size_t first = 0; first < numbers.size(); first += Flat<T>::n)
       values.push_back(Flat<T>::read(&numbers[first]));

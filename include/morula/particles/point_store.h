@@ -18,9 +18,9 @@ namespace Morula
   /**
    * Points (cells, or boundary points) on the background grid: a deal.II
    * ParticleHandler whose particles are on the rank that owns their grid cell,
-   * and a canonical order over them: by grid cell, by body, then by id. The order
-   * does not depend on the history, so that sums over points come out the same in a
-   * resumed run.
+   * and a canonical order over them: by grid cell, by body, then by id. The
+   * order does not depend on the history, so that sums over points come out the
+   * same in a resumed run.
    */
   template <int dim>
   class PointStore

@@ -18,8 +18,8 @@ namespace Morula
 
   /**
    * The body of each of this rank's founders: founders that stand together,
-   * each at most widest_bond lengths from some other. Bodies have the numbers 0,
-   * 1, ... in the order of their first founders. Collective.
+   * each at most widest_bond lengths from some other. Bodies have the numbers
+   * 0, 1, ... in the order of their first founders. Collective.
    */
   template <int dim>
   std::vector<unsigned int>
@@ -27,9 +27,9 @@ namespace Morula
 
   /**
    * Moves the patches of bodies that touch so that their surfaces do not
-   * overlap: surfaces that were made around each body's cells alone may, by part
-   * of a cell, and would start with a pressure. Each patch goes back along its
-   * normal by half of its mean overlap with the patches that face it.
+   * overlap: surfaces that were made around each body's cells alone may, by
+   * part of a cell, and would start with a pressure. Each patch goes back along
+   * its normal by half of its mean overlap with the patches that face it.
    * @param patches all of them
    */
   template <int dim>

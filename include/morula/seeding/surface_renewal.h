@@ -40,14 +40,14 @@ namespace Morula
    */
   template <int dim>
   std::optional<PointList<dim>>
-  renewed_surface(const Cells<dim>           &cells,
-                  const PointList<dim>       &former,
-                  const PointList<dim>       &present,
-                  const BoundaryColumns<dim> &columns,
-                  const SurfaceWish          &wish,
-                  const double                longest_edge,
-                  types::particle_index      &next_id,
-                  const MPI_Comm              comm,
+  renewed_surface(const Cells<dim>                  &cells,
+                  const PointList<dim>              &former,
+                  const PointList<dim>              &present,
+                  const BoundaryColumns<dim>        &columns,
+                  const SurfaceWish                 &wish,
+                  const double                       longest_edge,
+                  types::particle_index             &next_id,
+                  const MPI_Comm                     comm,
                   const std::optional<unsigned int> &body = {});
 
   /**

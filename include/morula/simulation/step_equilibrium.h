@@ -56,12 +56,12 @@ namespace Morula
     /** @param supports what holds this rank's pieces
      *  @param contact points that may touch another body, or null. Collective.
      */
-    StepEquilibrium(const TissueModel<dim> &model,
-                    const Tissue<dim>      &tissue,
-                    const SplineSpace<dim> &space,
-                    const Supports         &supports,
-                    TimerOutput            &timer,
-                    const MPI_Comm          comm,
+    StepEquilibrium(const TissueModel<dim>   &model,
+                    const Tissue<dim>        &tissue,
+                    const SplineSpace<dim>   &space,
+                    const Supports           &supports,
+                    TimerOutput              &timer,
+                    const MPI_Comm            comm,
                     const ContactPoints<dim> *contact = nullptr);
 
     /**

@@ -31,8 +31,8 @@ namespace Morula
     std::vector<double> contact_pressures;
   };
 
-  /** Gives the boundary points their forces and the pressure of contact, if they
-   *  have columns for them. */
+  /** Gives the boundary points their forces and the pressure of contact, if
+   * they have columns for them. */
   template <int dim>
   void
   set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
@@ -77,8 +77,8 @@ namespace Morula
               const Term<dim>  &gain,
               const double      pressure);
 
-    /** Adds a row for each two bodies that touch, with the force of the one with
-     *  the lower number on the other, and the pressure at all points.
+    /** Adds a row for each two bodies that touch, with the force of the one
+     * with the lower number on the other, and the pressure at all points.
      *  Collective. */
     void
     add_contact(const std::vector<ContactForce<dim>> &forces);

@@ -36,9 +36,8 @@ namespace Morula
     for (const auto &[rank, list] : send_records(by_owner, comm))
       for (const ContactForce<dim> &one : list)
         {
-          const auto [sum, is_new] = sums.emplace(std::make_pair(one.p,
-                                                                 one.other),
-                                                  one);
+          const auto [sum, is_new] =
+            sums.emplace(std::make_pair(one.p, one.other), one);
           if (!is_new)
             sum->second.force += one.force;
         }
@@ -110,15 +109,14 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                        \
-  template std::vector<ContactForce<dim>> contact_forces(       \
-    const ContactPoints<dim> &,                                 \
-    const ContactPairs<dim> &,                                  \
-    const std::vector<double> &,                                \
-    const MPI_Comm);                                            \
-  template std::vector<double> contact_pressures(const Tissue<dim> &, \
-                                                 const std::vector< \
-                                                   ContactForce<dim>> &);
+#define INSTANTIATE(dim)                                  \
+  template std::vector<ContactForce<dim>> contact_forces( \
+    const ContactPoints<dim> &,                           \
+    const ContactPairs<dim> &,                            \
+    const std::vector<double> &,                          \
+    const MPI_Comm);                                      \
+  template std::vector<double> contact_pressures(         \
+    const Tissue<dim> &, const std::vector<ContactForce<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -124,8 +124,7 @@ namespace Morula
         if (gap <= -deepest_pair * law.h || gap >= law.h)
           continue;
         const Tensor<1, dim> normal = across / across.norm();
-        const double         s =
-          (distance - (normal * distance) * normal).norm();
+        const double s = (distance - (normal * distance) * normal).norm();
         const double r =
           ContactPoints<dim>::kernel *
           std::max(points.points()[b].spacing, points.points()[c].spacing);
@@ -137,8 +136,18 @@ namespace Morula
         double drag = drag_of_pressure * law.kappa * std::max(-gap, 0.) / law.h;
         if (first_contact && gap < nearly_touching * law.h)
           drag = std::max(drag, first_drag * law.E / law.h);
-        list.push_back(
-          {b, c, weight, gap, across, normal, one.u - other.u, drag, gap < 0. ? law.slow : 0., 0, 0, 0});
+        list.push_back({b,
+                        c,
+                        weight,
+                        gap,
+                        across,
+                        normal,
+                        one.u - other.u,
+                        drag,
+                        gap < 0. ? law.slow : 0.,
+                        0,
+                        0,
+                        0});
       }
     return list;
   }
@@ -217,10 +226,9 @@ namespace Morula
   {
     const Tensor<1, dim> w = u[pair.b] - u[pair.c] - pair.jump;
     const double         g = gap(pair, u);
-    return -pair.weight *
-           (law.kappa * std::min(g, 0.) * pair.across +
-            pair.drag * along(pair, w) +
-            pair.slow * along(pair, u[pair.b] - u[pair.c]));
+    return -pair.weight * (law.kappa * std::min(g, 0.) * pair.across +
+                           pair.drag * along(pair, w) +
+                           pair.slow * along(pair, u[pair.b] - u[pair.c]));
   }
 
 
@@ -231,7 +239,7 @@ namespace Morula
   {
     Tensor<2, dim> M =
       (pair.drag + pair.slow) * (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
-                   outer_product(pair.normal, pair.normal));
+                                 outer_product(pair.normal, pair.normal));
     if (gap(pair, u) < 0.)
       M += law.kappa * outer_product(pair.across, pair.across);
     return pair.weight * M;
@@ -259,8 +267,7 @@ namespace Morula
           0.5 * pair.weight *
           (law.kappa * std::pow(std::min(g, 0.), 2) +
            pair.drag * along(pair, w).norm_square() +
-           pair.slow *
-             along(pair, ways[pair.b] - ways[pair.c]).norm_square());
+           pair.slow * along(pair, ways[pair.b] - ways[pair.c]).norm_square());
         sums.energy += energy;
         sums.energy_magnitude += energy;
         of_points[pair.b] += t;
@@ -310,18 +317,18 @@ namespace Morula
   template <int dim>
   void
   ContactPairs<dim>::add_tangent(
-    const std::vector<double> &u,
+    const std::vector<double>                                            &u,
     const std::function<void(unsigned int, const std::vector<double> &)> &add)
     const
   {
     // A pair's jump is w = Σ_s q_s ũ_s, with the values φ of b, and minus those
     // of c; its part is A M q qᵀ with M = κ D⊗D + k_t P, doc/theory.md (4.8l).
     // A point's block with itself needs only the sum of M over its pairs, and
-    // that of b with all its partners in a group the sum of M φ_c: there are far
-    // fewer points than pairs. The block of c with b is the transposed one.
-    const std::vector<Tensor<1, dim>>                 ways = displacements(u);
-    std::map<unsigned int, Tensor<2, dim>>            of_points;
-    std::map<unsigned int, unsigned int>              group_of;
+    // that of b with all its partners in a group the sum of M φ_c: there are
+    // far fewer points than pairs. The block of c with b is the transposed one.
+    const std::vector<Tensor<1, dim>>      ways = displacements(u);
+    std::map<unsigned int, Tensor<2, dim>> of_points;
+    std::map<unsigned int, unsigned int>   group_of;
     std::vector<std::vector<std::pair<const Pair *, Tensor<2, dim>>>> of_links(
       links_.size());
     for (const Pair &pair : pairs)
@@ -334,8 +341,8 @@ namespace Morula
           group_of[pair.c] = pair.group_c;
           of_links[pair.link].emplace_back(&pair, M);
         }
-    std::vector<std::vector<double>> columns(dim * dim);
-    std::vector<double>              matrix, transposed;
+    std::vector<std::vector<double>>                  columns(dim * dim);
+    std::vector<double>                               matrix, transposed;
     std::map<unsigned int, std::vector<unsigned int>> of_groups;
     for (const auto &[k, group] : group_of)
       of_groups[group].push_back(k);
@@ -373,8 +380,7 @@ namespace Morula
             const unsigned int b = list[first].first->b;
             for (std::vector<double> &column : columns)
               column.assign(m, 0.);
-            for (last = first;
-                 last < list.size() && list[last].first->b == b;
+            for (last = first; last < list.size() && list[last].first->b == b;
                  ++last)
               {
                 const std::vector<double> &of_c =
@@ -405,10 +411,10 @@ namespace Morula
     // left of the drag tells whether the frozen state was good enough. The
     // candidates at u then show what has come near, and whether points have
     // passed through each other.
-    const std::vector<State>              now = states(u);
-    std::vector<Tensor<1, dim>>           ways;
-    std::set<ContactPair>                 before;
-    Renewal                               result;
+    const std::vector<State>    now = states(u);
+    std::vector<Tensor<1, dim>> ways;
+    std::set<ContactPair>       before;
+    Renewal                     result;
     for (const State &state : now)
       ways.push_back(state.u);
     for (const Pair &pair : pairs)
@@ -417,8 +423,7 @@ namespace Morula
         const double         p =
           -law.kappa * std::min(gap(pair, ways), 0.) * pair.across.norm();
         result.normal += pair.weight * p;
-        result.tangential +=
-          pair.weight * pair.drag * along(pair, w).norm();
+        result.tangential += pair.weight * pair.drag * along(pair, w).norm();
         if (p > 0.)
           result.slid =
             std::max(result.slid, (ways[pair.b] - ways[pair.c]).norm());
@@ -441,11 +446,10 @@ namespace Morula
         const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
         const Tensor<1, dim> distance = now[b].x - now[c].x;
         const Tensor<1, dim> normal   = across / across.norm();
-        const double         s =
-          (distance - (normal * distance) * normal).norm();
-        if (s < ContactPoints<dim>::kernel *
-                  std::max(points.points()[b].spacing,
-                           points.points()[c].spacing))
+        const double s = (distance - (normal * distance) * normal).norm();
+        if (s <
+            ContactPoints<dim>::kernel *
+              std::max(points.points()[b].spacing, points.points()[c].spacing))
           result.crossed = std::max(result.crossed, -(across * distance));
       }
     if (result.crossed < 0.5 * deepest_pair * law.h)

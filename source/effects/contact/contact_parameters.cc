@@ -6,13 +6,14 @@
 namespace Morula
 {
   ContactParameters::ContactParameters()
-    : between("Contact/Between",
-              "none",
-              "What may touch, press on each other, slide without friction and "
-              "part again. none: tissue that comes within a grid spacing or two "
-              "of other tissue sticks to it. bodies: different bodies have "
-              "contact where their surfaces meet.",
-              {"none|bodies"})
+    : between(
+        "Contact/Between",
+        "none",
+        "What may touch, press on each other, slide without friction and "
+        "part again. none: tissue that comes within a grid spacing or two "
+        "of other tissue sticks to it. bodies: different bodies have "
+        "contact where their surfaces meet.",
+        {"none|bodies"})
     , bodies("Contact/Bodies",
              "apart",
              "What is a body. apart: cells that stand together at t = 0; gaps "
@@ -34,11 +35,12 @@ namespace Morula
                   "Time of touch after which two bodies become one: they get "
                   "splines and a surface in common and never part again; 0: "
                   "they do not fuse. Needs Refine surface. Units: day.")
-    , fields_pass("Contact/Fields pass",
-                  true,
-                  "Whether fields pass from body to body where these touch, or "
-                  "are within a grid spacing of it. With false they end at each "
-                  "body's own surface.")
+    , fields_pass(
+        "Contact/Fields pass",
+        true,
+        "Whether fields pass from body to body where these touch, or "
+        "are within a grid spacing of it. With false they end at each "
+        "body's own surface.")
   {
     friction.require([](const double zeta) { return zeta >= 0.; },
                      "a number >= 0, in kPa day/um",
@@ -46,10 +48,11 @@ namespace Morula
     fusion_time.require([](const double time) { return time >= 0.; },
                         "a number >= 0, in days",
                         "0 lets bodies stay apart.");
-    stiffness.require([](const double kappa) { return kappa > 0.; },
-                      "a number > 0, in units of E/h",
-                      "100 is a good choice: less lets bodies overlap, far more "
-                      "takes more iterations.");
+    stiffness.require(
+      [](const double kappa) { return kappa > 0.; },
+      "a number > 0, in units of E/h",
+      "100 is a good choice: less lets bodies overlap, far more "
+      "takes more iterations.");
   }
 
 
@@ -63,11 +66,7 @@ namespace Morula
   KeyList
   ContactParameters::list()
   {
-    return {&between,
-            &bodies,
-            &stiffness,
-            &friction,
-            &fusion_time,
-            &fields_pass};
+    return {
+      &between, &bodies, &stiffness, &friction, &fusion_time, &fields_pass};
   }
 } // namespace Morula

@@ -93,8 +93,10 @@ namespace Morula
       Utilities::MPI::this_mpi_process(tissue.communicator());
     const auto message = [&](const unsigned int p, std::vector<double> &list) {
       append_flat(list,
-                  PointMessage<dim>(
-                    store.area_vector(p), store.body(p), store[p].spacing(), p));
+                  PointMessage<dim>(store.area_vector(p),
+                                    store.body(p),
+                                    store[p].spacing(),
+                                    p));
     };
     const PointList<dim> near =
       near_points(store.positions(),
@@ -186,7 +188,7 @@ namespace Morula
       if (point.owner != rank)
         questions[point.owner].push_back(point.p);
     std::map<unsigned int, std::vector<double>> answers;
-    const BoundaryPoints<dim>                  &store = tissue.boundary_points();
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
     for (const auto &[asking, list] : send_records(questions, comm))
       for (const unsigned int p : list)
         {
@@ -205,8 +207,8 @@ namespace Morula
               append_flat(answer, point.gradients[s]);
             }
         }
-    const auto        received = send_records(answers, comm);
-    constexpr auto    width    = 2 + dim; // numbers for each unknown
+    const auto     received = send_records(answers, comm);
+    constexpr auto width    = 2 + dim;        // numbers for each unknown
     std::map<unsigned int, std::size_t> next; // number to be read, by owner
     std::vector<std::vector<types::global_dof_index>> global(points_.size());
     std::vector<types::global_dof_index>              foreign;

@@ -39,7 +39,8 @@ namespace Morula
     // Points that have been touched long enough look for such points of other
     // bodies within half a grid spacing, also on other ranks. All ranks learn
     // all couples of bodies and join them alike: the lower number wins, and
-    // couples are gone through until nothing changes, as three may meet at once.
+    // couples are gone through until nothing changes, as three may meet at
+    // once.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     std::vector<Point<dim>>    queries;
     std::vector<unsigned int>  old;
@@ -116,7 +117,7 @@ namespace Morula
   fuse(const Fusions &fusions, Tissue<dim> &tissue)
   {
     // The stores sort points by body, so that all are placed anew.
-    const auto renamed = [&](PointList<dim>             points,
+    const auto renamed = [&](PointList<dim>              points,
                              const Column<unsigned int> &column) {
       for (std::size_t i = 0; i < points.size(); ++i)
         if (const auto found = fusions.find(column.get(points.row(i)));
@@ -132,8 +133,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                           \
-  template void    age_contact(Tissue<dim> &, const double);       \
+#define INSTANTIATE(dim)                                              \
+  template void    age_contact(Tissue<dim> &, const double);          \
   template Fusions bodies_to_fuse(const Tissue<dim> &, const double); \
   template void    fuse(const Fusions &, Tissue<dim> &);
   INSTANTIATE(2)

@@ -8,9 +8,10 @@
 namespace Morula
 {
   template <int dim>
-  ObstacleContact<dim>::ObstacleContact(GroupedPoints<dim>         points,
-                        std::vector<BoundaryPoint> boundary_points,
-                        std::vector<Obstacle>      obstacles)
+  ObstacleContact<dim>::ObstacleContact(
+    GroupedPoints<dim>         points,
+    std::vector<BoundaryPoint> boundary_points,
+    std::vector<Obstacle>      obstacles)
     : PointTerm<dim>(std::move(points))
     , boundary_points(std::move(boundary_points))
     , obstacles(std::move(obstacles))
@@ -20,9 +21,9 @@ namespace Morula
   template <int dim>
   void
   ObstacleContact<dim>::add_point(const unsigned int       p,
-                          const SplineValues<dim> &splines,
-                          const LocalField<dim>   &field,
-                          LocalSystem<dim>        &system) const
+                                  const SplineValues<dim> &splines,
+                                  const LocalField<dim>   &field,
+                                  LocalSystem<dim>        &system) const
   {
     // The place is the one of this evaluation, x_t + u, so Newton's method
     // finds anew which points touch. The body stays where it is at t = 0 and

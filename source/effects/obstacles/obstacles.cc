@@ -34,8 +34,8 @@ namespace Morula
     template <int dim, typename Points, typename Position>
     std::pair<double, Point<dim>>
     deepest(const typename ObstacleContact<dim>::Obstacle &obstacle,
-            const Points                          &points,
-            const Position                        &position)
+            const Points                                  &points,
+            const Position                                &position)
     {
       // These are the points of this rank alone. Only points that are in the
       // obstacle count, so the depth is 0 if there are none.
@@ -147,7 +147,7 @@ namespace Morula
     // than that may be pushed out on the wrong side of a thin body. The depth
     // is that of this rank's points, so the caller makes a failure known to all
     // ranks.
-    const double                                 h = points.h;
+    const double                                         h = points.h;
     std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
     for (const Obstacle &obstacle : list)
       {
@@ -174,8 +174,8 @@ namespace Morula
           }
       }
     return std::make_unique<ObstacleContact<dim>>(points,
-                                          boundary_points_of(points),
-                                          std::move(obstacles));
+                                                  boundary_points_of(points),
+                                                  std::move(obstacles));
   }
 
 
@@ -189,8 +189,8 @@ namespace Morula
       parts.push_back(
         {obstacle.name,
          std::make_unique<ObstacleContact<dim>>(points,
-                                        boundary_points_of(points),
-                                        Bodies{obstacle.at(t, points)}),
+                                                boundary_points_of(points),
+                                                Bodies{obstacle.at(t, points)}),
          true});
     return parts;
   }

@@ -342,12 +342,11 @@ namespace Morula
         const BoundaryView<dim> point = points[p];
         const Point<dim>        x     = points.position(p);
         if (is_held(point.condition()))
-          list.push_back(
-            {space.piece(space.box().number(space.box().locate(x)),
-                         points.body(p)),
-             x,
-             projection(point),
-             point.initial_area()});
+          list.push_back({space.piece(space.box().number(space.box().locate(x)),
+                                      points.body(p)),
+                          x,
+                          projection(point),
+                          point.initial_area()});
       }
     return list;
   }

@@ -96,9 +96,8 @@ namespace Morula
     // of them.
     const auto lowest = nearest_values(
       queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), bodies);
-    const auto mean =
-      nearest_values(
-        queries, tissue.cells(), id, Ties::mean, tissue.grid(), bodies);
+    const auto mean = nearest_values(
+      queries, tissue.cells(), id, Ties::mean, tissue.grid(), bodies);
     for (std::size_t k = 0; k < lost.size(); ++k)
       tissue.boundary_point(lost[k]).set(
         ids, mean[k] == lowest[k] ? static_cast<int>(lowest[k]) : -1);

@@ -32,13 +32,15 @@ namespace
     cells.need_bodies();
     BoundaryColumns<dim> surface;
     surface.need_contact();
-    auto                  tissue = std::make_unique<Tissue<dim>>(grid, cells, MPI_COMM_WORLD, surface);
-    PointList<dim>        all_cells(cells.n_numbers()), all_points(surface.n_numbers());
+    auto tissue =
+      std::make_unique<Tissue<dim>>(grid, cells, MPI_COMM_WORLD, surface);
+    PointList<dim> all_cells(cells.n_numbers()),
+      all_points(surface.n_numbers());
     types::particle_index id = 0, point = 0;
     for (unsigned int body = 0; body < 2; ++body)
       {
-        // The middle plane of the meeting is at 1 in the last direction, so that
-        // it cuts grid cells.
+        // The middle plane of the meeting is at 1 in the last direction, so
+        // that it cuts grid cells.
         const double face = 1. + (body == 0 ? 0.5 : -0.5) * overlap;
         const double up   = body == 0 ? -1. : 1.;
         const auto   loop = [&](const double step, const auto &visit) {
@@ -56,9 +58,8 @@ namespace
         loop(cell, [&](Point<dim> x) {
           for (int k = 0; k < height / cell; ++k)
             {
-              x[dim - 1] = face + up * (k + 0.5) * cell;
-              std::vector<double> row =
-                cells.founder(x, std::pow(cell, dim));
+              x[dim - 1]              = face + up * (k + 0.5) * cell;
+              std::vector<double> row = cells.founder(x, std::pow(cell, dim));
               cells.body.set(make_array_view(row), body);
               all_cells.add(id++, x, make_array_view(row));
             }
@@ -67,7 +68,7 @@ namespace
         loop(step, [&](Point<dim> x) {
           x[dim - 1] = face;
           Tensor<1, dim> n;
-          n[dim - 1] = -up;
+          n[dim - 1]              = -up;
           std::vector<double> row = surface.initial_point(
             x, n, std::pow(step, dim - 1), SurfaceCondition::free);
           surface.body.set(make_array_view(row), body);
@@ -106,15 +107,15 @@ namespace
   check_derivatives()
   {
     const auto               owner_of_tissue = two_blocks<dim>(0.1);
-    const Tissue<dim>       &tissue = *owner_of_tissue;
-    SplineSpace<dim>         space  = tissue.splines();
+    const Tissue<dim>       &tissue          = *owner_of_tissue;
+    SplineSpace<dim>         space           = tissue.splines();
     const ContactPoints<dim> points(tissue, space, h);
     ASSERT_TRUE(points.any());
-    const ContactPairs<dim>  term(points, {10., 1., h, 3.});
-    const std::size_t        n = dim * space.relevant().n_elements();
+    const ContactPairs<dim>   term(points, {10., 1., h, 3.});
+    const std::size_t         n = dim * space.relevant().n_elements();
     const std::vector<double> u = random_values(n, 0.01);
     std::vector<double>       residual, ahead, behind;
-    const double energy = sums_at(term, u, residual).energy;
+    const double              energy = sums_at(term, u, residual).energy;
     EXPECT_GT(energy, 0.);
 
     // The derivative of the energy along a direction, and that of the residual.
@@ -135,20 +136,18 @@ namespace
     EXPECT_NEAR(slope, by_residual, 1e-7 * std::abs(by_residual) + 1e-9);
 
     std::vector<double> product(n, 0.);
-    term.add_tangent(u,
-                     [&](const unsigned int         link,
-                         const std::vector<double> &matrix) {
-                       const UnknownLink &of = term.links()[link];
-                       const unsigned int n_rows = of.rows.size(),
-                                          m      = of.columns.size();
-                       for (unsigned int i = 0; i < dim; ++i)
-                         for (unsigned int s = 0; s < n_rows; ++s)
-                           for (unsigned int j = 0; j < dim; ++j)
-                             for (unsigned int t = 0; t < m; ++t)
-                               product[of.rows[s] * dim + i] +=
-                                 matrix[((i * n_rows + s) * dim + j) * m + t] *
-                                 way[of.columns[t] * dim + j];
-                     });
+    term.add_tangent(
+      u, [&](const unsigned int link, const std::vector<double> &matrix) {
+        const UnknownLink &of     = term.links()[link];
+        const unsigned int n_rows = of.rows.size(), m = of.columns.size();
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int s = 0; s < n_rows; ++s)
+            for (unsigned int j = 0; j < dim; ++j)
+              for (unsigned int t = 0; t < m; ++t)
+                product[of.rows[s] * dim + i] +=
+                  matrix[((i * n_rows + s) * dim + j) * m + t] *
+                  way[of.columns[t] * dim + j];
+      });
     double largest = 0., error = 0.;
     for (std::size_t i = 0; i < n; ++i)
       {
@@ -160,22 +159,21 @@ namespace
     EXPECT_LT(error, 1e-7 * largest);
   }
 
-  /** The force of flat faces is κ times overlap times area; forces of both sides
-   *  are opposite. */
+  /** The force of flat faces is κ times overlap times area; forces of both
+   * sides are opposite. */
   template <int dim>
   void
   check_forces()
   {
-    constexpr double         overlap = 0.05, kappa = 10.;
-    const auto               owner_of_tissue = two_blocks<dim>(overlap);
-    const Tissue<dim>       &tissue = *owner_of_tissue;
-    SplineSpace<dim>         space  = tissue.splines();
-    const ContactPoints<dim> points(tissue, space, h);
-    const ContactPairs<dim>  term(points, {kappa, 1., h, 0.});
+    constexpr double          overlap = 0.05, kappa = 10.;
+    const auto                owner_of_tissue = two_blocks<dim>(overlap);
+    const Tissue<dim>        &tissue          = *owner_of_tissue;
+    SplineSpace<dim>          space           = tissue.splines();
+    const ContactPoints<dim>  points(tissue, space, h);
+    const ContactPairs<dim>   term(points, {kappa, 1., h, 0.});
     const std::vector<double> rest(dim * space.relevant().n_elements(), 0.);
     Tensor<1, dim>            on_upper, on_lower;
-    for (const auto &one :
-         contact_forces(points, term, rest, MPI_COMM_WORLD))
+    for (const auto &one : contact_forces(points, term, rest, MPI_COMM_WORLD))
       (one.body == 0 ? on_lower : on_upper) += one.force;
     EXPECT_NEAR((on_upper + on_lower).norm(), 0., 1e-12);
     // At the edges of the faces the kernel reaches beyond the partner.
@@ -197,9 +195,9 @@ namespace
   void
   check_apart()
   {
-    const auto        owner_of_tissue = two_blocks<dim>(-1.);
-    const Tissue<dim> &tissue = *owner_of_tissue;
-    SplineSpace<dim>  space  = tissue.splines();
+    const auto         owner_of_tissue = two_blocks<dim>(-1.);
+    const Tissue<dim> &tissue          = *owner_of_tissue;
+    SplineSpace<dim>   space           = tissue.splines();
     EXPECT_EQ(space.n_bodies(), 2u);
     EXPECT_EQ(space.n_pieces(), 2u);
     EXPECT_EQ(tissue.unparted_splines().n_pieces(), 1u);
@@ -211,9 +209,9 @@ namespace
           EXPECT_TRUE(owner[unknown] == -1 || owner[unknown] == body);
           owner[unknown] = body;
         }
-    const ContactPoints<dim> points(tissue, space, h);
-    const ContactPairs<dim>  term(points, {10., 1., h, 3.});
-    std::vector<double>      residual;
+    const ContactPoints<dim>  points(tissue, space, h);
+    const ContactPairs<dim>   term(points, {10., 1., h, 3.});
+    std::vector<double>       residual;
     const std::vector<double> rest(dim * space.relevant().n_elements(), 0.);
     EXPECT_EQ(sums_at(term, rest, residual).energy, 0.);
     EXPECT_EQ(*std::max_element(residual.begin(), residual.end()), 0.);
@@ -221,16 +219,12 @@ namespace
 } // namespace
 
 
-TEST(ContactPairs, ResidualAndTangentAreTheEnergysDerivatives)
-{
-  MORULA_BOTH_DIMENSIONS(check_derivatives)
-}
+TEST(ContactPairs, ResidualAndTangentAreTheEnergysDerivatives){
+  MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
-TEST(ContactPairs, FlatFacesPressByTheirOverlapAndForcesAreOpposite)
-{
-  MORULA_BOTH_DIMENSIONS(check_forces)
-}
+TEST(ContactPairs, FlatFacesPressByTheirOverlapAndForcesAreOpposite){
+  MORULA_BOTH_DIMENSIONS(check_forces)}
 
 
 TEST(ContactPairs, BodiesThatDoNotTouchShareNothing)

@@ -103,12 +103,13 @@ namespace
           Tensor<1, dim> way;
           way[0]      = 3.;
           auto points = random_points_in_cell<dim>(generator, 40);
-          std::vector<typename ObstacleContact<dim>::BoundaryPoint> boundary_points;
+          std::vector<typename ObstacleContact<dim>::BoundaryPoint>
+            boundary_points;
           for (const Point<dim> &xi : points.xi)
             boundary_points.push_back({50. * xi, 10. * (1. + xi[0])});
           const ObstacleContact<dim> term(points,
-                                  boundary_points,
-                                  {{at.get(), is_mould, way, 0.7}});
+                                          boundary_points,
+                                          {{at.get(), is_mould, way, 0.7}});
           EXPECT_TRUE(term.is_conservative());
           const auto               field = random_field<dim>(generator, 0.05);
           const TermOnOneCell<dim> one(term, GrowthAt::current);

@@ -12,9 +12,9 @@ namespace Morula
 {
   /**
    * The forces of contact on this rank's boundary points at the displacement
-   * with these values at the relevant unknowns, one for each point and body that
-   * touches it, in the order of the store; p is the position there. Pairs of
-   * other ranks are among them. Collective.
+   * with these values at the relevant unknowns, one for each point and body
+   * that touches it, in the order of the store; p is the position there. Pairs
+   * of other ranks are among them. Collective.
    */
   template <int dim>
   std::vector<ContactForce<dim>>

@@ -38,8 +38,8 @@ namespace Morula
    * pairs of boundary points of different bodies that face each other, weighted
    * with a smooth kernel of their distance along the surface, so that no point
    * of one surface has to find its projection on the other. Positions, normals
-   * and areas in it are frozen; renew() takes them anew. With them the energy is
-   * convex and its tangent exact. Forces of a pair are equal and opposite.
+   * and areas in it are frozen; renew() takes them anew. With them the energy
+   * is convex and its tangent exact. Forces of a pair are equal and opposite.
    */
   template <int dim>
   class ContactPairs : public PairTerm
@@ -54,7 +54,7 @@ namespace Morula
     add_residual(const std::vector<double> &u, Sums &sums) const override;
     void
     add_tangent(
-      const std::vector<double> &u,
+      const std::vector<double>                                            &u,
       const std::function<void(unsigned int, const std::vector<double> &)> &add)
       const override;
 
@@ -89,16 +89,16 @@ namespace Morula
     /** A pair with its frozen geometry. */
     struct Pair
     {
-      unsigned int   b, c;    // points
-      double         weight;  // A = a_b a_c ω, µm^(dim-1)
-      double         gap;     // g_k, µm
-      Tensor<1, dim> across;  // D = (n_c - n_b)/2
-      Tensor<1, dim> normal;  // m = D/|D|
-      Tensor<1, dim> jump;    // w_k = u_b - u_c, µm
-      double         drag;    // k_t, kPa/µm
-      double         slow;    // ζ/Δt where it touches, else 0, kPa/µm
+      unsigned int   b, c;             // points
+      double         weight;           // A = a_b a_c ω, µm^(dim-1)
+      double         gap;              // g_k, µm
+      Tensor<1, dim> across;           // D = (n_c - n_b)/2
+      Tensor<1, dim> normal;           // m = D/|D|
+      Tensor<1, dim> jump;             // w_k = u_b - u_c, µm
+      double         drag;             // k_t, kPa/µm
+      double         slow;             // ζ/Δt where it touches, else 0, kPa/µm
       unsigned int   group_b, group_c; // their links with themselves
-      unsigned int   link;             // of b with c; the next is that of c with b
+      unsigned int   link; // of b with c; the next is that of c with b
     };
 
     /** Where a point is and what surface it stands for. */
@@ -130,8 +130,7 @@ namespace Morula
 
     /** Minus the derivative of force() by the displacement of b. */
     Tensor<2, dim>
-    stiffness(const Pair                        &pair,
-              const std::vector<Tensor<1, dim>> &u) const;
+    stiffness(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
 
     /** The pairs of a configuration.
      *  @param first_contact whether pairs that nearly touch may turn into
@@ -149,15 +148,15 @@ namespace Morula
     /** Adds (M φ) φᵀ, given row(i, j) = M_ij φ of the columns, to a matrix with
      *  these numbers of rows and columns. */
     static void
-    add_products(const std::vector<double>                    &of_rows,
-                 const std::vector<std::vector<double>>       &columns,
-                 std::vector<double>                          &matrix);
+    add_products(const std::vector<double>              &of_rows,
+                 const std::vector<std::vector<double>> &columns,
+                 std::vector<double>                    &matrix);
 
-    const ContactPoints<dim>              &points;
-    const ContactLaw                       law;
-    std::vector<Pair>                      pairs, seen;
-    std::vector<UnknownLink>               links_, seen_links;
-    std::vector<double>                    first_gaps; // by pair of points
+    const ContactPoints<dim> &points;
+    const ContactLaw          law;
+    std::vector<Pair>         pairs, seen;
+    std::vector<UnknownLink>  links_, seen_links;
+    std::vector<double>       first_gaps; // by pair of points
   };
 } // namespace Morula
 

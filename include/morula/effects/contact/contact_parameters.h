@@ -17,8 +17,8 @@ namespace Morula
 
     Key<std::string> between;
     Key<std::string> bodies;
-    Key<double>      stiffness; // κ h / E
-    Key<double>      friction;  // ζ, kPa day/µm
+    Key<double>      stiffness;   // κ h / E
+    Key<double>      friction;    // ζ, kPa day/µm
     Key<double>      fusion_time; // day
     Key<bool>        fields_pass;
 

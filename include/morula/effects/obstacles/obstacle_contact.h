@@ -53,8 +53,8 @@ namespace Morula
     };
 
     ObstacleContact(GroupedPoints<dim>         points,
-            std::vector<BoundaryPoint> boundary_points,
-            std::vector<Obstacle>      obstacles);
+                    std::vector<BoundaryPoint> boundary_points,
+                    std::vector<Obstacle>      obstacles);
 
   private:
     void

@@ -7,6 +7,7 @@
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/mesh_patches.h>
+#include <morula/seeding/patch_lists.h>
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/points_surface_mesh.h>
 #include <morula/seeding/surface_file.h>
@@ -27,59 +28,6 @@ namespace Morula
 {
   namespace
   {
-    /** The cells of all ranks, on rank 0, body by body: those of one body if
-     *  founders do not know theirs. */
-    template <int dim>
-    std::vector<AllCells<dim>>
-    gather(const Founders<dim> &founders, const MPI_Comm comm)
-    {
-      // Each list arrives in the order of the ranks, so that positions, volumes
-      // and bodies stay in step.
-      std::vector<Point<dim>>   positions;
-      std::vector<double>       volumes;
-      std::vector<unsigned int> bodies;
-      for (const auto &part : Utilities::MPI::gather(comm, founders.positions))
-        positions.insert(positions.end(), part.begin(), part.end());
-      for (const auto &part : Utilities::MPI::gather(comm, founders.volumes))
-        volumes.insert(volumes.end(), part.begin(), part.end());
-      for (const auto &part : Utilities::MPI::gather(comm, founders.bodies))
-        bodies.insert(bodies.end(), part.begin(), part.end());
-      if (bodies.empty())
-        return {AllCells<dim>(positions, volumes)};
-      const unsigned int n =
-        *std::max_element(bodies.begin(), bodies.end()) + 1;
-      std::vector<std::vector<Point<dim>>> places(n);
-      std::vector<std::vector<double>>     sizes(n);
-      for (std::size_t i = 0; i < bodies.size(); ++i)
-        {
-          places[bodies[i]].push_back(positions[i]);
-          sizes[bodies[i]].push_back(volumes[i]);
-        }
-      std::vector<AllCells<dim>> list;
-      for (unsigned int b = 0; b < n; ++b)
-        list.emplace_back(places[b], sizes[b]);
-      return list;
-    }
-
-    /** Adds the patches of one body to those of all. */
-    template <int dim>
-    void
-    append_patches(const SurfacePatches<dim>         &more,
-                   const std::optional<unsigned int> &body,
-                   SurfacePatches<dim>               &all)
-    {
-      all.positions.insert(all.positions.end(),
-                           more.positions.begin(),
-                           more.positions.end());
-      all.normals.insert(all.normals.end(),
-                         more.normals.begin(),
-                         more.normals.end());
-      all.areas.insert(all.areas.end(), more.areas.begin(), more.areas.end());
-      if (body)
-        all.bodies.insert(all.bodies.end(), more.positions.size(), *body);
-      all.n_global += more.n_global;
-    }
-
     /** Moves the vertices to where the filling falls to half, by no more than
      *  3/4 of a cell. */
     template <int dim>
@@ -437,30 +385,6 @@ namespace Morula
       for (std::size_t i = 0; i < patches.areas.size(); ++i)
         patches.positions[i] += way * patches.normals[i];
     }
-
-    /** This rank's share of what rank 0 has. */
-    template <int dim>
-    SurfacePatches<dim>
-    shares(const SurfacePatches<dim> &all, const MPI_Comm comm)
-    {
-      // Rank 0 sends the whole list to all, and each takes its share. Surfaces
-      // are small beside the tissue.
-      const auto take = [comm](const auto &list, auto &mine) {
-        const auto everything   = Utilities::MPI::broadcast(comm, list, 0);
-        const auto [begin, end] = share(everything.size(), comm);
-        mine.assign(everything.begin() + begin, everything.begin() + end);
-      };
-      SurfacePatches<dim> mine;
-      take(all.positions, mine.positions);
-      take(all.normals, mine.normals);
-      take(all.areas, mine.areas);
-      take(all.bodies, mine.bodies);
-      const std::uint64_t n =
-        Utilities::MPI::sum<std::uint64_t>(mine.areas.size(), comm);
-      mine.first_id = static_cast<types::particle_index>(share(n, comm).first);
-      mine.n_global = static_cast<types::particle_index>(n);
-      return mine;
-    }
   } // namespace
 
   template <int dim>
@@ -472,7 +396,7 @@ namespace Morula
     // Rank 0 has all cells and makes the surface; the shares go to all ranks.
     // Without a number in the scene there is about one patch for the face of a
     // cell.
-    const std::vector<AllCells<dim>> bodies = gather(founders, comm);
+    const std::vector<AllCells<dim>> bodies = cells_of_bodies(founders, comm);
     const bool                       know_bodies =
       Utilities::MPI::logical_or(!founders.bodies.empty(), comm);
     SurfacePatches<dim> all;
@@ -501,7 +425,7 @@ namespace Morula
       if (know_bodies)
         part_bodies(all);
     });
-    return shares(all, comm);
+    return shares_of(all, comm);
   }
 
   template <int dim>

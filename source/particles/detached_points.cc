@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace Morula
 {
@@ -21,14 +22,14 @@ namespace Morula
      *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
-    /** Whether a cell of this rank and body, in the grid cell of @p x or a
-     *  neighbouring one, is at most @p near away. */
+    /** Whether a cell of this rank, and of this body if one is given, in the
+     * grid cell of @p x or a neighbouring one, is at most @p near away. */
     template <int dim>
     bool
-    has_cell_near(const Point<dim>  &x,
-                  const unsigned int body,
-                  const Tissue<dim> &tissue,
-                  const double       near)
+    has_cell_near(const Point<dim>                  &x,
+                  const std::optional<unsigned int> &body,
+                  const Tissue<dim>                 &tissue,
+                  const double                       near)
     {
       // Most boundary points have a cell in their own grid cell. So this is
       // looked at first, and the neighbours only if it holds none.
@@ -44,7 +45,7 @@ namespace Morula
         for (; cell != store.grid_cells().end() && cell->number == number;
              ++cell)
           for (unsigned int p = cell->begin;
-               p < cell->end && cell->body == body;
+               p < cell->end && (!body || cell->body == *body);
                ++p)
             if (x.distance_square(store.position(p)) <= near * near)
               return true;
@@ -163,8 +164,11 @@ namespace Morula
   {
     std::vector<unsigned int> found;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (!has_cell_near(
-            points[p], bodies.empty() ? 0 : bodies[p], tissue, near))
+      if (!has_cell_near(points[p],
+                         bodies.empty() ? std::optional<unsigned int>() :
+                                          bodies[p],
+                         tissue,
+                         near))
         found.push_back(p);
     return found;
   }

@@ -209,8 +209,16 @@ namespace Morula
           for (std::size_t q = 0; q < queries.size(); ++q)
             {
               auto tree = trees.find(bodies[q]);
-              if (tree == trees.end() && everywhere_looked)
-                tree = trees.begin();
+              for (auto other = trees.begin();
+                   everywhere_looked && trees.count(bodies[q]) == 0 &&
+                   other != trees.end();
+                   ++other)
+                if (tree == trees.end() ||
+                    nearest(queries[q], lists.at(other->first), other->second)
+                        .second <
+                      nearest(queries[q], lists.at(tree->first), tree->second)
+                        .second)
+                  tree = other;
               if (tree == trees.end())
                 {
                   farthest = std::numeric_limits<double>::infinity();

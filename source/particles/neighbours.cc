@@ -157,7 +157,8 @@ namespace Morula
         return std::tuple<unsigned int, unsigned int>(rank, p);
       },
       Ties::lowest_id,
-      tissue.grid());
+      tissue.grid(),
+      store.bodies());
     std::map<unsigned int, std::vector<Patch>> patches_of;
     for (unsigned int k = 0; k < store.size(); ++k)
       patches_of[std::get<0>(nearest[k])].push_back(

@@ -98,6 +98,12 @@ namespace Morula
                                        "Give it a surface of its own in " +
                                          scene.tissue.points_surface.path() +
                                          ".");
+        else if (bodies[b].opening > 0.05 * bodies[b].area)
+          scene.contact.between.refuse(
+            "none, as the surface of body " + std::to_string(b) + " is open",
+            "Boundary points have to go all around a body, also where it touches "
+            "another one: give each its own surface, or set " +
+              scene.tissue.points_surface.path() + " = automatic.");
         else if (bodies[b].cells > 0. && bodies[b].thickness() < least)
           scene.contact.between.refuse(
             "none, as body " + std::to_string(b) + " is about " +
@@ -147,6 +153,15 @@ namespace Morula
     tissue.warnings = scene_warnings(
       scene, tissue.founders, tissue.surface, tissue.counts, comm);
     review_applied(scene, tissue.applied, tissue.warnings);
+    if (scene.contact.is_on() &&
+        measures_of_bodies(tissue.founders, tissue.surface, comm).size() < 2)
+      tissue.warnings.push_back(
+        "Warning: " + scene.contact.between.path() +
+        " = bodies does nothing, as "
+        "there is only one body: cells that stand nearer to each other than " +
+        as_text(widest_bond) + " of their lengths belong together (" +
+        scene.contact.bodies.path() +
+        "). Leave a wider gap, or tell bodies apart by the type of their cells.");
     return tissue;
   }
 

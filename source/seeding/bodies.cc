@@ -189,18 +189,31 @@ namespace Morula
     for (const unsigned int body : founders.bodies)
       n = std::max(n, body + 1);
     n = Utilities::MPI::max(n, comm);
-    std::vector<double> sums(3 * n, 0.);
+    // By body: cells, volume, area, and the components of Σ a n.
+    constexpr unsigned int m = 3 + dim;
+    std::vector<double>    sums(m * n, 0.);
     for (std::size_t i = 0; i < founders.bodies.size(); ++i)
       {
-        sums[3 * founders.bodies[i]] += 1.;
-        sums[3 * founders.bodies[i] + 1] += founders.volumes[i];
+        sums[m * founders.bodies[i]] += 1.;
+        sums[m * founders.bodies[i] + 1] += founders.volumes[i];
       }
     for (std::size_t k = 0; k < patches.bodies.size(); ++k)
-      sums[3 * patches.bodies[k] + 2] += patches.areas[k];
+      {
+        double *const sum = &sums[m * patches.bodies[k]];
+        sum[2] += patches.areas[k];
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[3 + d] += patches.areas[k] * patches.normals[k][d];
+      }
     Utilities::MPI::sum(sums, comm, sums);
     std::vector<BodyMeasures> bodies;
     for (unsigned int b = 0; b < n; ++b)
-      bodies.push_back({sums[3 * b], sums[3 * b + 1], sums[3 * b + 2]});
+      {
+        Tensor<1, dim> opening;
+        for (unsigned int d = 0; d < dim; ++d)
+          opening[d] = sums[m * b + 3 + d];
+        bodies.push_back(
+          {sums[m * b], sums[m * b + 1], sums[m * b + 2], opening.norm()});
+      }
     return bodies;
   }
 

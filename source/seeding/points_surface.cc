@@ -403,16 +403,22 @@ namespace Morula
     on_root(comm, [&]() {
       std::vector<ClosedSurface<dim>> surfaces;
       double                          area = 0.;
+      // A type of cells may have no founder.
       for (const AllCells<dim> &cells : bodies)
         {
-          surfaces.push_back(
-            parameters.has_surface_file() ?
-              read_surface(parameters.points_surface, cells.positions) :
-              checked_surface(parameters, cells));
+          surfaces.emplace_back();
+          if (cells.positions.empty() && know_bodies)
+            continue;
+          surfaces.back() =
+            (parameters.has_surface_file() ?
+               read_surface(parameters.points_surface, cells.positions) :
+               checked_surface(parameters, cells));
           area += total_area(surfaces.back());
         }
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
+          if (surfaces[b].facets.empty())
+            continue;
           const double of_body = total_area(surfaces[b]);
           append_patches(
             tiled(surfaces[b],

@@ -27,42 +27,24 @@ namespace Morula
     /** Forces below this count as none, in units of E h^(dim-1). */
     constexpr double no_force = 1e-9;
 
-    /** How deep two bodies may overlap that did not at t, in units of h. */
-    constexpr double deepest_crossing = 0.2;
+    /** How deep points may be in another body that were no candidates for its
+     *  contact, in units of h: rounding. */
+    constexpr double no_depth = 1e-3;
   } // namespace
 
 
   template <int dim>
-  ContactTurn<dim>::ContactTurn(const Tissue<dim>        &tissue,
-                                const SplineSpace<dim>   &space,
-                                const ContactPoints<dim> &points,
-                                const ContactLaw         &law,
-                                ContactPairs<dim>        &pairs,
-                                Drag<dim>                &drag,
-                                MomentumBalance<dim>     &balance,
-                                TimerOutput              &timer,
-                                const MPI_Comm            comm)
-    : tissue(tissue)
-    , space(space)
-    , points(points)
-    , law(law)
-    , pairs(pairs)
-    , drag(drag)
-    , balance(balance)
-    , timer(timer)
-    , comm(comm)
-  {}
-
-
-  template <int dim>
   bool
-  ContactTurn<dim>::has_crossed_from_afar(
-    const DisplacementField<dim> &displacement) const
+  has_crossed_from_afar(const Tissue<dim>            &tissue,
+                        const ContactPoints<dim>     &points,
+                        const DisplacementField<dim> &displacement,
+                        const double                  h)
   {
     // Two points that could not meet within the reach of the candidates can if
     // both move further. Each boundary point tells where the step brings it. A
     // point that faces another one of another body, near along the surface, has
-    // crossed it if it is behind it now but was before it at t.
+    // crossed it if it is behind it now but was before it at t. Candidates at t
+    // are left out, as the energy and its limits are for them.
     const BoundaryPoints<dim>  &store = tissue.boundary_points();
     std::vector<Tensor<1, dim>> ways(store.size());
     double                      longest = 0.;
@@ -73,9 +55,11 @@ namespace Morula
                              ways[p] = field.value(splines);
                              longest = std::max(longest, ways[p].norm());
                            });
-    longest = Utilities::MPI::max(longest, comm);
-    if (2. * longest <= law.h)
+    longest = Utilities::MPI::max(longest, tissue.communicator());
+    if (2. * longest <= h)
       return false;
+    const double known =
+      h + ContactPoints<dim>::kernel * points.largest_spacing();
     const double reach =
       2. * longest + ContactPoints<dim>::kernel * points.largest_spacing();
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
@@ -88,7 +72,7 @@ namespace Morula
                   store,
                   {2 * dim + 1, numbers, Ties::lowest_id},
                   tissue.grid(),
-                  static_cast<int>(std::ceil(reach / law.h)));
+                  static_cast<int>(std::ceil(reach / h)));
     const auto tree    = pack_rtree_of_indices(near.positions);
     bool       crossed = false;
     for (unsigned int p = 0; p < store.size() && !crossed; ++p)
@@ -114,19 +98,41 @@ namespace Morula
             const auto           area   = Flat<Tensor<1, dim>>::read(row);
             const auto           way    = Flat<Tensor<1, dim>>::read(row + dim);
             const Tensor<1, dim> across = 0.5 * (area / area.norm() - n);
-            if (n * area > -0.3 * area.norm())
-              continue;
             const Tensor<1, dim> before = x - near.positions[i];
+            if (n * area > -0.3 * area.norm() || before.norm() < known)
+              continue;
             const Tensor<1, dim> after  = before + ways[p] - way;
             const Tensor<1, dim> normal = across / across.norm();
             const double         s = (after - (normal * after) * normal).norm();
-            crossed                = crossed || (across * before > 0. &&
-                                  across * after < -deepest_crossing * law.h &&
-                                  s < points.largest_spacing());
+            crossed                = crossed ||
+                      (across * before > 0. && across * after < -no_depth * h &&
+                       s < points.largest_spacing());
           }
       }
-    return Utilities::MPI::logical_or(crossed, comm);
+    return Utilities::MPI::logical_or(crossed, tissue.communicator());
   }
+
+
+  template <int dim>
+  ContactTurn<dim>::ContactTurn(const Tissue<dim>        &tissue,
+                                const SplineSpace<dim>   &space,
+                                const ContactPoints<dim> &points,
+                                const ContactLaw         &law,
+                                ContactPairs<dim>        &pairs,
+                                Drag<dim>                &drag,
+                                MomentumBalance<dim>     &balance,
+                                TimerOutput              &timer,
+                                const MPI_Comm            comm)
+    : tissue(tissue)
+    , space(space)
+    , points(points)
+    , law(law)
+    , pairs(pairs)
+    , drag(drag)
+    , balance(balance)
+    , timer(timer)
+    , comm(comm)
+  {}
 
 
   template <int dim>
@@ -155,7 +161,7 @@ namespace Morula
       text << "bodies in contact slide by " << slid
            << " um along each other, more than a grid spacing: the step is too "
               "long for their contact";
-    else if (has_crossed_from_afar(displacement))
+    else if (has_crossed_from_afar(tissue, points, displacement, law.h))
       text << "bodies pass through each other, so that the step is too long "
               "for their contact";
     if (!text.str().empty())

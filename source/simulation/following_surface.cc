@@ -343,8 +343,7 @@ namespace Morula
   FollowingSurface<dim>::fuse_bodies(Tissue<dim> &tissue, const double dt)
   {
     // A body that several go into gets its new surface once, around all its
-    // cells. Where these have no common surface, as some have been lost, the
-    // old patches stay.
+    // cells.
     const TimerOutput::Scope section(timer, "fusion");
     age_contact(tissue, dt);
     const Fusions fusions =
@@ -355,12 +354,14 @@ namespace Morula
     std::set<unsigned int> fused;
     for (const auto &[body, into] : fusions)
       fused.insert(into);
-    renew_bodies(tissue,
-                 tissue.boundary_points().copy(),
-                 SurfaceWish(),
-                 [&](const unsigned int body) {
-                   return fused.count(body) > 0;
-                 });
+    if (!renew_bodies(tissue,
+                      tissue.boundary_points().copy(),
+                      SurfaceWish(),
+                      [&](const unsigned int body) {
+                        return fused.count(body) > 0;
+                      }))
+      throw SurfaceTorn("bodies that are to fuse have no surface in common, as "
+                        "some of their cells are lost");
     refine(tissue, [](const Point<dim> &) { return false; });
   }
 

@@ -66,7 +66,10 @@ namespace Morula
     ++run_state.n_steps;
     fields.begin_step();
 
+    // Contact changes the places of unknowns, so that it comes before all that
+    // keeps them.
     SplineSpace<dim>                      space     = splines();
+    const auto                            contact   = points_in_contact(space);
     const std::optional<SplineSpace<dim>> apart     = splines_of_fields(space);
     const SplineSpace<dim>               &of_fields = apart ? *apart : space;
     pieces.look(space, tissue.grid(), time_steps.time());
@@ -80,7 +83,6 @@ namespace Morula
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();
-    const auto contact  = points_in_contact(space);
     const auto solution = solve_step(space, contact ? &*contact : nullptr);
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.

@@ -186,6 +186,12 @@ namespace Morula
         throw StepFailed(failure.what() +
                          (". " + balance.describe(solution.u)));
       }
+    if (contact != nullptr && !contact->any() &&
+        has_crossed_from_afar(
+          tissue, *contact, DisplacementField<dim>(space, solution.u, comm), h))
+      throw StepFailed(
+        "bodies pass through each other, so that the step is too "
+        "long for their contact");
     // The forces below and the next step see the pressure at the equilibrium
     // that was found last.
     if (pressure)

@@ -44,6 +44,8 @@ namespace Morula
     double volume = 0.;
     /** Of its patches, µm^(dim-1). */
     double area = 0.;
+    /** |Σ a n| of its patches: 0 if its surface is closed, µm^(dim-1). */
+    double opening = 0.;
 
     /** The thickness of a sheet with this volume and area, µm. */
     double

@@ -17,6 +17,18 @@
 namespace Morula
 {
   /**
+   * Whether boundary points that were too far apart at t to be candidates have
+   * passed through another body, or into one. Collective.
+   * @param h grid spacing, µm
+   */
+  template <int dim>
+  bool
+  has_crossed_from_afar(const Tissue<dim>            &tissue,
+                        const ContactPoints<dim>     &points,
+                        const DisplacementField<dim> &displacement,
+                        const double                  h);
+
+  /**
    * The contact of a step: its pairs hold positions, normals and areas fixed in
    * a turn, and take them anew after it. Keeps references to all that it is
    * given.
@@ -50,11 +62,6 @@ namespace Morula
     forces(const Equilibrium::Vector &u) const;
 
   private:
-    /** Whether points that were too far apart at t to be candidates have passed
-     *  through another body. Collective. */
-    bool
-    has_crossed_from_afar(const DisplacementField<dim> &displacement) const;
-
     const Tissue<dim>        &tissue;
     const SplineSpace<dim>   &space;
     const ContactPoints<dim> &points;

@@ -92,6 +92,33 @@ namespace Morula
         }
     }
 
+    /** Adds the boundary points of bodies that have no cell left to a sorted
+     *  list of points of this rank. Collective. */
+    template <int dim>
+    void
+    add_points_of_dead_bodies(const Tissue<dim>         &tissue,
+                              std::vector<unsigned int> &list)
+    {
+      const BoundaryPoints<dim> &points = tissue.boundary_points();
+      if (!points.has_bodies())
+        return;
+      unsigned int n = 0;
+      for (const auto &grid_cell : points.grid_cells())
+        n = std::max(n, grid_cell.body + 1);
+      for (const auto &grid_cell : tissue.cells().grid_cells())
+        n = std::max(n, grid_cell.body + 1);
+      n = Utilities::MPI::max(n, tissue.communicator());
+      std::vector<double> cells(n, 0.);
+      for (const auto &grid_cell : tissue.cells().grid_cells())
+        cells[grid_cell.body] += grid_cell.end - grid_cell.begin;
+      Utilities::MPI::sum(cells, tissue.communicator(), cells);
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (cells[points.body(p)] == 0.)
+          list.push_back(p);
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+
     /** Boundary points of this rank that the removal of these cells leaves
      *  without a cell within reach. Points that had none before are let be:
      *  they are held where they are. Takes the cells out. */
@@ -113,7 +140,8 @@ namespace Morula
           std::iota(left.begin(), left.end(), 0u);
           return left;
         }
-      const std::vector<unsigned int> after = detached_points(tissue);
+      std::vector<unsigned int> after = detached_points(tissue);
+      add_points_of_dead_bodies(tissue, after);
       std::set_difference(after.begin(),
                           after.end(),
                           before.begin(),

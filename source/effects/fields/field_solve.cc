@@ -190,12 +190,16 @@ namespace Morula
     });
     equation.surface_places = grouped_places(points, space, at_surface);
 
-    std::vector<Point<dim>> places;
+    std::vector<Point<dim>>   places;
+    std::vector<unsigned int> bodies; // where fields end at each body's surface
     for (const unsigned int p : at_surface.points)
-      places.push_back(points.position(p));
-    const std::vector<double> attached = attachment(places, tissue);
-    // The nearest cell tells D.
-    std::vector<double> of_cells, diffusion;
+      {
+        places.push_back(points.position(p));
+        if (space.is_parted())
+          bodies.push_back(points.body(p));
+      }
+    const std::vector<double> attached = attachment(places, tissue, bodies);
+    std::vector<double>       of_cells, diffusion; // of the nearest cell
     if (!field.uniform_diffusion())
       {
         everywhere(tissue.communicator(), [&]() {
@@ -207,7 +211,8 @@ namespace Morula
           tissue.cells(),
           [&](const unsigned int p) { return of_cells[p]; },
           Ties::mean,
-          tissue.grid());
+          tissue.grid(),
+          bodies);
       }
     everywhere(tissue.communicator(), [&]() {
       for (std::size_t k = 0; k < at_surface.points.size(); ++k)

@@ -256,6 +256,8 @@ namespace Morula
       grouped_places(store, space, groups);
     for (const unsigned int p : groups.points)
       {
+        if (store.has_bodies())
+          loaded.bodies.push_back(store.body(p));
         const BoundaryView<dim> point = store[p];
         loaded.points.push_back({point.seed_position(),
                                  point.initial_position(),

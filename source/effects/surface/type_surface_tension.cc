@@ -115,7 +115,8 @@ namespace Morula
           cells,
           [&](const unsigned int p) { return tensions[cells.get(type, p)]; },
           Ties::mean,
-          points.tissue->grid());
+          points.tissue->grid(),
+          points.bodies);
       }
     std::vector<typename AreaTerm<dim>::Load> loads;
     for (std::size_t k = 0; k < of_points.size(); ++k)

@@ -40,6 +40,8 @@ namespace Morula
 
     /** The points in the order of xi. */
     std::vector<Point> points;
+    /** Their bodies; empty without contact. */
+    std::vector<unsigned int> bodies;
     /** The tissue whose points they are. */
     const Tissue<dim> *tissue = nullptr;
     /** Time of the configuration, day. */

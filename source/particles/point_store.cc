@@ -292,6 +292,27 @@ namespace Morula
   }
 
   template <int dim>
+  std::vector<Point<dim>>
+  PointStore<dim>::positions_of(const std::vector<unsigned int> &points) const
+  {
+    std::vector<Point<dim>> list;
+    for (const unsigned int p : points)
+      list.push_back(position(p));
+    return list;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  PointStore<dim>::bodies_of(const std::vector<unsigned int> &points) const
+  {
+    std::vector<unsigned int> list;
+    if (has_bodies())
+      for (const unsigned int p : points)
+        list.push_back(body(p));
+    return list;
+  }
+
+  template <int dim>
   std::pair<GridIndex<dim>, GridIndex<dim>>
   extent(const std::vector<const std::vector<Point<dim>> *> &positions,
          const BackgroundGrid<dim>                          &grid)

@@ -43,28 +43,6 @@ namespace Morula
      *  move held points by less than a millionth of a grid spacing. */
     constexpr double least_traction = 1e-4;
 
-    template <int dim>
-    std::vector<Point<dim>>
-    held_places(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
-    {
-      std::vector<Point<dim>> list;
-      for (const unsigned int p : held_groups(tissue, space).points)
-        list.push_back(tissue.boundary_points().position(p));
-      return list;
-    }
-
-    /** Their bodies, if the points know them. */
-    template <int dim>
-    std::vector<unsigned int>
-    held_bodies(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
-    {
-      std::vector<unsigned int> list;
-      if (tissue.boundary_points().has_bodies())
-        for (const unsigned int p : held_groups(tissue, space).points)
-          list.push_back(tissue.boundary_points().body(p));
-      return list;
-    }
-
     /** λ and μ of cell number @p p. */
     template <int dim>
     Lame
@@ -104,18 +82,19 @@ namespace Morula
     , growth(growth)
     , typical_stiffness(typical_stiffness)
     , in_parts(in_parts)
-    , surroundings(held_places(tissue, space),
+    , points(held_groups(tissue, space).points)
+    , surroundings(tissue.boundary_points().positions_of(points),
                    tissue,
-                   held_bodies(tissue, space))
+                   tissue.boundary_points().bodies_of(points))
   {
     // All lists here have the order of held_groups(): this rank's held points
     // by active grid cell. Normals and areas are those at t, as the terms
     // integrate over that configuration. Points away from the cells lose their
     // traction (4.13).
-    const std::vector<unsigned int> points = held_groups(tissue, space).points;
-    const std::vector<double> attached = attachment(held_places(tissue, space),
-                                                    tissue,
-                                                    held_bodies(tissue, space));
+    const std::vector<double> attached =
+      attachment(tissue.boundary_points().positions_of(points),
+                 tissue,
+                 tissue.boundary_points().bodies_of(points));
     for (std::size_t k = 0; k < points.size(); ++k)
       {
         const BoundaryView<dim> point = tissue.boundary_points()[points[k]];

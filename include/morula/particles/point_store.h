@@ -145,6 +145,14 @@ namespace Morula
     std::vector<Point<dim>>
     positions() const;
 
+    /** Positions (µm) of some of this rank's points. */
+    std::vector<Point<dim>>
+    positions_of(const std::vector<unsigned int> &points) const;
+
+    /** Their bodies; empty in a scene without contact. */
+    std::vector<unsigned int>
+    bodies_of(const std::vector<unsigned int> &points) const;
+
     /** The value in a column. */
     template <typename T>
     T

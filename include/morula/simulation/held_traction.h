@@ -85,6 +85,7 @@ namespace Morula
     const DevelopmentOfStep<dim> &growth;
     const double                  typical_stiffness;
     const bool                    in_parts;
+    const std::vector<unsigned int> points; // held ones, as held_groups()
     std::vector<Held>             held;
     const Surroundings<dim>       surroundings;
     std::vector<Tensor<1, dim>>   T;

@@ -190,14 +190,10 @@ namespace Morula
     });
     equation.surface_places = grouped_places(points, space, at_surface);
 
-    std::vector<Point<dim>>   places;
+    const std::vector<Point<dim>> places = points.positions_of(at_surface.points);
     std::vector<unsigned int> bodies; // where fields end at each body's surface
-    for (const unsigned int p : at_surface.points)
-      {
-        places.push_back(points.position(p));
-        if (space.is_parted())
-          bodies.push_back(points.body(p));
-      }
+    if (space.is_parted())
+      bodies = points.bodies_of(at_surface.points);
     const std::vector<double> attached = attachment(places, tissue, bodies);
     std::vector<double>       of_cells, diffusion; // of the nearest cell
     if (!field.uniform_diffusion())

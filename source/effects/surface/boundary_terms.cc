@@ -86,15 +86,10 @@ namespace Morula
       const BoundaryPoints<dim> &store = tissue.boundary_points();
       HeldPoints<dim>            held;
       held.groups = held_groups(tissue, space);
-      std::vector<Point<dim>>   places;
-      std::vector<unsigned int> bodies;
-      for (const unsigned int p : held.groups.points)
-        {
-          places.push_back(store.position(p));
-          if (store.has_bodies())
-            bodies.push_back(store.body(p));
-        }
-      const std::vector<double> attached = attachment(places, tissue, bodies);
+      const std::vector<Point<dim>> places =
+        store.positions_of(held.groups.points);
+      const std::vector<double> attached =
+        attachment(places, tissue, store.bodies_of(held.groups.points));
       if (growth.present || !growth.lame.empty())
         held.carriers = states_of_carriers(held.groups.points, tissue, growth);
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -254,10 +249,9 @@ namespace Morula
     // the same order.
     static_cast<GroupedPoints<dim> &>(loaded) =
       grouped_places(store, space, groups);
+    loaded.bodies = store.bodies_of(groups.points);
     for (const unsigned int p : groups.points)
       {
-        if (store.has_bodies())
-          loaded.bodies.push_back(store.body(p));
         const BoundaryView<dim> point = store[p];
         loaded.points.push_back({point.seed_position(),
                                  point.initial_position(),

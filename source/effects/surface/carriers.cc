@@ -66,34 +66,30 @@ namespace Morula
       return;
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     std::vector<unsigned int>  held;
-    std::vector<Point<dim>>    places;
     for (unsigned int p = 0; p < store.size(); ++p)
       if (is_held(store.condition(p)))
-        {
-          held.push_back(p);
-          places.push_back(store.position(p));
-        }
+        held.push_back(p);
     const auto id = [&](const unsigned int p) -> double {
       return tissue.cells().id(p);
     };
     const auto present = values_by_id(
-      carriers(held, tissue), places, tissue.cells(), id, tissue.grid());
-    std::vector<unsigned int> lost, bodies;
-    std::vector<Point<dim>>   queries;
+      carriers(held, tissue),
+      store.positions_of(held),
+      tissue.cells(),
+      id,
+      tissue.grid());
+    std::vector<unsigned int> lost;
     for (std::size_t k = 0; k < held.size(); ++k)
       if (!present[k])
-        {
-          lost.push_back(held[k]);
-          queries.push_back(places[k]);
-          if (store.has_bodies())
-            bodies.push_back(store.body(held[k]));
-        }
+        lost.push_back(held[k]);
     const MPI_Comm comm = tissue.communicator();
     if (!Utilities::MPI::logical_or(!lost.empty(), comm) ||
         Utilities::MPI::sum(1. * tissue.cells().size(), comm) == 0.)
       return;
     // Among several nearest cells the mean of the ids is larger than the lowest
     // of them.
+    const std::vector<Point<dim>>   queries = store.positions_of(lost);
+    const std::vector<unsigned int> bodies  = store.bodies_of(lost);
     const auto lowest = nearest_values(
       queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), bodies);
     const auto mean = nearest_values(

@@ -79,23 +79,21 @@ namespace Morula
                  const Tissue<dim>               &tissue,
                  const Value                     &value)
   {
-    std::vector<Point<dim>> places;
-    for (const unsigned int p : points)
-      places.push_back(tissue.boundary_points().position(p));
+    const BoundaryPoints<dim>    &store  = tissue.boundary_points();
+    const std::vector<Point<dim>> places = store.positions_of(points);
     auto found = values_by_id(
       carriers(points, tissue), places, tissue.cells(), value, tissue.grid());
 
-    std::vector<Point<dim>>   others;
-    std::vector<unsigned int> bodies;
+    std::vector<unsigned int> others;
     for (std::size_t k = 0; k < places.size(); ++k)
       if (!found[k])
-        {
-          others.push_back(places[k]);
-          if (tissue.boundary_points().has_bodies())
-            bodies.push_back(tissue.boundary_points().body(points[k]));
-        }
-    const auto nearest = nearest_values(
-      others, tissue.cells(), value, Ties::mean, tissue.grid(), bodies);
+        others.push_back(points[k]);
+    const auto nearest = nearest_values(store.positions_of(others),
+                                        tissue.cells(),
+                                        value,
+                                        Ties::mean,
+                                        tissue.grid(),
+                                        store.bodies_of(others));
     std::vector<std::invoke_result_t<Value, unsigned int>> values;
     for (std::size_t k = 0, n = 0; k < places.size(); ++k)
       values.push_back(found[k] ? *found[k] : nearest[n++]);

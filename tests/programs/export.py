@@ -270,9 +270,9 @@ class Export(ProgramTest):
     def test_a_lattice_is_exact(self):
         """Cubes of 12 µm in voxels of 3 µm."""
         run = self.run_of("cube")
-        said = self.export(run, "cube.npy", "--time", "0", "--voxel", "3")
+        said = self.export(run, "cube.NPY", "--time", "0", "--voxel", "3")
         self.assertIn("corner at -33, -33, -3 um", said)
-        image = np.load(self.work / "cube.npy")
+        image = np.load(self.work / "cube.NPY")
         self.assertEqual(image.shape, (22, 22, 22))
         np.testing.assert_array_equal(np.bincount(image.ravel())[1:],
                                       np.full(125, 64))
@@ -313,6 +313,7 @@ class Export(ProgramTest):
                 (["a.tif", "--voxel", "1,2"], "three edges, for a run in 3-D"),
                 (["a.tif", "--voxel", "0.01"], "take larger voxels"),
                 (["a.h5ad", "--voxel", "1"], "nothing without an image"),
+                (["a.geff", "--all"], "nothing for tracks alone"),
                 (["a.h5ad", "--time", "0.3"], "a day of a state that was written"),
                 (["folder.geff", "--again"], "Something else is there")):
             with self.subTest(words):

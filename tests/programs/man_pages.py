@@ -82,6 +82,9 @@ class ManPages(ProgramTest):
         self.assertEqual(self.complete(morula, "--re"), ["--replace", "--resume"])
         self.assertEqual(self.complete(morula, "bud.prm", "-s", "Time/S"),
                          ["Time/Smallest step=", "Time/Step=", "Time/Stop at cells="])
+        for typed in ("Time/End\\ t", '"Time/End t', "'Time/End t"):
+            self.assertEqual(self.complete(morula, "bud.prm", "-s", typed),
+                             ["Time/End time="])
         render = ROOT / "contrib/render"
         self.assertEqual(self.complete(render, "--mo"), ["--movie"])
         self.assertEqual(self.complete(render, "bu"), ["bud.prm", "budding.csv", "buds"])

@@ -14,16 +14,18 @@ def write(run, numbers, file, voxel):
     z; um), all in one box; yields (file, words about it)."""
     boxes, largest = [], 0
     for number in numbers:
-        boxes.append(box_of(regions_of_state(run, number).bodies, run.dimension))
+        bodies = regions_of_state(run, number).bodies
+        boxes.append(box_of(bodies, run.dimension))
         largest = max(largest, int(run.cells(number)["id"].max()) + 1)
     raster = raster_around(boxes, voxel[:run.dimension], largest)
     for number in numbers:
         cells = run.cells(number)
-        image = filled(raster, regions_of_state(run, number).bodies,
-                       cells["id"].to_numpy() + 1)
+        if len(numbers) > 1:  # regions of all states would not fit into memory
+            bodies = regions_of_state(run, number).bodies
+        image = filled(raster, bodies, cells["id"].to_numpy() + 1)
         target = file if len(numbers) == 1 else file.with_name(
             f"{file.stem}-{number:04}{file.suffix}")
-        (_write_npy if file.suffix == ".npy" else _write_tiff)(
+        (_write_npy if file.suffix.lower() == ".npy" else _write_tiff)(
             target, image, raster)
         lost = len(cells) - len(np.unique(image[image > 0]))
         yield target, (
@@ -34,8 +36,9 @@ def write(run, numbers, file, voxel):
 
 
 def _write_npy(file, image, _):
-    with replaced(file) as aside:
-        np.save(aside, image)
+    # of a name, NumPy would take another one unless it ends in .npy
+    with replaced(file) as aside, aside.open("wb") as stream:
+        np.save(stream, image)
 
 
 def _write_tiff(file, image, raster):

@@ -59,8 +59,15 @@ def voxel_of(text):
     return edges
 
 
+def kind_of(file):
+    """Of a file by its ending: ".geff", ".h5ad", or "image"."""
+    ending = file.suffix.lower()
+    return ending if ending in (".geff", ".h5ad") else "image"
+
+
 def check(options):
     """Before anything is read; returns the edges of voxels, or None."""
+    kinds = {kind_of(file) for file in options.file}
     for file in options.file:
         if file.suffix.lower() not in ENDINGS:
             raise Refused("The file", file, "a name that ends in one of "
@@ -68,13 +75,15 @@ def check(options):
         if not file.parent.is_dir():
             raise Refused("The file", file, "a file in a directory that exists")
         if (file.exists() and not options.again) or (
-                file.is_dir() and file.suffix != ".geff"):
+                file.is_dir() and kind_of(file) != ".geff"):
             raise Refused("The file", file, "a name that is free",
                           "Choose another one, or replace that one with --again.")
-    images = any(file.suffix not in (".geff", ".h5ad") for file in options.file)
-    if options.voxel and not images:
+    if options.voxel and "image" not in kinds:
         raise Refused("--voxel", options.voxel, "nothing without an image")
-    return voxel_of(options.voxel) if images else None
+    if kinds == {".geff"} and (options.all or options.time is not None):
+        raise Refused("--time, --all", "", "nothing for tracks alone",
+                      "They have all states.")
+    return voxel_of(options.voxel) if "image" in kinds else None
 
 
 def export(options):
@@ -84,13 +93,13 @@ def export(options):
     if voxel is not None and len(voxel) < run.dimension:
         raise Refused("--voxel", options.voxel, "three edges, for a run in 3-D")
     for file in options.file:
-        if file.suffix == ".geff":
+        if kind_of(file) == ".geff":
             from . import geff, tracks
             found = tracks.tracks_of(run)
             geff.write(found, file)
             print(f"export: {file}: {len(run.lineage)} cells, {len(found)} nodes, "
                   f"{len(found.edges)} edges")
-        elif file.suffix == ".h5ad":
+        elif kind_of(file) == ".h5ad":
             from . import h5ad
             rows, columns = h5ad.write(run, chosen_states(run, options), file)
             print(f"export: {file}: {rows} rows, {columns} columns")

@@ -14,7 +14,7 @@ import numpy as np
 from morula.columns import LENGTH, unit_of
 from morula.lineage import Lineage
 from morula.refusal import Refused
-from morula.run import same_time
+from morula.run import TIME_SLACK
 
 # Columns of the cells that nodes have in another form, or once for all.
 OTHERWISE = ("time", "id", "parent", "x", "y", "z", "death_time")
@@ -89,8 +89,8 @@ def _merged(nodes, lineage):
     """Nodes in their order, and what a birth has of a state of just its time,
     as -1 or the number of that node: one node is enough for both."""
     born = lineage.birth_time[nodes["cell"]]
-    slack = np.array([same_time(a, b) for a, b in zip(nodes["t"], born)])
-    double = slack & (nodes["state"] >= 0)
+    slack = TIME_SLACK * np.maximum(1, np.maximum(nodes["t"], born))
+    double = (np.abs(nodes["t"] - born) <= slack) & (nodes["state"] >= 0)
     seen = np.full(len(lineage), -1)
     seen[nodes["cell"][double]] = np.flatnonzero(double)
     state, row = nodes["state"].copy(), nodes["row"].copy()

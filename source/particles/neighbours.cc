@@ -19,8 +19,8 @@ namespace Morula
 {
   namespace
   {
-    /** Cells farther away than this, in spacings, change no facet of a cell that
-     *  counts (doc/theory.md, section 12.1). */
+    /** Cells farther away than this, in spacings, change no facet of a cell
+     * that counts (doc/theory.md, section 12.1). */
     constexpr double ring = 3.;
     /** The least facet of neighbours, as a part of a cell's mean surface. */
     constexpr double least_part = 0.01;
@@ -90,21 +90,22 @@ namespace Morula
     // the neighbours of each are sorted by their ids, which are the same on all
     // ranks.
     NeighbourGraph<dim> graph;
-    graph.spacing = std::pow(mean_cell_volume(tissue), 1. / dim);
-    graph.n_own   = cells.size();
-    graph.points  = cells;
+    graph.spacing      = std::pow(mean_cell_volume(tissue), 1. / dim);
+    graph.n_own        = cells.size();
+    graph.points       = cells;
     const double a     = graph.spacing;
     const double reach = search.reach * a;
     graph.points.append(
       halo(cells, tissue.grid(), search.by_facets ? ring * a : reach));
-    const double face = std::pow(a, dim - 1);
+    const double                    face = std::pow(a, dim - 1);
     const std::vector<VoronoiFacet> pairs =
-      search.by_facets ?
-        voronoi_facets(graph.points.positions,
-                       graph.points.ids,
-                       reach,
-                       0.5 * ring * a) :
-        pairs_within(graph.points.positions, reach, face * (dim == 2 ? 2. / 3. : 0.5));
+      search.by_facets ? voronoi_facets(graph.points.positions,
+                                        graph.points.ids,
+                                        reach,
+                                        0.5 * ring * a) :
+                         pairs_within(graph.points.positions,
+                                      reach,
+                                      face * (dim == 2 ? 2. / 3. : 0.5));
 
     std::vector<std::vector<typename NeighbourGraph<dim>::Edge>> of_cells(
       graph.n_own);
@@ -151,14 +152,14 @@ namespace Morula
     std::vector<double>        areas(tissue.cells().size(), 0.);
     if (Utilities::MPI::sum(areas.size(), tissue.communicator()) == 0)
       return areas; // all cells are dead
-    const auto nearest =
-      nearest_values(store.positions(),
-                     tissue.cells(),
-                     [&](const unsigned int p) {
-                       return std::tuple<unsigned int, unsigned int>(rank, p);
-                     },
-                     Ties::lowest_id,
-                     tissue.grid());
+    const auto nearest = nearest_values(
+      store.positions(),
+      tissue.cells(),
+      [&](const unsigned int p) {
+        return std::tuple<unsigned int, unsigned int>(rank, p);
+      },
+      Ties::lowest_id,
+      tissue.grid());
     std::map<unsigned int, std::vector<Patch>> patches_of;
     for (unsigned int k = 0; k < store.size(); ++k)
       patches_of[std::get<0>(nearest[k])].push_back(
@@ -176,11 +177,11 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                   \
-  template double              mean_cell_volume(const Tissue<dim> &);      \
-  template NeighbourGraph<dim> neighbours(const Tissue<dim> &,             \
-                                          const PointList<dim> &,          \
-                                          const NeighbourSearch &);        \
+#define INSTANTIATE(dim)                                              \
+  template double              mean_cell_volume(const Tissue<dim> &); \
+  template NeighbourGraph<dim> neighbours(const Tissue<dim> &,        \
+                                          const PointList<dim> &,     \
+                                          const NeighbourSearch &);   \
   template std::vector<double> free_surfaces(const Tissue<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

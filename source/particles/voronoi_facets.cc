@@ -134,11 +134,12 @@ namespace Morula
     /** The parts of a triangle: of each edge the signed distance from its
      *  middle to the circumcentre. */
     void
-    add_parts(const Diagram<2> &diagram, const std::array<unsigned int, 3> &corners)
+    add_parts(const Diagram<2>                  &diagram,
+              const std::array<unsigned int, 3> &corners)
     {
-      const auto        &x = diagram.points;
-      const Tensor<1, 2> u = x[corners[1]] - x[corners[0]];
-      const Tensor<1, 2> v = x[corners[2]] - x[corners[0]];
+      const auto        &x     = diagram.points;
+      const Tensor<1, 2> u     = x[corners[1]] - x[corners[0]];
+      const Tensor<1, 2> v     = x[corners[2]] - x[corners[0]];
       const double       twice = 2. * (u[0] * v[1] - u[1] * v[0]);
       Tensor<1, 2>       c;
       c[0] = (v[1] * u.norm_square() - u[1] * v.norm_square()) / twice;
@@ -153,8 +154,8 @@ namespace Morula
             continue;
           const Tensor<1, 2> middle = 0.5 * (y[i] + y[j]);
           const Tensor<1, 2> inward = cross_product_2d(edge) / length;
-          const double sign = inward * (y[k] - middle) > 0. ? 1. : -1.;
-          const double rho  = diagram.rho(length);
+          const double       sign   = inward * (y[k] - middle) > 0. ? 1. : -1.;
+          const double       rho    = diagram.rho(length);
           add_part(diagram.parts,
                    corners[i],
                    corners[j],
@@ -198,7 +199,8 @@ namespace Morula
     /** The parts of a tetrahedron, two for each edge: one for each face there.
      */
     void
-    add_parts(const Diagram<3> &diagram, const std::array<unsigned int, 4> &corners)
+    add_parts(const Diagram<3>                  &diagram,
+              const std::array<unsigned int, 4> &corners)
     {
       std::array<Tensor<1, 3>, 4> y;
       for (unsigned int i = 1; i < 4; ++i)
@@ -214,7 +216,7 @@ namespace Morula
         {
           const unsigned int i = k == 0 ? 1 : 0, j = k <= 1 ? 2 : 1,
                              l = k == 3 ? 2 : 3;
-          of_face[k] = y[i] + circumcenter(y[j] - y[i], y[l] - y[i]);
+          of_face[k]           = y[i] + circumcenter(y[j] - y[i], y[l] - y[i]);
         }
       for (unsigned int i = 0; i < 4; ++i)
         for (unsigned int j = i + 1; j < 4; ++j)
@@ -223,8 +225,8 @@ namespace Morula
             const double       length = edge.norm();
             if (length > diagram.reach)
               continue;
-            const unsigned int k = i == 0 ? (j == 1 ? 2 : 1) : 0;
-            const unsigned int l = 6 - i - j - k;
+            const unsigned int k    = i == 0 ? (j == 1 ? 2 : 1) : 0;
+            const unsigned int l    = 6 - i - j - k;
             const Tensor<1, 3> axis = edge / length;
             const Tensor<1, 3> m    = 0.5 * (y[i] + y[j]);
             const double       rho  = diagram.rho(length);
@@ -236,15 +238,12 @@ namespace Morula
                  {std::make_pair(l, turns), std::make_pair(k, -turns)})
               {
                 const Tensor<1, 3> way = c - of_face[without];
-                add_part(diagram.parts,
-                         corners[i],
-                         corners[j],
-                         part_of_face(of_face[without] - m,
-                                      axis,
-                                      turn,
-                                      way,
-                                      way.norm(),
-                                      rho));
+                add_part(
+                  diagram.parts,
+                  corners[i],
+                  corners[j],
+                  part_of_face(
+                    of_face[without] - m, axis, turn, way, way.norm(), rho));
               }
           }
     }
@@ -256,8 +255,9 @@ namespace Morula
                     const std::array<unsigned int, 3> &face,
                     const unsigned int                 inner)
     {
-      const auto        &x = diagram.points;
-      const Tensor<1, 3> u = x[face[1]] - x[face[0]], v = x[face[2]] - x[face[0]];
+      const auto        &x                = diagram.points;
+      const Tensor<1, 3> u                = x[face[1]] - x[face[0]],
+                         v                = x[face[2]] - x[face[0]];
       const std::array<Tensor<1, 3>, 3> y = {{Tensor<1, 3>(), u, v}};
       Tensor<1, 3>                      n = cross_product_3d(u, v);
       if (n * (x[inner] - x[face[0]]) > 0.)
@@ -276,12 +276,8 @@ namespace Morula
           add_part(diagram.parts,
                    face[i],
                    face[j],
-                   part_of_face(center - m,
-                                axis,
-                                turn,
-                                n,
-                                infinite,
-                                diagram.rho(length)));
+                   part_of_face(
+                     center - m, axis, turn, n, infinite, diagram.rho(length)));
         }
     }
 
@@ -299,7 +295,7 @@ namespace Morula
         if (triangulation.is_infinite(face))
           {
             std::array<unsigned int, 2> edge = {};
-            unsigned int                n = 0;
+            unsigned int                n    = 0;
             for (int k = 0; k < 3; ++k)
               if (!triangulation.is_infinite(face->vertex(k)) && n < 2)
                 edge[n++] = face->vertex(k)->info();
@@ -323,7 +319,7 @@ namespace Morula
         if (triangulation.is_infinite(cell))
           {
             std::array<unsigned int, 3> face = {};
-            unsigned int                n = 0;
+            unsigned int                n    = 0;
             for (int k = 0; k < 4; ++k)
               if (!triangulation.is_infinite(cell->vertex(k)) && n < 3)
                 face[n++] = cell->vertex(k)->info();
@@ -351,8 +347,8 @@ namespace Morula
     // facet are then sorted by size and added up, so that the order in which
     // CGAL visits its simplices leaves no trace. Fewer than dim + 1 points, or
     // points in one plane, have no simplex and no facet.
-    std::vector<std::pair<decltype(Simplices<dim>::point(points[0])),
-                          unsigned int>>
+    std::vector<
+      std::pair<decltype(Simplices<dim>::point(points[0])), unsigned int>>
       list;
     for (unsigned int i = 0; i < points.size(); ++i)
       list.emplace_back(Simplices<dim>::point(points[i]), i);

@@ -129,13 +129,12 @@ namespace Morula
                               scene.fields.name_list(),
                               scene.keys<NeighbourParameters>().variables);
       columns.need_growth();
-      choice.template make<dim>(EffectSetting<dim>{
-        scene.random_seed,
-        scene.time.slack(),
-        columns,
-        state,
-        Point<dim>(),
-        tensions_of(scene)});
+      choice.template make<dim>(EffectSetting<dim>{scene.random_seed,
+                                                   scene.time.slack(),
+                                                   columns,
+                                                   state,
+                                                   Point<dim>(),
+                                                   tensions_of(scene)});
     }
 
     /** Checks the effects that the scene names and makes them, for what they
@@ -261,7 +260,8 @@ namespace Morula
     check_tensions(const Scene &scene)
     {
       const TypeTensions   tensions = tensions_of(scene);
-      const ExpressionKey &of_all = scene.keys<SurfaceTensionParameters>().tension;
+      const ExpressionKey &of_all =
+        scene.keys<SurfaceTensionParameters>().tension;
       if (tensions.any_with_surface() && !of_all.is_default())
         of_all.refuse("its default, as types of cells have tensions with the "
                       "surface",

@@ -19,9 +19,9 @@ namespace Morula
     /** A rate times a step above this has an error that is seen: the change of
      *  other cells is felt a step late. */
     constexpr double largest_part = 0.3;
-    /** The same of a rate that reads neighbours: two cells beside each other may
-     *  change in one step, as if neither saw the other. With this, 4 % of those
-     *  that inhibit each other stand wrongly. */
+    /** The same of a rate that reads neighbours: two cells beside each other
+     * may change in one step, as if neither saw the other. With this, 4 % of
+     * those that inhibit each other stand wrongly. */
     constexpr double largest_part_beside = 0.02;
     /** From here on a rate is a switch: cells change in the next step. */
     constexpr double switch_part = 10.;
@@ -54,13 +54,13 @@ namespace Morula
     reads_neighbours(const Expression &expression)
     {
       const auto &used = expression.used();
-      return std::any_of(used.begin(), used.end(), [&](const Variable variable) {
-        const std::string name = expression.vocabulary().name_of(variable);
-        return is_field(variable) &&
-               (name == "unlike" || name.rfind("neighbours_", 0) == 0 ||
-                name.rfind("touching_", 0) == 0 ||
-                name == "around_type");
-      });
+      return std::any_of(
+        used.begin(), used.end(), [&](const Variable variable) {
+          const std::string name = expression.vocabulary().name_of(variable);
+          return is_field(variable) &&
+                 (name == "unlike" || name.rfind("neighbours_", 0) == 0 ||
+                  name.rfind("touching_", 0) == 0 || name == "around_type");
+        });
     }
 
     /** A rate that depends on what other cells do. */
@@ -147,9 +147,8 @@ namespace Morula
       {
         const double largest = Utilities::MPI::max(coupled.largest, comm);
         const double part    = largest * scene.time.step;
-        const double allowed = reads_neighbours(coupled.rate) ?
-                                 largest_part_beside :
-                                 largest_part;
+        const double allowed =
+          reads_neighbours(coupled.rate) ? largest_part_beside : largest_part;
         if (part > allowed && part < switch_part)
           warn_of(coupled.rate, largest, scene.time.step, allowed, review);
       }

@@ -29,8 +29,9 @@ namespace Morula
     std::optional<double>
     rate_of_exchange(const Scene &scene)
     {
-      const auto D = scene.keys<RearrangementParameters>()
-                       .diffusion.largest_number(scene.dimension);
+      const auto D =
+        scene.keys<RearrangementParameters>().diffusion.largest_number(
+          scene.dimension);
       if (!D || *D <= 0.)
         return {};
       const double a = scene.tissue.cell_spacing;
@@ -41,7 +42,8 @@ namespace Morula
     bool
     volumes_differ(const Scene &scene)
     {
-      return scene.has_active_tissue() || Scene::has_any(scene.catalogue.fates) ||
+      return scene.has_active_tissue() ||
+             Scene::has_any(scene.catalogue.fates) ||
              scene.tissue.is_points() ||
              scene.tissue.surface_cells == "trimmed";
     }
@@ -128,9 +130,10 @@ namespace Morula
       for (const double gamma : row)
         largest = std::max(largest, gamma);
     if (largest > 0.)
-      out << "    fluctuation energy " << keys.energy /
-                (critical_ratio(scene.dimension) * largest *
-                 std::pow(scene.tissue.cell_spacing, scene.dimension - 1.))
+      out << "    fluctuation energy "
+          << keys.energy /
+               (critical_ratio(scene.dimension) * largest *
+                std::pow(scene.tissue.cell_spacing, scene.dimension - 1.))
           << " of the one at which types mix; 0.4 to 0.7 sorts fastest\n";
     if (keys.shear_released > 0.)
       out << "    shear relaxes by exchanges in "

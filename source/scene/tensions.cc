@@ -36,7 +36,7 @@ namespace Morula
       const unsigned int    n_types = scene.cell_types.types.size();
       const FirstCells<dim> cells(scene, founders, surface, comm);
       const GridBox<dim>    box({},
-                             {},
+                                {},
                              scene.grid.spacing,
                              leading_components<dim>(scene.grid.offset));
       TypeFractions<dim>    mine(box, n_types), all(box, n_types);

@@ -58,8 +58,8 @@ namespace
   double
   mean_degree(const unsigned int n)
   {
-    const auto   points = random_box<dim>(n, 11);
-    const double edge   = std::pow(n, 1. / dim);
+    const auto                points = random_box<dim>(n, 11);
+    const double              edge   = std::pow(n, 1. / dim);
     std::vector<unsigned int> degree(n, 0);
     for (const VoronoiFacet &facet :
          voronoi_facets(points, numbered(points), 1e9, 1e9))
@@ -117,7 +117,7 @@ namespace
     CellColumns<dim> columns;
     auto             tissue =
       std::make_unique<Tissue<dim>>(parameters, columns, MPI_COMM_WORLD);
-    PointList<dim>   list(columns.n_numbers());
+    PointList<dim> list(columns.n_numbers());
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       for (unsigned int i = 0; i < points.size(); ++i)
         list.add(i, points[i], columns.founder(points[i], std::pow(10., dim)));
@@ -165,7 +165,8 @@ namespace
     // The root of the mean volume is 10 but for rounding.
     const double a    = std::pow(std::pow(10., dim), 1. / dim);
     const double face = std::pow(a, dim - 1);
-    for (const VoronoiFacet &facet : voronoi_facets(places, shuffled, 1.8 * a, 1.5 * a))
+    for (const VoronoiFacet &facet :
+         voronoi_facets(places, shuffled, 1.8 * a, 1.5 * a))
       if (facet.area >= 0.02 * dim * face)
         {
           const auto i = shuffled[facet.a], j = shuffled[facet.b];
@@ -227,8 +228,8 @@ namespace
     std::vector<Point<dim>> points = random_box<dim>(700, 3);
     for (Point<dim> &x : points)
       x *= 10.;
-    const auto   edges = all_edges(*tissue_of(points), {false, 1.5});
-    std::size_t  n     = 0;
+    const auto  edges = all_edges(*tissue_of(points), {false, 1.5});
+    std::size_t n     = 0;
     for (unsigned int i = 0; i < points.size(); ++i)
       for (unsigned int j = 0; j < points.size(); ++j)
         if (i != j && points[i].distance(points[j]) <= 15.)
@@ -250,29 +251,21 @@ TEST(VoronoiFacets, HaveTheMeanDegreesOfPoissonPoints)
   EXPECT_NEAR(mean_degree<2>(60000), 6., 0.01);
 }
 
-TEST(VoronoiFacets, CloseEachCell)
-{
-  MORULA_BOTH_DIMENSIONS(check_closed_polyhedra)
-}
+TEST(VoronoiFacets,
+     CloseEachCell){MORULA_BOTH_DIMENSIONS(check_closed_polyhedra)}
 
-TEST(Neighbours, OnLatticesAreThoseThatTouch)
-{
-  MORULA_BOTH_DIMENSIONS(check_lattice)
-}
+TEST(Neighbours,
+     OnLatticesAreThoseThatTouch){MORULA_BOTH_DIMENSIONS(check_lattice)}
 
-TEST(Neighbours, DoNotDependOnRanksAndOrder)
-{
-  MORULA_BOTH_DIMENSIONS(check_random)
-}
+TEST(Neighbours,
+     DoNotDependOnRanksAndOrder){MORULA_BOTH_DIMENSIONS(check_random)}
 
-TEST(Neighbours, ByRadiusAreThoseWithinIt)
-{
-  MORULA_BOTH_DIMENSIONS(check_radius)
-}
+TEST(Neighbours, ByRadiusAreThoseWithinIt){MORULA_BOTH_DIMENSIONS(check_radius)}
 
 TEST(Neighbours, DegenerateListsHaveNoFacets)
 {
   EXPECT_TRUE(voronoi_facets<2>({}, {}, 1., 1.).empty());
-  EXPECT_TRUE(voronoi_facets<3>({Point<3>(), Point<3>(1., 0., 0.)}, {0, 1}, 2., 2.)
-                .empty());
+  EXPECT_TRUE(
+    voronoi_facets<3>({Point<3>(), Point<3>(1., 0., 0.)}, {0, 1}, 2., 2.)
+      .empty());
 }

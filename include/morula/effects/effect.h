@@ -6,8 +6,8 @@
 
 #include <morula/base/key.h>
 #include <morula/base/review.h>
-#include <morula/effects/type_tensions.h>
 #include <morula/effects/state/state_columns.h>
+#include <morula/effects/type_tensions.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/base/point.h>
@@ -49,8 +49,9 @@ namespace Morula
     virtual void
     declare_sections(const std::string &text);
 
-    /** Makes the keys that stand in the sections of the cells' types, before any
-     *  key has its value. @param types names, in the order of their numbers */
+    /** Makes the keys that stand in the sections of the cells' types, before
+     * any key has its value. @param types names, in the order of their numbers
+     */
     virtual void
     declare_types(const std::vector<std::string> &types);
 

@@ -39,13 +39,13 @@ namespace Morula
     virtual void
     start(const Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
 
-    /** The run begins at t = 0, after start(): may write the cells' columns, but
-     *  for deformation and growth. Not called where a run is resumed. */
+    /** The run begins at t = 0, after start(): may write the cells' columns,
+     * but for deformation and growth. Not called where a run is resumed. */
     virtual void
     settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
 
-    /** The cells have moved, divided and been removed, at @p moment.t the end of
-     *  the step: may let cells change places, before the surface follows. */
+    /** The cells have moved, divided and been removed, at @p moment.t the end
+     * of the step: may let cells change places, before the surface follows. */
     virtual void
     rearrange(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
 

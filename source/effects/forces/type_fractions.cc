@@ -89,8 +89,7 @@ namespace Morula
           continue;
         for (unsigned int type = 0; type < n_types; ++type)
           {
-            const double fraction =
-              found->second[1 + type] / found->second[0];
+            const double fraction = found->second[1 + type] / found->second[0];
             values.fraction[type] += fraction * splines.value[a];
             for (unsigned int d = 0; d < dim; ++d)
               values.gradient[type][d] += fraction * splines.gradient[d][a];

@@ -13,11 +13,12 @@
 namespace Morula
 {
   TypeTensionParameters::TypeTensionParameters()
-    : force("Tension/Force",
-            true,
-            "Whether the tensions between types pull at the tissue. false: only "
-            "Rearrangement knows them, as where the grid is too coarse for "
-            "them.")
+    : force(
+        "Tension/Force",
+        true,
+        "Whether the tensions between types pull at the tissue. false: only "
+        "Rearrangement knows them, as where the grid is too coarse for "
+        "them.")
   {}
 
 
@@ -120,9 +121,9 @@ namespace Morula
     {
       // A spline reaches one grid cell to each side of its own, so that the
       // splines of a cell need the cells two grid cells away.
-      const Cells<dim>    &cells = tissue.cells();
-      const GridBox<dim>  &box   = tissue.grid().box();
-      PointList<dim>       list(Flat<VolumeAndType>::n);
+      const Cells<dim>   &cells = tissue.cells();
+      const GridBox<dim> &box   = tissue.grid().box();
+      PointList<dim>      list(Flat<VolumeAndType>::n);
       for (unsigned int p = 0; p < cells.size(); ++p)
         list.add_value(cells.id(p),
                        cells.position(p),

@@ -3,12 +3,12 @@
 
 #include <morula/effects/rearrangement/exchange.h>
 
+#include <Random123/philox.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
-
-#include <Random123/philox.h>
 
 namespace Morula
 {
@@ -32,8 +32,9 @@ namespace Morula
     std::array<std::uint64_t, 2>
     bits(const std::uint64_t key, const std::uint64_t a, const std::uint64_t b)
     {
-      const auto words = Philox()(Philox::ctr_type{{low(a), high(a), low(b), high(b)}},
-                                  Philox::key_type{{low(key), high(key)}});
+      const auto words =
+        Philox()(Philox::ctr_type{{low(a), high(a), low(b), high(b)}},
+                 Philox::key_type{{low(key), high(key)}});
       const auto join = [](const std::uint32_t x, const std::uint32_t y) {
         return x | (static_cast<std::uint64_t>(y) << 32);
       };
@@ -114,9 +115,8 @@ namespace Morula
            e < places.offsets[place + 1];
            ++e)
         if (const unsigned int r = places.edges[e].other; r != other)
-          sum += places.edges[e].area *
-                 (between(comes, occupants[r].type) -
-                  between(leaves, occupants[r].type));
+          sum += places.edges[e].area * (between(comes, occupants[r].type) -
+                                         between(leaves, occupants[r].type));
       sum += places.free[place] * (with_surface(comes) - with_surface(leaves));
     };
     if (i.type != j.type)
@@ -177,12 +177,14 @@ namespace Morula
               list.push_back({time, uniform(random[1]), p, q, n});
             }
         }
-    std::sort(list.begin(), list.end(), [&](const Attempt &a, const Attempt &b) {
-      if (a.time != b.time)
-        return a.time < b.time;
-      return std::make_pair(places.keys[a.p], places.keys[a.q]) <
-             std::make_pair(places.keys[b.p], places.keys[b.q]);
-    });
+    std::sort(list.begin(),
+              list.end(),
+              [&](const Attempt &a, const Attempt &b) {
+                if (a.time != b.time)
+                  return a.time < b.time;
+                return std::make_pair(places.keys[a.p], places.keys[a.q]) <
+                       std::make_pair(places.keys[b.p], places.keys[b.q]);
+              });
     return list;
   }
 
@@ -212,8 +214,9 @@ namespace Morula
   bool
   ExchangeRounds::run(const Attempt &attempt)
   {
-    const bool accepted = energy.accepts(
-      energy.change(places, occupants_, attempt.p, attempt.q), attempt.u);
+    const bool accepted =
+      energy.accepts(energy.change(places, occupants_, attempt.p, attempt.q),
+                     attempt.u);
     if (accepted)
       {
         std::swap(occupants_[attempt.p], occupants_[attempt.q]);

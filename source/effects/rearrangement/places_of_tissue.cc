@@ -87,7 +87,7 @@ namespace Morula
     // places of others around, and asks their owners for the edges of these:
     // that also tells the owners who listens to them. An edge of which one end
     // is not known here is left out: no event here can feel it.
-    const MPI_Comm comm = tissue.communicator();
+    const MPI_Comm            comm = tissue.communicator();
     const std::vector<double> free = free_surfaces(tissue);
     PointList<dim>            list(Flat<Told<dim>>::n);
     for (unsigned int p = 0; p < cells.size(); ++p)
@@ -101,7 +101,7 @@ namespace Morula
       halo(list, tissue.grid(), n_edges * search.reach * a);
 
     const std::array<const PointList<dim> *, 2> parts = {{&list, &ghosts}};
-    PlacesOfTissue around;
+    PlacesOfTissue                              around;
     std::map<unsigned int, std::vector<unsigned int>> wanted; // by rank
     for (const PointList<dim> *part : parts)
       for (std::size_t i = 0; i < part->size(); ++i)
@@ -139,7 +139,7 @@ namespace Morula
       for (const auto id : part->ids)
         place_of.emplace(id, place_of.size());
     std::vector<std::vector<Places::Edge>> of_place(around.places.size());
-    const double V   = std::pow(a, dim);
+    const double                           V = std::pow(a, dim);
     const double cap = largest_ratio * std::pow(a, dim - 2);
     for (const EdgeRecord &edge : edges)
       if (const auto other = place_of.find(edge.other); other != place_of.end())
@@ -161,9 +161,7 @@ namespace Morula
 
 
   void
-  run(ExchangeRounds       &rounds,
-      const PlacesOfTissue &around,
-      const MPI_Comm        comm)
+  run(ExchangeRounds &rounds, const PlacesOfTissue &around, const MPI_Comm comm)
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       {

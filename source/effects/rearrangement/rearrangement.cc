@@ -19,9 +19,9 @@ namespace Morula
     : diffusion("Rearrangement/Diffusion",
                 "0",
                 "Diffusion coefficient of a cell among equal ones, which "
-                "exchanges its place with neighbours; a mean of two cells' "
-                "counts. An expression; 0: the cell keeps its place. Units: "
-                "um^2/day.",
+                "exchanges its place with neighbours; of two that differ the "
+                "harmonic mean counts. An expression; 0: the cell keeps its "
+                "place. Units: um^2/day.",
                 Evaluated::step)
     , energy("Rearrangement/Fluctuation energy",
              0.,
@@ -36,12 +36,13 @@ namespace Morula
                      "both places: 1 is a liquid as long as cells exchange "
                      "places.",
                      {0.})
-    , drive("Rearrangement/Drive",
-            "0; 0; 0",
-            "Force with which a cell looks for exchanges along it; none acts on "
-            "the tissue. An expression. In 3-D times um. Units: kPa um.",
-            Evaluated::step,
-            3)
+    , drive(
+        "Rearrangement/Drive",
+        "0; 0; 0",
+        "Force with which a cell looks for exchanges along it; none acts on "
+        "the tissue. An expression. In 3-D times um. Units: kPa um.",
+        Evaluated::step,
+        3)
   {
     diffusion.not_negative("um^2/day", "0 lets the cell keep its place.");
     shear_released.require([](const double q) { return q <= 1.; },
@@ -96,9 +97,9 @@ namespace Morula
   {
     // F_e = V R with V² = F_e F_eᵀ. The principal stretches λ become
     // J^(1/d) (λ/J^(1/d))^part along the same directions.
-    const auto   b = symmetrize(F_e * transpose(F_e));
-    const auto   pairs = eigenvectors(b);
-    const double mean  = std::pow(determinant(F_e), 1. / dim);
+    const auto     b     = symmetrize(F_e * transpose(F_e));
+    const auto     pairs = eigenvectors(b);
+    const double   mean  = std::pow(determinant(F_e), 1. / dim);
     Tensor<2, dim> change;
     for (const auto &[square, direction] : pairs)
       change += std::pow(std::sqrt(square) / mean, part - 1.) *
@@ -169,7 +170,7 @@ namespace Morula
         Occupant             one{cell.lineage_key(),
                      cell.type(),
                      is_dead ? 0. : cell.value(diffusion, reader.time),
-                     {{f[0], f[1], dim == 3 ? f[dim - 1] : 0.}},
+                                 {{f[0], f[1], dim == 3 ? f[dim - 1] : 0.}},
                      rank,
                      p};
         list.push_back(one);
@@ -202,8 +203,8 @@ namespace Morula
             }
           sum += places.free[p] * energy.with_surface(type);
         }
-    touching = Utilities::MPI::sum(touching, comm);
-    moment.of_step["exchanges"] = Utilities::MPI::sum(n_exchanges, comm);
+    touching                          = Utilities::MPI::sum(touching, comm);
+    moment.of_step["exchanges"]       = Utilities::MPI::sum(n_exchanges, comm);
     moment.of_step["adhesion_energy"] = Utilities::MPI::sum(sum, comm);
     moment.of_step["unlike_share"] =
       Utilities::MPI::sum(unlike, comm) / (touching > 0. ? touching : 1.);
@@ -234,17 +235,20 @@ namespace Morula
     // whose amounts stay so. A cell comes from farther away than the places
     // around a rank reach, if it has had many exchanges; so it carries its rank
     // and number with it. The cells of this rank are moved at last, in one go.
-    const MPI_Comm             comm    = tissue.communicator();
-    const StateColumns<dim>   &columns = moment.reader.columns;
-    const CellColumns<dim>    &of_cell = tissue.cells().columns();
-    std::vector<Occupant>      cells;
+    const MPI_Comm           comm    = tissue.communicator();
+    const StateColumns<dim> &columns = moment.reader.columns;
+    const CellColumns<dim>  &of_cell = tissue.cells().columns();
+    std::vector<Occupant>    cells;
     everywhere(comm, [&]() { cells = cells_of(tissue, moment.reader); });
     const PlacesOfTissue around = places_of(tissue, cells);
-    ExchangeRounds       rounds(
-      around.places,
-      around.occupants,
-      attempts(around.places, around.occupants, random_seed, moment.t, moment.dt),
-      energy);
+    ExchangeRounds       rounds(around.places,
+                          around.occupants,
+                          attempts(around.places,
+                                   around.occupants,
+                                   random_seed,
+                                   moment.t,
+                                   moment.dt),
+                          energy);
     run(rounds, around, comm);
 
     std::map<unsigned int, std::vector<double>> sent;
@@ -268,20 +272,20 @@ namespace Morula
         for (const Column<double> &field : columns.fields)
           append_flat(list, place.get(field));
       }
-    std::vector<Point<dim>>   positions = tissue.cells().positions();
-    const std::size_t         width =
-      1 + dim + 1 + dim * dim + columns.fields.size();
+    std::vector<Point<dim>> positions = tissue.cells().positions();
+    const std::size_t width = 1 + dim + 1 + dim * dim + columns.fields.size();
     for (const auto &[rank, list] : send_records(sent, comm))
       for (std::size_t i = 0; i < list.size(); i += width)
         {
-          const double      *next = &list[i];
-          const unsigned int p    = static_cast<unsigned int>(next[0]);
-          positions[p]            = Flat<Point<dim>>::read(next + 1);
-          const double         V    = next[1 + dim];
-          const Tensor<2, dim> F_e  = Flat<Tensor<2, dim>>::read(next + 2 + dim);
+          const double      *next  = &list[i];
+          const unsigned int p     = static_cast<unsigned int>(next[0]);
+          positions[p]             = Flat<Point<dim>>::read(next + 1);
+          const double         V   = next[1 + dim];
+          const Tensor<2, dim> F_e = Flat<Tensor<2, dim>>::read(next + 2 + dim);
           const CellView<dim, double> cell = tissue.cell(p);
-          cell.set(of_cell.deformation,
-                   deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
+          cell.set(
+            of_cell.deformation,
+            deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
           for (std::size_t k = 0; k < columns.fields.size(); ++k)
             cell.set(columns.fields[k], next[2 + dim + dim * dim + k]);
         }
@@ -290,12 +294,12 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                 \
-  template class Rearrangement<dim>;                                     \
-  template Tensor<2, dim> deformation_at(const Tensor<2, dim> &,         \
-                                         const double,                   \
-                                         const Tensor<2, dim> &,         \
-                                         const double);                  \
+#define INSTANTIATE(dim)                                         \
+  template class Rearrangement<dim>;                             \
+  template Tensor<2, dim> deformation_at(const Tensor<2, dim> &, \
+                                         const double,           \
+                                         const Tensor<2, dim> &, \
+                                         const double);          \
   template Tensor<2, dim> with_less_shear(const Tensor<2, dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -185,8 +185,8 @@ namespace Morula
     // neighbours asks for. These are read before any column is written, as a
     // mean may be one of a variable that is written here. Then the sums over
     // the neighbours are made in the order of their ids.
-    const StateColumns<dim>      &columns = moment.reader.columns;
-    const Cells<dim>             &cells   = tissue.cells();
+    const StateColumns<dim>               &columns = moment.reader.columns;
+    const Cells<dim>                      &cells   = tissue.cells();
     std::vector<const NeighbourVariable *> means;
     for (const NeighbourVariable &told : variables)
       if (told.kind == NeighbourVariable::around)
@@ -205,9 +205,9 @@ namespace Morula
         }
     });
     const auto uses = [&](const NeighbourVariable::Kind kind) {
-      return std::any_of(variables.begin(), variables.end(), [&](const auto &v) {
-        return v.kind == kind;
-      });
+      return std::any_of(variables.begin(),
+                         variables.end(),
+                         [&](const auto &v) { return v.kind == kind; });
     };
     const NeighbourGraph<dim> graph = neighbours(tissue, told_by_cells, search);
     // A share of the surface is one of all of it, so that the free part is
@@ -272,7 +272,8 @@ namespace Morula
                   value = touching > 0. ?
                             sum([&](const auto &row, const double S) {
                               return S * row[n_means];
-                            }) / touching :
+                            }) /
+                              touching :
                             own[n_means];
                   break;
                 case NeighbourVariable::slope:

@@ -36,8 +36,7 @@ namespace Morula
 
     /** The variable that a name behind "around_" is, or none. */
     std::optional<Variable>
-    variable_of(const std::string              &name,
-                const std::vector<std::string> &fields)
+    variable_of(const std::string &name, const std::vector<std::string> &fields)
     {
       // X, Y, Z and t need no mean: they are no state of a cell.
       for (unsigned int i = static_cast<unsigned int>(Variable::x);
@@ -103,8 +102,10 @@ namespace Morula
   bool
   tells_of_neighbours(const std::string &name)
   {
-    return std::any_of(prefixes.begin(), prefixes.end(), [&](const auto &prefix) {
-      return name.rfind(prefix.text, 0) == 0;
-    });
+    return std::any_of(prefixes.begin(),
+                       prefixes.end(),
+                       [&](const auto &prefix) {
+                         return name.rfind(prefix.text, 0) == 0;
+                       });
   }
 } // namespace Morula

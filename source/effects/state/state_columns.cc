@@ -145,15 +145,15 @@ namespace Morula
                                             AtDivision::copied,
                                             true});
     for (const NeighbourVariable &told : of_neighbours)
-      neighbours.push_back(told.kind == NeighbourVariable::slope ?
-                             Column<double>() :
-                             columns.template add<double>(
-                               {told.name,
-                                "",
-                                "what it says of the cell's neighbours",
-                                0.,
-                                AtDivision::copied,
-                                true}));
+      neighbours.push_back(
+        told.kind == NeighbourVariable::slope ?
+          Column<double>() :
+          columns.template add<double>({told.name,
+                                        "",
+                                        "what it says of the cell's neighbours",
+                                        0.,
+                                        AtDivision::copied,
+                                        true}));
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});

@@ -72,7 +72,7 @@ namespace Morula
     const double smooth = smoothing > 0. ? std::hypot(size, smoothing) : size;
     const double force =
       load.value * (smoothing > 0. ? size * size / smooth : size);
-    const Tensor<1, dim> n = m / size;
+    const Tensor<1, dim>                        n = m / size;
     std::array<Tensor<1, dim>, BSpline<dim>::n> s;
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
@@ -89,10 +89,10 @@ namespace Morula
       }
     // The energy is relative to the start of the step: the difference of two
     // large constants would lose its digits.
-    const double before = load.value * (smoothing > 0. ?
-                                          std::hypot(load.area.norm(), smoothing) :
-                                          load.area.norm());
-    const double now    = smoothing > 0. ? load.value * smooth : force;
+    const double before =
+      load.value * (smoothing > 0. ? std::hypot(load.area.norm(), smoothing) :
+                                     load.area.norm());
+    const double now = smoothing > 0. ? load.value * smooth : force;
     system.add_energy(now - before, now + before);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)

@@ -50,14 +50,13 @@ namespace
   check_derivatives()
   {
     // Areas as small as the smoothing and far larger ones.
-    std::mt19937                              generator(3);
-    const GroupedPoints<dim>                  points =
-      random_points_in_cell<dim>(generator, 6);
+    std::mt19937             generator(3);
+    const GroupedPoints<dim> points = random_points_in_cell<dim>(generator, 6);
     std::vector<typename AreaTerm<dim>::Load> loads;
     for (unsigned int p = 0; p < 6; ++p)
-      loads.push_back({1. + p,
-                       std::pow(10., 0.5 * p - 1.5) *
-                         random_tensor<1, dim>(generator)});
+      loads.push_back(
+        {1. + p,
+         std::pow(10., 0.5 * p - 1.5) * random_tensor<1, dim>(generator)});
     expect_derivatives(SurfaceEnergy<dim>(points, loads, 0.1),
                        random_field<dim>(generator, 0.2));
   }
@@ -94,10 +93,8 @@ namespace
 } // namespace
 
 
-TEST(TypeTension, HasExactDerivativesWithSmoothing)
-{
-  MORULA_BOTH_DIMENSIONS(check_derivatives)
-}
+TEST(TypeTension, HasExactDerivativesWithSmoothing){
+  MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
 TEST(TypeFractions, AddUpToOneAlsoBesideTheSurface)
@@ -109,7 +106,7 @@ TEST(TypeFractions, AddUpToOneAlsoBesideTheSurface)
     field.add(cells[i], 1. + 0.1 * (i % 4), generator() % 3);
   for (const Point<3> &x : cells)
     {
-      const auto   at = field.at(x);
+      const auto   at  = field.at(x);
       double       sum = 0.;
       Tensor<1, 3> slope;
       for (unsigned int type = 0; type < 3; ++type)

@@ -25,7 +25,7 @@ namespace
   Places
   places_of_pairs(const unsigned int n, const Pairs &pairs)
   {
-    Places places;
+    Places                                 places;
     std::vector<std::vector<Places::Edge>> of_place(n);
     for (const auto &[pair, values] : pairs)
       {
@@ -54,8 +54,7 @@ namespace
   {
     std::vector<Occupant> list;
     for (unsigned int p = 0; p < places.size(); ++p)
-      list.push_back(
-        {places.keys[p], types[p], 1., {{0., 0., 0.}}, 0, p});
+      list.push_back({places.keys[p], types[p], 1., {{0., 0., 0.}}, 0, p});
     return list;
   }
 
@@ -127,8 +126,8 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
 {
   // Eight places, three cells of one type and five of another: 56 states. The
   // probabilities are exp(M t) p, from the rates 2 ν / (1 + e^(ΔE/T)).
-  constexpr unsigned int n = 8;
-  std::mt19937           generator(5);
+  constexpr unsigned int                 n = 8;
+  std::mt19937                           generator(5);
   std::uniform_real_distribution<double> uniform(0.2, 1.);
   Pairs                                  pairs;
   for (unsigned int p = 0; p < n; ++p)
@@ -152,9 +151,8 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
   const auto energy_of = [&](const unsigned int s) {
     double sum = 0.;
     for (const auto &[pair, values] : pairs)
-      sum += ((s >> pair.first) & 1) != ((s >> pair.second) & 1) ?
-               values.first :
-               0.;
+      sum +=
+        ((s >> pair.first) & 1) != ((s >> pair.second) & 1) ? values.first : 0.;
     return sum;
   };
   std::vector<std::vector<double>> M(56, std::vector<double>(56, 0.));
@@ -165,9 +163,8 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
                            b = (s >> pair.second) & 1;
         if (a == b)
           continue;
-        const unsigned int to =
-          s ^ (1u << pair.first) ^ (1u << pair.second);
-        const double rate =
+        const unsigned int to = s ^ (1u << pair.first) ^ (1u << pair.second);
+        const double       rate =
           2. * values.second /
           (1. + std::exp((energy_of(to) - energy_of(s)) / 0.5));
         M[number[to]][number[s]] += rate;
@@ -182,7 +179,7 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
     {
       // exp(M t) by many small steps of the fourth order.
       std::vector<double> exact(56, 0.);
-      exact[number[first]] = 1.;
+      exact[number[first]]           = 1.;
       constexpr unsigned int n_steps = 400;
       for (unsigned int k = 0; k < n_steps; ++k)
         {
@@ -217,9 +214,9 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
             }
         }
       // States that are too rare are taken together.
-      double chi = 0., rare = 0., rare_found = 0.;
-      int    freedom = -1;
-      const auto add = [&](const double f, const double e) {
+      double     chi = 0., rare = 0., rare_found = 0.;
+      int        freedom = -1;
+      const auto add     = [&](const double f, const double e) {
         chi += (f - e) * (f - e) / e;
         ++freedom;
       };
@@ -241,8 +238,8 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
 
 TEST(Exchange, HasOnsagersEnergyInEquilibrium)
 {
-  // The share of unlike contacts at T = 2 γ S. Nearer to the critical T = 1.1346
-  // γ S, where the walk of cells is slow, more time would be needed.
+  // The share of unlike contacts at T = 2 γ S. Nearer to the critical T
+  // = 1.1346 γ S, where the walk of cells is slow, more time would be needed.
   Places places = torus(64);
   for (const auto &[T, exact] : {std::pair(2., 0.36068)})
     {
@@ -310,8 +307,8 @@ TEST(Exchange, DriftsByTheHyperbolicTangent)
 
 TEST(Exchange, KeepsCellsWithoutDiffusion)
 {
-  const Places places    = torus(6);
-  auto         occupants = occupants_of(places, std::vector<unsigned int>(36, 0));
+  const Places places = torus(6);
+  auto occupants      = occupants_of(places, std::vector<unsigned int>(36, 0));
   for (unsigned int p = 0; p < 36; p += 5)
     occupants[p].diffusion = 0.;
   const auto end =
@@ -359,13 +356,11 @@ namespace
                 .norm(),
               1e-13);
     // With its own cell nothing changes.
-    EXPECT_LT((deformation_at(F_e,
-                              5. * determinant(F_e) * determinant(F_g),
-                              F_g,
-                              5.) -
-               F_e * F_g)
-                .norm(),
-              1e-14);
+    EXPECT_LT(
+      (deformation_at(F_e, 5. * determinant(F_e) * determinant(F_g), F_g, 5.) -
+       F_e * F_g)
+        .norm(),
+      1e-14);
     // Shear is released, not the volume and not the rotation.
     const Tensor<2, dim> half  = with_less_shear(F_e, 0.5);
     const Tensor<2, dim> twice = with_less_shear(half, 0.5);

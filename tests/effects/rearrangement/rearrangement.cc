@@ -22,8 +22,8 @@ namespace
   {
     using Cells = std::map<types::particle_index,
                            std::pair<Point<dim>, std::vector<double>>>;
-    Cells          before, after;
-    NamedNumbers   numbers;
+    Cells            before, after;
+    NamedNumbers     numbers;
     CellColumns<dim> columns;
   };
 
@@ -86,8 +86,7 @@ namespace
     Exchanged<dim> result{all_cells(tissue), {}, {}, development.columns()};
     NamedNumbers   kept;
     effects.step_effects.at(0).effect->rearrange(
-      tissue,
-      {1., 0.3, development.reader(1.), kept, result.numbers});
+      tissue, {1., 0.3, development.reader(1.), kept, result.numbers});
     result.after = all_cells(tissue);
     return result;
   }
@@ -143,19 +142,16 @@ namespace
 } // namespace
 
 
-TEST(Rearrangement, KeepsTheSpaceOfPlacesAndTheGrowthOfCells)
-{
-  MORULA_BOTH_DIMENSIONS(check_conservation)
-}
+TEST(Rearrangement, KeepsTheSpaceOfPlacesAndTheGrowthOfCells){
+  MORULA_BOTH_DIMENSIONS(check_conservation)}
 
-TEST(Rearrangement, IsTheSameOnAnyNumberOfRanks)
-{
-  MORULA_BOTH_DIMENSIONS(check_ranks)
-}
+TEST(Rearrangement,
+     IsTheSameOnAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
 
 TEST(Rearrangement, IsOffForATypeThatDoesNotDiffuse)
 {
-  auto result = exchanged<2>(3., {"Cell types/b/Rearrangement/Diffusion=0"},
+  auto result = exchanged<2>(3.,
+                             {"Cell types/b/Rearrangement/Diffusion=0"},
                              MPI_COMM_WORLD);
   for (auto &[id, cell] : result.after)
     {

@@ -54,7 +54,8 @@ namespace Morula
     using Parameters = TypeTensionParameters;
 
     /** @throws InputError for a negative tension */
-    TypeTension(const Parameters &parameters, const EffectSetting<dim> &setting);
+    TypeTension(const Parameters         &parameters,
+                const EffectSetting<dim> &setting);
 
     std::unique_ptr<Term<dim>>
     term(const Tissue<dim>        &tissue,

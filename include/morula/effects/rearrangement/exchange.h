@@ -139,10 +139,10 @@ namespace Morula
   class ExchangeRounds
   {
   public:
-    ExchangeRounds(const Places          &places,
-                   std::vector<Occupant>  occupants,
-                   std::vector<Attempt>   attempts,
-                   const AdhesionEnergy  &energy);
+    ExchangeRounds(const Places         &places,
+                   std::vector<Occupant> occupants,
+                   std::vector<Attempt>  attempts,
+                   const AdhesionEnergy &energy);
 
     /** Runs everything in the order of time; all places must be own. */
     void

@@ -62,8 +62,7 @@ namespace Morula
   private:
     /** The cells of this rank as occupants of places. @throws InputError */
     std::vector<Occupant>
-    cells_of(const Tissue<dim>     &tissue,
-             const CellReader<dim> &reader) const;
+    cells_of(const Tissue<dim> &tissue, const CellReader<dim> &reader) const;
 
     /** Writes the numbers of the step. Collective. */
     void

@@ -113,12 +113,12 @@ namespace Morula
     Column<Tensor<1, dim>> surface_normal;
 
   private:
-    std::vector<std::string> types;
-    std::vector<std::string> names_of_fields;
+    std::vector<std::string>       types;
+    std::vector<std::string>       names_of_fields;
     std::vector<NeighbourVariable> of_neighbours;
-    std::vector<bool>        needs_gradient; // by field
-    std::vector<Variable>    used;           // sorted
-    bool                     needs_normal = false;
+    std::vector<bool>              needs_gradient; // by field
+    std::vector<Variable>          used;           // sorted
+    bool                           needs_normal = false;
   };
 } // namespace Morula
 

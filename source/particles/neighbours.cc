@@ -24,7 +24,7 @@ namespace Morula
     constexpr double ring = 3.;
     /** The least facet of neighbours, as a part of a cell's mean surface. */
     constexpr double least_part = 0.01;
-    /** The largest facet, over a^(dim-1): at the hull it may have no end. */
+    /** The largest facet, over a^(dim-1): one at the hull may be larger. */
     constexpr double largest_facet = 1.5;
 
 
@@ -99,11 +99,13 @@ namespace Morula
       halo(cells, tissue.grid(), search.by_facets ? ring * a : reach));
     const double                    face = std::pow(a, dim - 1);
     const std::vector<VoronoiFacet> pairs =
-      search.by_facets ?
-        voronoi_facets(graph.points.positions, graph.points.ids, reach) :
-        pairs_within(graph.points.positions,
-                     reach,
-                     face * (dim == 2 ? 2. / 3. : 0.5));
+      search.by_facets ? voronoi_facets(graph.points.positions,
+                                        graph.points.ids,
+                                        reach,
+                                        0.5 * ring * a) :
+                         pairs_within(graph.points.positions,
+                                      reach,
+                                      face * (dim == 2 ? 2. / 3. : 0.5));
 
     std::vector<std::vector<typename NeighbourGraph<dim>::Edge>> of_cells(
       graph.n_own);

@@ -3,6 +3,7 @@
 
 #include <morula/particles/voronoi_facets.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -73,7 +74,42 @@ namespace Morula
     /** The parts of the facets of each point a with points b > a. */
     using Parts = std::vector<std::vector<Part>>;
 
-    constexpr double unbounded = std::numeric_limits<double>::infinity();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    /** Points, and what of their facets counts. */
+    template <int dim>
+    struct Diagram
+    {
+      const std::vector<Point<dim>> &points;
+      const double                   reach, radius;
+      Parts                         &parts;
+
+      /** How far from its middle a facet counts, for this edge. */
+      double
+      rho(const double length) const
+      {
+        return std::sqrt(
+          std::max(0., radius * radius - 0.25 * length * length));
+      }
+    };
+
+    /** The area that a circle around its acute corner leaves of a triangle with
+     *  a right angle: @p rho is the radius, @p near the side from the corner to
+     *  the right angle, @p across the other one, which may have no end. */
+    double
+    cut_area(const double near, const double across, const double rho)
+    {
+      if (near >= rho)
+        return 0.5 * rho * rho * std::atan2(across, near);
+      const double inside = std::sqrt(rho * rho - near * near);
+      if (across <= inside)
+        return 0.5 * near * across;
+      return 0.5 * near * inside +
+             0.5 * rho * rho *
+               ((across == infinite ? 0.5 * numbers::PI :
+                                      std::atan2(across, near)) -
+                std::atan2(inside, near));
+    }
 
     void
     add_part(Parts             &parts,
@@ -98,11 +134,10 @@ namespace Morula
     /** The parts of a triangle: of each edge the signed distance from its
      *  middle to the circumcentre. */
     void
-    add_parts(const std::vector<Point<2>>       &x,
-              const std::array<unsigned int, 3> &corners,
-              const double                       reach,
-              Parts                             &parts)
+    add_parts(const Diagram<2>                  &diagram,
+              const std::array<unsigned int, 3> &corners)
     {
+      const auto        &x     = diagram.points;
       const Tensor<1, 2> u     = x[corners[1]] - x[corners[0]];
       const Tensor<1, 2> v     = x[corners[2]] - x[corners[0]];
       const double       twice = 2. * (u[0] * v[1] - u[1] * v[0]);
@@ -113,31 +148,63 @@ namespace Morula
       for (unsigned int k = 0; k < 3; ++k)
         {
           const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
-          const Tensor<1, 2> edge = y[j] - y[i];
-          if (edge.norm() > reach)
+          const Tensor<1, 2> edge   = y[j] - y[i];
+          const double       length = edge.norm();
+          if (length > diagram.reach)
             continue;
           const Tensor<1, 2> middle = 0.5 * (y[i] + y[j]);
-          const Tensor<1, 2> inward = cross_product_2d(edge) / edge.norm();
+          const Tensor<1, 2> inward = cross_product_2d(edge) / length;
           const double       sign   = inward * (y[k] - middle) > 0. ? 1. : -1.;
-          add_part(parts,
+          const double       rho    = diagram.rho(length);
+          add_part(diagram.parts,
                    corners[i],
                    corners[j],
-                   sign * (inward * (c - middle)));
+                   std::clamp(sign * (inward * (c - middle)), -rho, rho));
         }
     }
 
-    /** The parts of a tetrahedron: of each edge the signed quadrilateral of the
-     *  edge's middle, the circumcentres of the two faces there, and that of the
-     *  tetrahedron. */
+    /** The part of an edge of the hull, outward from its middle. */
     void
-    add_parts(const std::vector<Point<3>>       &x,
-              const std::array<unsigned int, 4> &corners,
-              const double                       reach,
-              Parts                             &parts)
+    add_outer_parts(const Diagram<2>                  &diagram,
+                    const std::array<unsigned int, 2> &edge,
+                    const unsigned int)
+    {
+      const double length =
+        diagram.points[edge[0]].distance(diagram.points[edge[1]]);
+      if (length <= diagram.reach)
+        add_part(diagram.parts, edge[0], edge[1], diagram.rho(length));
+    }
+
+    /**
+     * The part of a face at its edge (i, j) with the third corner k: a signed
+     * triangle of the edge's middle, the face's circumcentre, and a point on
+     * the face's axis, which is the circumcentre of the tetrahedron.
+     * @param f    circumcentre of the face minus the edge's middle
+     * @param turn orientation of the tetrahedron about the edge
+     * @param way  from the face's circumcentre along its axis
+     * @param far  how far along
+     */
+    double
+    part_of_face(const Tensor<1, 3> &f,
+                 const Tensor<1, 3> &axis,
+                 const double        turn,
+                 const Tensor<1, 3> &way,
+                 const double        far,
+                 const double        rho)
+    {
+      const double sign = turn * (axis * cross_product_3d(f, way));
+      return std::copysign(cut_area(f.norm(), far, rho), sign);
+    }
+
+    /** The parts of a tetrahedron, two for each edge: one for each face there.
+     */
+    void
+    add_parts(const Diagram<3>                  &diagram,
+              const std::array<unsigned int, 4> &corners)
     {
       std::array<Tensor<1, 3>, 4> y;
       for (unsigned int i = 1; i < 4; ++i)
-        y[i] = x[corners[i]] - x[corners[0]];
+        y[i] = diagram.points[corners[i]] - diagram.points[corners[0]];
       const Tensor<1, 3> c =
         (y[1].norm_square() * cross_product_3d(y[2], y[3]) +
          y[2].norm_square() * cross_product_3d(y[3], y[1]) +
@@ -154,28 +221,68 @@ namespace Morula
       for (unsigned int i = 0; i < 4; ++i)
         for (unsigned int j = i + 1; j < 4; ++j)
           {
-            const Tensor<1, 3> edge = y[j] - y[i];
-            if (edge.norm() > reach)
+            const Tensor<1, 3> edge   = y[j] - y[i];
+            const double       length = edge.norm();
+            if (length > diagram.reach)
               continue;
             const unsigned int k    = i == 0 ? (j == 1 ? 2 : 1) : 0;
             const unsigned int l    = 6 - i - j - k;
-            const Tensor<1, 3> axis = edge / edge.norm();
+            const Tensor<1, 3> axis = edge / length;
             const Tensor<1, 3> m    = 0.5 * (y[i] + y[j]);
-            // The face without l holds k, and the other way round.
-            const Tensor<1, 3> to_k = of_face[l] - m, to_l = of_face[k] - m;
+            const double       rho  = diagram.rho(length);
             const double       turns =
               axis * cross_product_3d(y[k] - m, y[l] - m) > 0. ? 1. : -1.;
-            add_part(parts,
-                     corners[i],
-                     corners[j],
-                     0.5 * turns *
-                       (axis * (cross_product_3d(to_k, c - m) +
-                                cross_product_3d(c - m, to_l))));
+            // The face without l holds k; about the edge it lies on the other
+            // side than the face without k.
+            for (const auto &[without, turn] :
+                 {std::make_pair(l, turns), std::make_pair(k, -turns)})
+              {
+                const Tensor<1, 3> way = c - of_face[without];
+                add_part(
+                  diagram.parts,
+                  corners[i],
+                  corners[j],
+                  part_of_face(
+                    of_face[without] - m, axis, turn, way, way.norm(), rho));
+              }
           }
     }
 
-    /** Calls @p visit(corners) for all simplices, and @p open(i, j) for the
-     *  edges of the hull. */
+    /** The parts of a face of the hull at its edges, outward to where nothing
+     *  counts any more. @param inner a point on the other side of it */
+    void
+    add_outer_parts(const Diagram<3>                  &diagram,
+                    const std::array<unsigned int, 3> &face,
+                    const unsigned int                 inner)
+    {
+      const auto        &x                = diagram.points;
+      const Tensor<1, 3> u                = x[face[1]] - x[face[0]],
+                         v                = x[face[2]] - x[face[0]];
+      const std::array<Tensor<1, 3>, 3> y = {{Tensor<1, 3>(), u, v}};
+      Tensor<1, 3>                      n = cross_product_3d(u, v);
+      if (n * (x[inner] - x[face[0]]) > 0.)
+        n = -n;
+      const Tensor<1, 3> center = circumcenter(u, v);
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
+          const Tensor<1, 3> edge   = y[j] - y[i];
+          const double       length = edge.norm();
+          if (length > diagram.reach)
+            continue;
+          const Tensor<1, 3> axis = edge / length, m = 0.5 * (y[i] + y[j]);
+          const double       turn =
+            axis * cross_product_3d(y[k] - m, n) > 0. ? 1. : -1.;
+          add_part(diagram.parts,
+                   face[i],
+                   face[j],
+                   part_of_face(
+                     center - m, axis, turn, n, infinite, diagram.rho(length)));
+        }
+    }
+
+    /** Calls @p visit(corners) for all simplices, and @p open(side, inner) for
+     *  the sides of the hull, with the corner that faces each from inside. */
     template <typename Visit, typename Open>
     void
     for_simplices(const Simplices<2>::Triangulation &triangulation,
@@ -192,7 +299,7 @@ namespace Morula
             for (int k = 0; k < 3; ++k)
               if (!triangulation.is_infinite(face->vertex(k)) && n < 2)
                 edge[n++] = face->vertex(k)->info();
-            open(edge[0], edge[1]);
+            open(edge, 0u); // both sides are alike
           }
         else
           visit(std::array<unsigned int, 3>{{face->vertex(0)->info(),
@@ -216,8 +323,9 @@ namespace Morula
             for (int k = 0; k < 4; ++k)
               if (!triangulation.is_infinite(cell->vertex(k)) && n < 3)
                 face[n++] = cell->vertex(k)->info();
-            for (unsigned int k = 0; k < 3; ++k)
-              open(face[k], face[(k + 1) % 3]);
+            const auto inside =
+              cell->neighbor(cell->index(triangulation.infinite_vertex()));
+            open(face, inside->vertex(inside->index(cell))->info());
           }
         else
           visit(std::array<unsigned int, 4>{{cell->vertex(0)->info(),
@@ -232,7 +340,8 @@ namespace Morula
   std::vector<VoronoiFacet>
   voronoi_facets(const std::vector<Point<dim>>            &points,
                  const std::vector<types::particle_index> &ids,
-                 const double                              reach)
+                 const double                              reach,
+                 const double                              radius)
   {
     // The parts of all facets are collected by their first point. Those of a
     // facet are then sorted by size and added up, so that the order in which
@@ -248,20 +357,21 @@ namespace Morula
     std::vector<VoronoiFacet>                    facets;
     if (triangulation.dimension() < dim)
       return facets;
-    Parts parts(points.size());
+    Parts              parts(points.size());
+    const Diagram<dim> diagram{points, reach, radius, parts};
+    const auto         by_ids = [&](auto corners) {
+      std::sort(corners.begin(),
+                corners.end(),
+                [&](const unsigned int i, const unsigned int j) {
+                  return ids[i] < ids[j];
+                });
+      return corners;
+    };
     for_simplices(
       triangulation,
-      [&](auto corners) {
-        std::sort(corners.begin(),
-                  corners.end(),
-                  [&](const unsigned int i, const unsigned int j) {
-                    return ids[i] < ids[j];
-                  });
-        add_parts(points, corners, reach, parts);
-      },
-      [&](const unsigned int i, const unsigned int j) {
-        if (points[i].distance(points[j]) <= reach)
-          add_part(parts, i, j, unbounded);
+      [&](const auto &corners) { add_parts(diagram, by_ids(corners)); },
+      [&](const auto &side, const unsigned int inner) {
+        add_outer_parts(diagram, by_ids(side), inner);
       });
     for (unsigned int a = 0; a < parts.size(); ++a)
       {
@@ -286,9 +396,11 @@ namespace Morula
   template std::vector<VoronoiFacet>
   voronoi_facets(const std::vector<Point<2>> &,
                  const std::vector<types::particle_index> &,
+                 const double,
                  const double);
   template std::vector<VoronoiFacet>
   voronoi_facets(const std::vector<Point<3>> &,
                  const std::vector<types::particle_index> &,
+                 const double,
                  const double);
 } // namespace Morula

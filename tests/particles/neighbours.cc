@@ -62,7 +62,7 @@ namespace
     const double              edge   = std::pow(n, 1. / dim);
     std::vector<unsigned int> degree(n, 0);
     for (const VoronoiFacet &facet :
-         voronoi_facets(points, numbered(points), 1e9))
+         voronoi_facets(points, numbered(points), 1e9, 1e9))
       ++degree[facet.a], ++degree[facet.b];
     double sum = 0., count = 0.;
     for (unsigned int i = 0; i < n; ++i)
@@ -82,7 +82,7 @@ namespace
     std::vector<double>         size(points.size(), 0.);
     std::vector<double>         volume(points.size(), 0.);
     for (const VoronoiFacet &facet :
-         voronoi_facets(points, numbered(points), 1e9))
+         voronoi_facets(points, numbered(points), 1e9, 1e9))
       {
         const Tensor<1, dim> n =
           (points[facet.b] - points[facet.a]) / facet.distance;
@@ -165,15 +165,26 @@ namespace
     // The root of the mean volume is 10 but for rounding.
     const double a    = std::pow(std::pow(10., dim), 1. / dim);
     const double face = std::pow(a, dim - 1);
-    for (const VoronoiFacet &facet : voronoi_facets(places, shuffled, 1.8 * a))
+    for (const VoronoiFacet &facet :
+         voronoi_facets(places, shuffled, 1.8 * a, 1.5 * a))
       if (facet.area >= 0.02 * dim * face)
         {
           const auto i = shuffled[facet.a], j = shuffled[facet.b];
           expected[{i, j}] = expected[{j, i}] =
             std::min(facet.area, 1.5 * face);
         }
-    // The same edges, with the same bits of the areas.
-    EXPECT_EQ(edges, expected);
+    // The same edges and areas. Where facets are cut, far points of the whole
+    // tissue leave their rounding.
+    EXPECT_EQ(edges.size(), expected.size());
+    for (const auto &[pair, area] : expected)
+      {
+        const auto found = edges.find(pair);
+        EXPECT_TRUE(found != edges.end() &&
+                    std::abs(found->second - area) < 1e-11 * face)
+          << pair.first << ' ' << pair.second << ": " << area << ", found "
+          << (found == edges.end() ? 0. : found->second) << "; at "
+          << points[pair.first] << ", " << points[pair.second];
+      }
   }
 
   template <int dim>
@@ -253,7 +264,8 @@ TEST(Neighbours, ByRadiusAreThoseWithinIt){MORULA_BOTH_DIMENSIONS(check_radius)}
 
 TEST(Neighbours, DegenerateListsHaveNoFacets)
 {
-  EXPECT_TRUE(voronoi_facets<2>({}, {}, 1.).empty());
+  EXPECT_TRUE(voronoi_facets<2>({}, {}, 1., 1.).empty());
   EXPECT_TRUE(
-    voronoi_facets<3>({Point<3>(), Point<3>(1., 0., 0.)}, {0, 1}, 2.).empty());
+    voronoi_facets<3>({Point<3>(), Point<3>(1., 0., 0.)}, {0, 1}, 2., 2.)
+      .empty());
 }

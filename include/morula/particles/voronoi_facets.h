@@ -18,8 +18,7 @@ namespace Morula
   {
     /** Their places in the list, a < b. */
     unsigned int a, b;
-    /** Area, µm^(dim-1), in 2-D a length; infinite if the facet is not bounded.
-     */
+    /** Area, µm^(dim-1), in 2-D a length. */
     double area;
     /** Between the points, µm. */
     double distance;
@@ -28,16 +27,20 @@ namespace Morula
   /**
    * The facets of the Voronoi diagram of some points, but for those of points
    * that are farther than @p reach (µm) from each other; sorted by a, then b.
-   * The facets of no area, as lattices have them, are among them or not. An
-   * area is added up in an order that follows from @p ids alone, so that any
-   * list which has the points around gives the same bits. Of points in one
-   * place all but one have no facet.
+   * What of a facet is farther than @p radius (µm) from its points does not
+   * count, so that facets at the hull have an end, and that no point farther
+   * than twice the radius from a or b has any influence. The facets of no area,
+   * as lattices have them, are among them or not. An area is added up in an
+   * order that follows from @p ids alone, so that any list which has these
+   * points gives the same, but for rounding where a facet has been cut. Of
+   * points in one place all but one have no facet.
    */
   template <int dim>
   std::vector<VoronoiFacet>
   voronoi_facets(const std::vector<Point<dim>>            &points,
                  const std::vector<types::particle_index> &ids,
-                 const double                              reach);
+                 const double                              reach,
+                 const double                              radius);
 } // namespace Morula
 
 #endif

@@ -79,18 +79,18 @@ namespace Morula
     std::vector<Tensor<1, dim>>
     tractions_of(const Equilibrium::Vector &u) const;
 
-    const TissueModel<dim>       &model;
-    const Tissue<dim>            &tissue;
-    const SplineSpace<dim>       &space;
-    const DevelopmentOfStep<dim> &growth;
-    const double                  typical_stiffness;
-    const bool                    in_parts;
+    const TissueModel<dim>         &model;
+    const Tissue<dim>              &tissue;
+    const SplineSpace<dim>         &space;
+    const DevelopmentOfStep<dim>   &growth;
+    const double                    typical_stiffness;
+    const bool                      in_parts;
     const std::vector<unsigned int> points; // held ones, as held_groups()
-    std::vector<Held>             held;
-    const Surroundings<dim>       surroundings;
-    std::vector<Tensor<1, dim>>   T;
-    double                        change  = 0.; // relative, by the last turn
-    unsigned int                  n_turns = 0;
+    std::vector<Held>               held;
+    const Surroundings<dim>         surroundings;
+    std::vector<Tensor<1, dim>>     T;
+    double                          change  = 0.; // relative, by the last turn
+    unsigned int                    n_turns = 0;
   };
 } // namespace Morula
 

@@ -190,10 +190,12 @@ namespace Morula
     });
     equation.surface_places = grouped_places(points, space, at_surface);
 
-    const std::vector<Point<dim>> places = points.positions_of(at_surface.points);
-    std::vector<unsigned int> bodies; // where fields end at each body's surface
-    if (space.is_parted())
-      bodies = points.bodies_of(at_surface.points);
+    const std::vector<Point<dim>> places =
+      points.positions_of(at_surface.points);
+    // Bodies count where fields end at each body's surface.
+    const auto                bodies   = space.is_parted() ?
+                                           points.bodies_of(at_surface.points) :
+                                           std::vector<unsigned int>();
     const std::vector<double> attached = attachment(places, tissue, bodies);
     std::vector<double>       of_cells, diffusion; // of the nearest cell
     if (!field.uniform_diffusion())

@@ -19,9 +19,9 @@ namespace Morula
     : diffusion("Rearrangement/Diffusion",
                 "0",
                 "Diffusion coefficient of a cell among equal ones, which "
-                "exchanges its place with neighbours; a mean of two cells' "
-                "counts. An expression; 0: the cell keeps its place. Units: "
-                "um^2/day.",
+                "exchanges its place with neighbours; of two that differ the "
+                "harmonic mean counts. An expression; 0: the cell keeps its "
+                "place. Units: um^2/day.",
                 Evaluated::step)
     , energy("Rearrangement/Fluctuation energy",
              0.,

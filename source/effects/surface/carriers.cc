@@ -72,12 +72,11 @@ namespace Morula
     const auto id = [&](const unsigned int p) -> double {
       return tissue.cells().id(p);
     };
-    const auto present = values_by_id(
-      carriers(held, tissue),
-      store.positions_of(held),
-      tissue.cells(),
-      id,
-      tissue.grid());
+    const auto                present = values_by_id(carriers(held, tissue),
+                                      store.positions_of(held),
+                                      tissue.cells(),
+                                      id,
+                                      tissue.grid());
     std::vector<unsigned int> lost;
     for (std::size_t k = 0; k < held.size(); ++k)
       if (!present[k])
@@ -90,7 +89,7 @@ namespace Morula
     // of them.
     const std::vector<Point<dim>>   queries = store.positions_of(lost);
     const std::vector<unsigned int> bodies  = store.bodies_of(lost);
-    const auto lowest = nearest_values(
+    const auto                      lowest  = nearest_values(
       queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), bodies);
     const auto mean = nearest_values(
       queries, tissue.cells(), id, Ties::mean, tissue.grid(), bodies);

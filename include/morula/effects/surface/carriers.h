@@ -81,7 +81,7 @@ namespace Morula
   {
     const BoundaryPoints<dim>    &store  = tissue.boundary_points();
     const std::vector<Point<dim>> places = store.positions_of(points);
-    auto found = values_by_id(
+    auto                          found  = values_by_id(
       carriers(points, tissue), places, tissue.cells(), value, tissue.grid());
 
     std::vector<unsigned int> others;

@@ -192,10 +192,7 @@ namespace Morula
 
     const std::vector<Point<dim>> places =
       points.positions_of(at_surface.points);
-    // Bodies count where fields end at each body's surface.
-    const auto                bodies   = space.is_parted() ?
-                                           points.bodies_of(at_surface.points) :
-                                           std::vector<unsigned int>();
+    const auto                bodies   = points.bodies_of(at_surface.points);
     const std::vector<double> attached = attachment(places, tissue, bodies);
     std::vector<double>       of_cells, diffusion; // of the nearest cell
     if (!field.uniform_diffusion())

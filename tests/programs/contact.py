@@ -229,6 +229,18 @@ end
         self.assertGreater(min(cells["y"][cells["body"] == 1]),
                            max(cells["y"][cells["body"] == 0]))
 
+        # Nor do bodies pass that are too far apart to be looked at at first.
+        far = self.blocks(25)
+        rows = self.run_scene(far, {**self.press(85, "30*t"),
+                                    "Time/End time": "1", "Time/Step": "1",
+                                    "Output/Interval": "1"})
+        self.assertGreater(rows["rejected_steps"].sum(), 0)
+        self.assertGreater(self.forces().iloc[-1]["force_y"], 5)
+        cells = read_csv(self.work / "output/cells-0001.csv")
+        self.assertGreater(min(cells["y"][cells["body"] == 1]),
+                           max(cells["y"][cells["body"] == 0]))
+
+        scene = self.blocks(10)
         rows = self.run_scene(scene, {**self.press(70, "60*(t - t*t)"),
                                       "Time/End time": "1", "Time/Step": "0.05",
                                       "Output/Interval": "0.25"})
@@ -295,6 +307,37 @@ end
         again = self.run_scene(scene, keys, ranks=2)
         self.assertAlmostEqual(rows["xmax"][-1], again["xmax"][-1], delta=1e-3)
 
+    def test_a_body_that_dies(self):
+        """leaves no surface behind; a type without cells is no body."""
+        scene = self.blocks(1e-4)
+        self.run_scene(scene, {"Tissue/Boundary points": "144",
+                               "Cell types/Names": "a, b, c",
+                               "Death/When": "t > 0.15 && type == b",
+                               "Death/Shrinking time": "0"})
+        surface = read_csv(self.work / "output/surface-0004.csv")
+        self.assertEqual((len(surface), set(surface["body"])), (72, {0}))
+        self.run_scene(scene, {"Tissue/Points surface": "automatic",
+                               "Cell types/Names": "a, c, b",
+                               "Time/End time": "0.1"})
+        surface = read_csv(self.work / "output/surface-0001.csv")
+        self.assertEqual(set(surface["body"]), {0, 2})
+
+    def test_fields_that_end_at_each_body(self):
+        """A steady and a transient field in bodies that touch, on ranks."""
+        scene = self.blocks(1e-4)
+        keys = {**self.press(60, "5*t"), "Contact/Fields pass": "false",
+                "Fields/Names": "o, m", "Fields/o/Diffusion": "1000",
+                "Fields/o/Consumption": "1",
+                "Fields/o/Fixed where": "Y < 0.001 || Y > 59.999",
+                "Fields/o/Value": "1", "Fields/m/Diffusion": "100",
+                "Fields/m/Time": "transient", "Fields/m/Initial": "1",
+                "Fields/m/Consumption": "1"}
+        lowest = [self.run_scene(scene, keys, ranks)["o_min"][-1]
+                  for ranks in (1, 2)]
+        self.assertAlmostEqual(*lowest, delta=1e-6)
+        together = self.run_scene(scene, {**keys, "Contact/Fields pass": "true"})
+        self.assertAlmostEqual(lowest[0], together["o_min"][-1], delta=0.01)
+
     def test_what_is_refused(self):
         scene = self.blocks(10)
         for keys, message in (
@@ -311,6 +354,15 @@ end
                 ({"Grid/Spacing": "100"}, "contact holds bodies apart from 0.4")):
             self.assertIn(message, self.execute(
                 scene, "--replace", *overrides(keys), code=1).text)
+
+    def test_a_surface_around_both(self):
+        """is open for each of them, and one body has nothing to touch."""
+        cells = block(0, 30, "a") + block(30, 60, "b")
+        scene = self.scene(cells, [[rectangle(0, 60)]])
+        self.assertIn("the surface of body 0 is open", self.execute(
+            scene, "--replace", code=1).text)
+        self.assertIn("there is only one body", self.execute(
+            scene, "--replace", *overrides({"Contact/Bodies": "apart"})).text)
 
     def test_what_is_said(self):
         text = self.execute(self.blocks(10), "--explain").text

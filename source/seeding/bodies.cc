@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/seeding/bodies.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.templates.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
 #include <deal.II/boost_adaptors/point.h>
 #include <deal.II/numerics/rtree.h>
 
@@ -51,25 +50,17 @@ namespace Morula
       lengths.push_back(std::pow(volume, 1. / dim));
     const double longest =
       lengths.empty() ? 0. : *std::max_element(lengths.begin(), lengths.end());
-    const auto                tree = pack_rtree_of_indices(positions);
+    const NearTree<dim>       tree(positions);
     std::vector<unsigned int> depth(positions.size(), 0),
       parent(positions.size());
     std::iota(parent.begin(), parent.end(), 0u);
     boost::disjoint_sets<unsigned int *, unsigned int *> sets(depth.data(),
                                                               parent.data());
-    std::vector<unsigned int>                            near;
     for (unsigned int i = 0; i < positions.size(); ++i)
       {
-        Point<dim> lower = positions[i], upper = lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= 0.5 * widest_bond * (lengths[i] + longest);
-            upper[d] += 0.5 * widest_bond * (lengths[i] + longest);
-          }
-        near.clear();
-        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
-                   std::back_inserter(near));
-        for (const unsigned int j : near)
+        for (const unsigned int j :
+             tree.within(positions[i],
+                         0.5 * widest_bond * (lengths[i] + longest)))
           if (positions[i].distance(positions[j]) <=
               0.5 * widest_bond * (lengths[i] + lengths[j]))
             sets.union_set(i, j);
@@ -132,7 +123,7 @@ namespace Morula
     const std::size_t      n           = patches.positions.size();
     for (unsigned int pass = 0; pass < most_passes; ++pass)
       {
-        const auto          tree = pack_rtree_of_indices(patches.positions);
+        const NearTree<dim> tree(patches.positions);
         std::vector<double> overlaps(n, 0.); // mean, µm
         bool                any = false;
         for (std::size_t b = 0; b < n; ++b)
@@ -141,17 +132,8 @@ namespace Morula
             const Tensor<1, dim> &normal = patches.normals[b];
             const double l     = std::pow(patches.areas[b], 1. / (dim - 1));
             const double reach = 2. * l;
-            Point<dim>   lower = x, upper = x;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                lower[d] -= reach;
-                upper[d] += reach;
-              }
-            std::vector<unsigned int> near;
-            tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
-                       std::back_inserter(near));
-            double sum = 0., weights = 0.;
-            for (const unsigned int c : near)
+            double       sum = 0., weights = 0.;
+            for (const unsigned int c : tree.within(x, reach))
               {
                 if (patches.bodies[c] == patches.bodies[b] ||
                     patches.normals[c] * normal >= -0.3)

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/contact_of_step.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,24 +70,14 @@ namespace Morula
                   {2 * dim + 1, numbers, Ties::lowest_id},
                   tissue.grid(),
                   static_cast<int>(std::ceil(reach / h)));
-    const auto tree    = pack_rtree_of_indices(near.positions);
-    bool       crossed = false;
+    const NearTree<dim> tree(near.positions);
+    bool                crossed = false;
     for (unsigned int p = 0; p < store.size() && !crossed; ++p)
       {
         const Point<dim>     x = store.position(p);
         const Tensor<1, dim> n =
           store.area_vector(p) / store.area_vector(p).norm();
-        Point<dim> lower = x, upper = x;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= reach;
-            upper[d] += reach;
-          }
-        std::vector<unsigned int> around;
-        namespace bgi = boost::geometry::index;
-        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
-                   std::back_inserter(around));
-        for (const unsigned int i : around)
+        for (const unsigned int i : tree.within(x, reach))
           {
             const double *const row = near.row(i).data();
             if (row[2 * dim] == store.body(p))

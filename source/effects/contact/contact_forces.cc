@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/base/send_records.h>
 #include <morula/effects/contact/contact_forces.h>
 #include <morula/particles/nearest.h>
-
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <map>
@@ -74,22 +70,13 @@ namespace Morula
     };
     const PointList<dim> near = near_points(
       queries, store, {3, numbers, Ties::lowest_id}, tissue.grid(), 1);
-    const auto   tree   = pack_rtree_of_indices(near.positions);
-    const double radius = 0.5 * tissue.grid().box().spacing();
+    const NearTree<dim> tree(near.positions);
+    const double        radius = 0.5 * tissue.grid().box().spacing();
 
     std::vector<double> pressures(store.size(), 0.);
     for (std::size_t k = 0; k < loaded.size(); ++k)
       {
-        Point<dim> lower = queries[k], upper = lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= radius;
-            upper[d] += radius;
-          }
-        std::vector<unsigned int> around;
-        namespace bgi = boost::geometry::index;
-        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
-                   std::back_inserter(around));
+        std::vector<unsigned int> around = tree.within(queries[k], radius);
         std::sort(around.begin(),
                   around.end(),
                   [&](const unsigned int i, const unsigned int j) {
@@ -97,8 +84,7 @@ namespace Morula
                   });
         double force = 0., area = 0.;
         for (const unsigned int i : around)
-          if (near.row(i)[2] == store.body(loaded[k]) &&
-              near.positions[i].distance(queries[k]) <= radius)
+          if (near.row(i)[2] == store.body(loaded[k]))
             {
               force += near.row(i)[0];
               area += near.row(i)[1];

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/base/send_records.h>
 #include <morula/effects/contact/contact_points.h>
 #include <morula/particles/nearest.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +101,7 @@ namespace Morula
                   {Flat<PointMessage<dim>>::n, message, Ties::lowest_id},
                   tissue.grid(),
                   static_cast<int>(std::ceil(reach / box.spacing())));
-    const auto tree = pack_rtree_of_indices(near.positions);
+    const NearTree<dim> tree(near.positions);
 
     // Places in `near` of the two points of each pair.
     std::vector<ContactPair> found;
@@ -114,22 +111,11 @@ namespace Morula
           near.template value<PointMessage<dim>>(i);
         if (tissue.grid().owner(box.locate(near.positions[i])) != rank)
           continue;
-        Point<dim> lower = near.positions[i], upper = lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= reach;
-            upper[d] += reach;
-          }
-        std::vector<unsigned int> around;
-        namespace bgi = boost::geometry::index;
-        tree.query(bgi::intersects(BoundingBox<dim>({lower, upper})),
-                   std::back_inserter(around));
-        for (const unsigned int j : around)
+        for (const unsigned int j : tree.within(near.positions[i], reach))
           {
             const auto [other_area, other_body, other_spacing, q] =
               near.template value<PointMessage<dim>>(j);
             if (near.ids[j] > near.ids[i] && other_body != body &&
-                near.positions[i].distance(near.positions[j]) < reach &&
                 area * other_area < may_face * area.norm() * other_area.norm())
               found.emplace_back(i, j);
           }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/effects/contact/fusion.h>
 #include <morula/particles/nearest.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.templates.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <utility>
@@ -57,23 +54,13 @@ namespace Morula
     };
     const PointList<dim> near = near_points(
       queries, store, {2 + dim, numbers, Ties::lowest_id}, tissue.grid(), 1);
-    const auto   tree  = pack_rtree_of_indices(near.positions);
-    const double reach = 0.5 * tissue.grid().box().spacing();
+    const NearTree<dim> tree(near.positions);
+    const double        reach = 0.5 * tissue.grid().box().spacing();
     std::vector<std::pair<unsigned int, unsigned int>> couples;
     for (std::size_t k = 0; k < old.size(); ++k)
       {
-        Point<dim> lower = queries[k], upper = lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= reach;
-            upper[d] += reach;
-          }
-        std::vector<unsigned int> around;
-        tree.query(boost::geometry::index::intersects(
-                     BoundingBox<dim>({lower, upper})),
-                   std::back_inserter(around));
         const unsigned int body = store.body(old[k]);
-        for (const unsigned int i : around)
+        for (const unsigned int i : tree.within(queries[k], reach))
           {
             const double *const row   = near.row(i).data();
             const auto          other = static_cast<unsigned int>(row[0]);

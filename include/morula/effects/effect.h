@@ -96,6 +96,9 @@ namespace Morula
     StateColumns<dim> &state;
     /** Tissue/Center if the shape has one, else the origin, µm. */
     Point<dim> center = Point<dim>();
+    /** Volume of a whole cell at t = 0 where those at the surface are cut by
+     * it, µm^dim; 0: none is cut. */
+    double whole_volume = 0.;
     /** Along what cells divide, for fates that divide them; null: at random. */
     std::shared_ptr<const DivisionAxes<dim>> axes = nullptr;
   };

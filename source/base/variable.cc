@@ -10,10 +10,14 @@ namespace Morula
   {
     // The order is that of the enumeration.
     constexpr std::array<const char *, n_variables> names = {
-      {"X",      "Y",          "Z",    "t",        "x",           "y",
-       "z",      "generation", "age",  "type_age", "cycle_phase", "type",
-       "volume", "growth",     "J_e",  "pressure", "tension",     "shear",
-       "energy", "depth",      "noise"}};
+      {"X",        "Y",           "Z",
+       "t",        "x",           "y",
+       "z",        "generation",  "age",
+       "type_age", "cycle_phase", "type",
+       "volume",   "growth",      "J_e",
+       "pressure", "tension",     "shear",
+       "energy",   "depth",       "present_depth",
+       "noise"}};
     return names[static_cast<unsigned int>(variable)];
   }
 

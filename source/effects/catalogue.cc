@@ -6,6 +6,7 @@
 #include <morula/effects/division/long_axis.h>
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/extrusion.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/type_tension.h>
@@ -55,6 +56,7 @@ namespace Morula
     add<Relaxation>(flows, "relaxation");
     add<DivisionBySize>(fates, "division by size");
     add<Death>(fates, "death");
+    add<Extrusion>(fates, "extrusion");
     add<FixedAxis>(division_rules, "fixed");
     add<StretchAxis>(division_rules, "stretch");
     add<StressAxis>(division_rules, "stress");

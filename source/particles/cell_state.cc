@@ -68,6 +68,18 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  CellColumns<dim>::need_shape()
+  {
+    if (!shape.exists())
+      shape = add<Tensor<2, dim>>(
+        {"shape",
+         "",
+         "H: F H is what divisions have left of the founder's cube",
+         Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+  }
+
+  template <int dim>
   std::vector<double>
   CellColumns<dim>::founder(const Point<dim> &X, const double volume) const
   {

@@ -63,6 +63,8 @@ namespace Morula
     const CellView<dim, double> cell(make_array_view(row), columns);
     if (state.depth.exists())
       cell.set(state.depth, surface[i].depth);
+    if (state.present_depth.exists())
+      cell.set(state.present_depth, surface[i].depth);
     if (state.surface_normal.exists())
       cell.set(state.surface_normal, surface[i].normal);
     if (columns.generation.exists() && !founders.generations.empty())

@@ -38,11 +38,17 @@ namespace Morula
       const auto            &keys    = scene.keys<DivisionBySizeParameters>();
       std::vector<double>    row     = cells.row(i);
       const PresentCell<dim> founder = cells.cell(row, i);
+      // A founder that the surface has cut divides as the whole cell would.
+      const auto share = cells.development().columns().template find<double>(
+        DivisionBySize<dim>::share_of_cell);
+      const double V0 = founder.cell().initial_volume() /
+                        (share.exists() ? founder.cell().get(share) : 1.);
       const double mean = founder.value(keys.volume.expression(dim), 0.);
-      return mean > 0. ? expected_cells_by_size(
-                           founder.cell().initial_volume() * ratio / mean,
-                           founder.value(keys.noise.expression(dim), 0.)) :
-                         1.;
+      return mean > 0. ?
+               expected_cells_by_size(V0 * ratio / mean,
+                                      founder.value(keys.noise.expression(dim),
+                                                    0.)) :
+               1.;
     }
   } // namespace
 

@@ -10,6 +10,7 @@
 #include <morula/scene/tensions.h>
 #include <morula/seeding/shape.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -29,6 +30,16 @@ namespace Morula
     {
       return tissue.is_from_file() ? Point<dim>() :
                                      leading_components<dim>(tissue.center);
+    }
+
+    /** Volume of whole cells where some are cut, µm^dim; else 0. */
+    template <int dim>
+    double
+    whole_volume(const TissueParameters &tissue)
+    {
+      return tissue.surface_cells == "trimmed" && !tissue.is_from_file() ?
+               std::pow(tissue.cell_spacing.value(), dim) :
+               0.;
     }
 
     /** Makes each of the rules that types of cells have once. @param make makes
@@ -102,7 +113,8 @@ namespace Morula
                                effects.columns,
                                effects.state,
                                center_of<dim>(scene.tissue),
-                               tensions_of(scene)};
+                               tensions_of(scene),
+                               whole_volume<dim>(scene.tissue)};
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {
@@ -159,8 +171,9 @@ namespace Morula
     });
     // With a cell cycle F_r is a factor of the growth before the cycle.
     if (!development.flows.empty() && !proliferation)
-      development.relaxed = effects.columns.template add<Tensor<2, dim>>(
-        {"relaxed", "", "F_r, what has relaxed of F_g", identity});
+      development.relaxed = effects.columns.relaxed =
+        effects.columns.template add<Tensor<2, dim>>(
+          {"relaxed", "", "F_r, what has relaxed of F_g", identity});
 
     // The order of fates decides between two events at the same time: that of
     // the later fate happens. So a change of type comes before a death, and

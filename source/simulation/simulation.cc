@@ -8,6 +8,7 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
+#include <morula/simulation/present_depth.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_supports.h>
 
@@ -113,6 +114,7 @@ namespace Morula
     count(space);
     follow_surface(space, former);
     renew_carriers(tissue);
+    set_present_depth(tissue, model.development.state());
     for_step_effects(&StepEffect<dim>::after, time_steps.time(), row.dt);
     complete_row();
   }

@@ -6,6 +6,7 @@
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/simulation/founding.h>
+#include <morula/simulation/present_depth.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/tissue_tables.h>
@@ -82,6 +83,7 @@ namespace Morula
     run_state.next_boundary_id = seeded.surface.n_global;
     run_state.enclosed_share   = surface.begin(tissue);
     renew_carriers(tissue);
+    set_present_depth(tissue, model.development.state());
     begin_lumen(model, tissue, run_state.kept);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }

@@ -93,7 +93,7 @@ class DivisionBySize(ProgramTest):
         self.execute(SCENE, *SHORT, output=output)
         self.assertNotIn(TOO_LONG, (output / "log.txt").read_text())
         last = rows(output / "statistics.csv")[-1]
-        # Rows of cells, 8 um high, grow along the axis.
+        # Columns of cells, 8 um wide, grow along the axis.
         ramp = numpy.clip((numpy.arange(4, 200, 8) - 100) / 40, 0, 1)
         volume = 96 * 8 * numpy.exp(1.2 * 1.2 * ramp).sum()
         self.assertAlmostEqual(float(last["total_volume"]) / volume, 1, delta=0.02)

@@ -52,6 +52,9 @@ namespace Morula
     energy,
     /** Distance of the founder from the surface at t = 0, µm. */
     depth,
+    /** Distance of the cell from the surface at the beginning of the step, µm.
+     */
+    present_depth,
     /** Uniform in (0, 1), the cell's own for its life. */
     noise
   };

@@ -105,6 +105,9 @@ namespace Morula
     Point<dim> center = Point<dim>();
     /** Tensions between types of cells. */
     TypeTensions tensions = {};
+    /** Volume of a whole cell at t = 0 where those at the surface are cut by
+     * it, µm^dim; 0: none is cut. */
+    double whole_volume = 0.;
     /** Along what cells divide, for fates that divide them; null: at random. */
     std::shared_ptr<const DivisionAxes<dim>> axes = nullptr;
   };

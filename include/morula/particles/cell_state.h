@@ -47,6 +47,11 @@ namespace Morula
     void
     need_lineage_key();
 
+    /** Declares the shape, if not yet declared. Effects that follow the shape
+     * of cells through divisions call it. */
+    void
+    need_shape();
+
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
     founder(const Point<dim> &X, const double volume) const;
@@ -68,6 +73,10 @@ namespace Morula
 
     /** Key of the cell's random numbers, which follows from the mother's. */
     Column<std::uint64_t> lineage_key;
+    /** H: what divisions have left of the founder's cube; det H = 1. */
+    Column<Tensor<2, dim>> shape;
+    /** F_r, what has relaxed of F_g, where an effect keeps it apart. */
+    Column<Tensor<2, dim>> relaxed;
   };
 
   /**
@@ -162,6 +171,22 @@ namespace Morula
     elastic_deformation() const
     {
       return F() * invert(growth());
+    }
+
+    /** F F_r⁻¹, the deformation without what has relaxed. */
+    Tensor<2, dim>
+    unrelaxed_deformation() const
+    {
+      return columns_.relaxed.exists() ? F() * invert(get(columns_.relaxed)) :
+                                         F();
+    }
+
+    /** F F_r⁻¹ H, which makes a cube the shape of the cell: doc/theory.md
+     *  (6.10b). Only where the shape is followed. */
+    Tensor<2, dim>
+    shape() const
+    {
+      return unrelaxed_deformation() * get(columns_.shape);
     }
 
     /** J_e = det F / det F_g. */

@@ -18,13 +18,6 @@ namespace Morula
 
   template <int dim>
   void
-  DivisionRule<dim>::divided(const CellView<dim, double> &,
-                             const Tensor<1, dim> &) const
-  {}
-
-
-  template <int dim>
-  void
   DivisionRule<dim>::check(const Preview<dim> &scene) const
   {
     // There are no cells yet. A direction stands for the random one, and the

@@ -5,18 +5,13 @@
 #include <morula/effects/division/long_axis.h>
 #include <morula/effects/state/present_cell.h>
 
-#include <cmath>
-
 namespace Morula
 {
   template <int dim>
   LongAxis<dim>::LongAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
-    : shape(setting.columns.template add<Tensor<2, dim>>(
-        {"shape",
-         "",
-         "H: F H is what divisions have left of a founder's cube",
-         Tensor<2, dim>(unit_symmetric_tensor<dim>())}))
-  {}
+  {
+    setting.columns.need_shape();
+  }
 
 
   template <int dim>
@@ -27,25 +22,10 @@ namespace Morula
     // directions, the random axis stands in.
     if (cell.present == nullptr)
       return cell.random;
-    const CellView<dim, const double> &view = cell.present->cell();
-    return Directions::of_largest_stretch(view.F() * view.get(shape),
+    return Directions::of_largest_stretch(cell.present->cell().shape(),
                                           cell.least_anisotropy,
                                           cell.random)
       .value_or(cell.random);
-  }
-
-
-  template <int dim>
-  void
-  LongAxis<dim>::divided(const CellView<dim, double> &daughter,
-                         const Tensor<1, dim>        &axis) const
-  {
-    // This is doc/theory.md (6.10b). Only the ratios of lengths matter, so the
-    // determinant is kept at 1.
-    const Tensor<2, dim> F      = daughter.F();
-    const Tensor<2, dim> FH     = F * daughter.get(shape);
-    const Tensor<2, dim> halved = FH - 0.5 * outer_product(axis, axis * FH);
-    daughter.set(shape, std::pow(2., 1. / dim) * (invert(F) * halved));
   }
 
 

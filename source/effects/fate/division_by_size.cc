@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/division/halve_shape.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
 
 namespace Morula
 {
@@ -20,6 +22,10 @@ namespace Morula
     /** The column of the time of division has this value while a cell does not
      *  divide. */
     constexpr double undivided = -1.;
+
+    /** A cell that is due for more generations at once has a volume that is a
+     *  mistake: without a limit there would soon be too many cells. */
+    constexpr double most_divisions = 10.;
 
     /** A normally distributed number, of mean 0 and deviation 1, from one that
      *  is exponentially distributed with mean 1. */
@@ -110,6 +116,7 @@ namespace Morula
     , noise(setting.state.use(parameters.noise))
     , random_seed(setting.random_seed)
     , rounding(1024. * setting.slack)
+    , whole_volume(setting.whole_volume)
     , axes(setting.axes)
   {
     // With parent and generation a cell's box is that of F_e, doc/theory.md
@@ -118,6 +125,7 @@ namespace Morula
     columns.need_growth();
     columns.need_lineage();
     columns.need_lineage_key();
+    columns.need_shape();
     grown_volume =
       columns.template add<double>({"grown_volume",
                                     "um^" + std::to_string(dim),
@@ -134,6 +142,21 @@ namespace Morula
                                          AtDivision::reset});
     axis = columns.template add<Tensor<1, dim>>(
       {"division_axis", "", "axis along which the cell divides"});
+    if (whole_volume > 0.)
+      share = columns.template add<double>(
+        {share_of_cell,
+         "",
+         "part of a whole cell that the surface left of the founder",
+         1.});
+  }
+
+
+  template <int dim>
+  void
+  DivisionBySize<dim>::begin(const CellView<dim, double> &cell) const
+  {
+    if (share.exists())
+      cell.set(share, std::min(1., cell.initial_volume() / whole_volume));
   }
 
 
@@ -173,10 +196,13 @@ namespace Morula
                                  const double            t) const
   {
     // This is doc/theory.md (6.10): the mean is that of the key, whatever the
-    // noise.
-    const double mean = cell.value(volume, t);
-    if (mean == 0.)
+    // noise. A founder that the surface has cut is a part of a cell, and so are
+    // its descendants: they divide at that part of the volume, and stay as long
+    // along the surface as their neighbours.
+    const double whole = cell.value(volume, t);
+    if (whole == 0.)
       return std::numeric_limits<double>::infinity();
+    const double mean = share.exists() ? whole * cell.cell().get(share) : whole;
     const double variation = cell.value(noise, t);
     if (variation == 0.)
       return mean;
@@ -217,6 +243,14 @@ namespace Morula
     const double rate = cell.cell().get(growth_rate);
     const double left =
       std::log(threshold(cell, stretch.begin) / cell.cell().get(grown_volume));
+    if (left < -most_divisions * std::log(2.))
+      throw InputError(volume.key(),
+                       volume.text(),
+                       "at least a thousandth of a cell's grown volume, " +
+                         std::to_string(cell.cell().get(grown_volume)) +
+                         (dim == 3 ? " um^3" : " um^2"),
+                       "The cell would divide ten times at once: raise the "
+                       "volume.");
     std::optional<double> event;
     if (left <= 0.)
       event = stretch.begin;
@@ -303,13 +337,11 @@ namespace Morula
                                       which == 0 ?
                                         Random::Draw::first_daughter :
                                         Random::Draw::second_daughter));
-    if (!axes)
-      return;
-    const Tensor<1, dim> n =
-      placement_axis(daughter,
-                     columns.type.exists() ? daughter.get(columns.type) : 0);
-    for (const auto &rule : axes->rules())
-      rule->divided(daughter, n);
+    halve_shape(daughter,
+                placement_axis(daughter,
+                               columns.type.exists() ?
+                                 daughter.get(columns.type) :
+                                 0));
   }
 
 

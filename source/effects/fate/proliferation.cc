@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/division_axes.h>
+#include <morula/effects/division/halve_shape.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 
@@ -215,13 +216,11 @@ namespace Morula
     // The clock in the row is still the mother's, and so is the type: this fate
     // is the first, and that of types the last. Both daughters go on with the
     // mother's cycle, but each gets a random key of its own from hers.
-    if (!rules_.empty())
-      {
-        const Tensor<1, dim> axis = placement_axis(
-          daughter, columns.type.exists() ? daughter.get(columns.type) : 0);
-        for (const auto &rule : rules_)
-          rule->divided(daughter, axis);
-      }
+    halve_shape(daughter,
+                placement_axis(daughter,
+                               columns.type.exists() ?
+                                 daughter.get(columns.type) :
+                                 0));
     const auto [minus, plus] = cycle_.daughters(clock(daughter));
     set_clock(daughter, which == 0 ? minus : plus);
   }

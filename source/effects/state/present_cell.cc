@@ -335,6 +335,8 @@ namespace Morula
           return quantities().energy_density;
         case Variable::depth:
           return cell_.get(columns.depth);
+        case Variable::present_depth:
+          return cell_.get(columns.present_depth);
         case Variable::noise:
           return Random::noise(reader_.random_seed, lineage_key());
         default:

@@ -154,6 +154,14 @@ namespace Morula
                                         0.,
                                         AtDivision::copied,
                                         true}));
+    if (uses(Variable::present_depth))
+      present_depth =
+        columns.template add<double>({"present_depth",
+                                      "um",
+                                      "distance of the cell from the surface",
+                                      0.,
+                                      AtDivision::copied,
+                                      true});
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});
@@ -164,7 +172,7 @@ namespace Morula
   bool
   StateColumns<dim>::needs_surface() const
   {
-    return depth.exists() || surface_normal.exists();
+    return depth.exists() || present_depth.exists() || surface_normal.exists();
   }
 
 

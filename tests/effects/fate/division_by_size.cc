@@ -57,7 +57,11 @@ namespace
                  PointList<2>());
     const auto &columns = development.columns();
     for (unsigned int p = 0; p < volumes.size(); ++p)
-      tissue.cell(p).set(columns.initial_volume, volumes[tissue.cells().id(p)]);
+      {
+        const auto id = tissue.cells().id(p);
+        tissue.cell(p).set(columns.initial_volume, volumes[id]);
+        development.initialize(id, tissue.cell(p));
+      }
     types::particle_index next_id = volumes.size();
     SizedColony           colony;
     for (unsigned int n = 0; n < n_steps; ++n)
@@ -338,4 +342,57 @@ TEST(DivisionBySize, RefusesFoundersOfMoreThanTwiceTheVolume)
   EXPECT_THROW(development.initialize(0, cell, 0.1), InputError);
   cell.set(development.columns().initial_volume, 79.);
   development.initialize(0, cell, 0.1);
+}
+
+
+// A cell that grows along x in a frame which lets it only widen along y has the
+// shape that F gives it, however its growth is stressed; where the stress has
+// relaxed, it has that of its growth.
+TEST(DivisionBySize, FollowsTheShapeOfCells)
+{
+  const auto length_over_width = [](const SizeSettings &more) {
+    SizeSettings settings = growing_to("1", "1000");
+    settings.push_back("Growth/Rate/Share along = 1");
+    settings.push_back("Growth/Rate/Direction = 1; 0");
+    settings.insert(settings.end(), more.begin(), more.end());
+    Alone        alone(settings);
+    Tensor<2, 2> F;
+    F[0][0] = 1.;
+    F[1][1] = 1.3;
+    alone.tissue.cell(0).set(alone.development.columns().deformation, F);
+    for (unsigned int n = 0; n < 100; ++n)
+      alone.live(0.01 * n, 0.01 * (n + 1));
+    const Tensor<2, 2> shape = alone.cell().shape();
+    const auto squares = eigenvalues(symmetrize(shape * transpose(shape)));
+    return std::sqrt(squares[0] / squares[1]);
+  };
+  EXPECT_NEAR(length_over_width({}), 1.3, 1e-9);
+  // F_e is diag(1, 1.3) diag(e, 1)^-1 where nothing relaxes. With a relaxation
+  // that is far faster than growth F_e has no shear, and e remains.
+  EXPECT_NEAR(length_over_width({"Material/Relaxation time = 0.001",
+                                 "Material/Energy per = grown volume"}),
+              std::exp(1.),
+              0.05);
+}
+
+
+// A founder of which the surface has left a third divides at a third of the
+// volume.
+TEST(DivisionBySize, CountsPartsOfCellsAsParts)
+{
+  SizeSettings settings = growing_to("1", "150");
+  settings.push_back("Tissue/Cell spacing = 10");
+  settings.push_back("Tissue/Surface cells = trimmed");
+  const SizedColony colony = grow_colony(settings, {100., 100. / 3.}, 0.5, 2);
+  ASSERT_EQ(colony.births.size(), 4u);
+  for (const auto &birth : colony.births)
+    EXPECT_NEAR(birth.time, std::log(1.5), 1e-6);
+}
+
+
+TEST(DivisionBySize, RefusesAVolumeThatBecomesTiny)
+{
+  Alone alone(growing_to("1", "1000 - 999.9*(t > 0.5)"));
+  alone.live(0., 0.5);
+  EXPECT_THROW(alone.live(0.75, 1.), InputError);
 }

@@ -62,13 +62,6 @@ namespace Morula
     virtual AxisFrame
     frame() const;
 
-    /** Sets the rule's columns of a daughter, whose mother has divided by this
-     *  rule or another. @param axis unit vector from one daughter to the other,
-     *  in the present configuration */
-    virtual void
-    divided(const CellView<dim, double> &daughter,
-            const Tensor<1, dim>        &axis) const;
-
     /** Evaluates the axes of the founders, so that errors appear before the
      *  run. */
     void

@@ -18,19 +18,11 @@ namespace Morula
   class LongAxis : public PresentAxis<dim>
   {
   public:
-    /** Declares the column of the shape. */
+    /** Asks for the shape of cells. */
     LongAxis(const NoAxisKeys &, const EffectSetting<dim> &setting);
 
     Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const override;
-
-    /** Halves the shape. */
-    void
-    divided(const CellView<dim, double> &daughter,
-            const Tensor<1, dim>        &axis) const override;
-
-  private:
-    Column<Tensor<2, dim>> shape; // H
   };
 } // namespace Morula
 

@@ -54,9 +54,17 @@ namespace Morula
   public:
     using Parameters = DivisionBySizeParameters;
 
+    /** Name of the column: which part of a whole cell a founder is. Only where
+     *  the surface cuts founders. */
+    static constexpr const char *share_of_cell = "share_of_cell";
+
     /** Declares the columns. @throws InputError */
     DivisionBySize(const Parameters         &parameters,
                    const EffectSetting<dim> &setting);
+
+    /** Keeps which part of a whole cell a founder is. */
+    void
+    begin(const CellView<dim, double> &cell) const override;
 
     bool
     divides() const override;
@@ -133,13 +141,15 @@ namespace Morula
 
     Expression    volume, noise;
     std::uint64_t random_seed;
-    double        rounding; // of times, day
+    double        rounding;     // of times, day
+    double        whole_volume; // µm^dim; 0: all founders are whole
     /** Null before a scene is complete. */
     std::shared_ptr<const DivisionAxes<dim>> axes;
     Column<double>                           grown_volume; // µm^dim
     Column<double>                           growth_rate;  // 1/day
     Column<double>                           time;         // day
     Column<Tensor<1, dim>>                   axis;
+    Column<double>                           share; // where founders are cut
   };
 } // namespace Morula
 

@@ -108,6 +108,8 @@ namespace Morula
     Column<double> birth_time;
     /** Distance of the founder from the surface at t = 0, µm. */
     Column<double> depth;
+    /** Distance of the cell from the surface at the step's beginning, µm. */
+    Column<double> present_depth;
     /** Outward unit normal of the boundary point nearest to the founder, at t =
      *  0. */
     Column<Tensor<1, dim>> surface_normal;

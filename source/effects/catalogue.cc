@@ -3,7 +3,7 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/division/axis_rules.h>
-#include <morula/effects/division/long_axis.h>
+#include <morula/effects/division/cell_shape_axis.h>
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/extrusion.h>
@@ -65,7 +65,7 @@ namespace Morula
     add<TangentialAxis>(division_rules, "tangential");
     add<Rearrangement>(step_effects, "rearrangement");
     add<NeighbourColumns>(step_effects, "neighbours");
-    add<LongAxis>(division_rules, "long axis");
+    add<CellShapeAxis>(division_rules, "cell shape");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
     add<TypeTension>(forces, "type tension");

@@ -152,9 +152,9 @@ namespace Morula
   {
     // A cell that divides without a clock may have grown along any axis, so it
     // is the long one that is to be cut, unless the scene says otherwise.
-    static const std::string long_axis = "long axis";
+    static const std::string shape = "cell shape";
     return divides_by_fate() && !has_set(cell_cycle.division_axis) ?
-             long_axis :
+             shape :
              cell_cycle.division_axis.value();
   }
 

@@ -134,10 +134,8 @@ namespace Morula
                                  comm,
                                  lumen ? &*lumen : nullptr,
                                  pairs ? &*pairs : nullptr);
-    LinearProblem        linear =
+    const LinearProblem  linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
-    // A kept tangent has the pairs that touched when it was made.
-    linear.costly = linear.costly && !pairs;
     estimate_condition(balance, linear, condition);
     Solution solution{start(attempt).value_or(balance.rest()),
                       attempt.lumen,

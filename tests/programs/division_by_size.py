@@ -116,7 +116,7 @@ class DivisionBySize(ProgramTest):
     def test_what_is_expected(self):
         text = self.execute(SCENE, "--explain").stdout
         self.assertIn("volume = 128", text)
-        self.assertIn("axis = long axis", text)
+        self.assertIn("axis = cell shape", text)
         output = self.work / "output"
         self.execute(SCENE, output=output)
         last = int(rows(output / "statistics.csv")[-1]["cells"])

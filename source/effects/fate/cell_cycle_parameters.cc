@@ -59,7 +59,7 @@ namespace Morula
         "configuration, 'stretch': along the largest elastic stretch, "
         "'stress': along the most tensile stress, 'radial': away from Radial "
         "center, 'surface normal', 'tangential': across or along the surface "
-        "that was nearest to the founder at t = 0, 'long axis': along which "
+        "that was nearest to the founder at t = 0, 'cell shape': along which "
         "the cell is longest; 'gradient of NAME': along "
         "which a field rises fastest.",
         {"random"})

@@ -49,7 +49,7 @@ namespace Morula
              "that are alike; 2-D: area. Not negative; 0: it does not divide. "
              "An expression of the cell's state. The keys of "
              "Proliferation/Cell cycle about axes and daughters hold; "
-             "Division axis is 'long axis' unless it is set. Units: um^3.",
+             "Division axis is 'cell shape' unless it is set. Units: um^3.",
              Evaluated::event)
     , noise("Division by size/Noise",
             "0",

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/division/cell_shape_axis.h>
 #include <morula/effects/division/directions.h>
-#include <morula/effects/division/long_axis.h>
 #include <morula/effects/state/present_cell.h>
 
 namespace Morula
 {
   template <int dim>
-  LongAxis<dim>::LongAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
+  CellShapeAxis<dim>::CellShapeAxis(const NoAxisKeys &,
+                                    const EffectSetting<dim> &setting)
   {
     setting.columns.need_shape();
   }
@@ -16,7 +17,7 @@ namespace Morula
 
   template <int dim>
   Tensor<1, dim>
-  LongAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  CellShapeAxis<dim>::axis(const CellAtOnset<dim> &cell) const
   {
     // Before there are cells, and for cells that are about as long in all
     // directions, the random axis stands in.
@@ -29,6 +30,6 @@ namespace Morula
   }
 
 
-  template class LongAxis<2>;
-  template class LongAxis<3>;
+  template class CellShapeAxis<2>;
+  template class CellShapeAxis<3>;
 } // namespace Morula

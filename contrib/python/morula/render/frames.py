@@ -93,4 +93,6 @@ class Frames:
             (places(surface), np.stack([surface[axis] for axis in
                                         ("nx", "ny", "nz")], axis=1)),
             cut_plane(cells.positions, self.options.azimuth), self.view,
-            self.pixels)
+            self.pixels,
+            (cells.columns["body"], surface["body"]) if "body" in surface
+            else None)

@@ -22,20 +22,17 @@ namespace Morula
       // must be enough quadrature points that the splines can be told apart.
       // All numbers are those of the window, which has seen the sums over all
       // ranks.
-      const GridBoxes<dim> &boxes = occupancy.boxes();
-      const bool            thin  = occupancy.is_thin(number);
+      const bool thin = occupancy.is_thin(number);
       if (thin && !occupancy.is_inner_candidate(number))
         return false;
       double       largest  = 0.;
       unsigned int n_points = 0;
-      boxes.for_neighbors(boxes.index(number),
-                          1,
-                          [&](const unsigned int neighbor, const auto &) {
-                            if (!thin || occupancy.is_inner_candidate(neighbor))
-                              largest =
-                                std::max(largest, occupancy.fill(neighbor));
-                            n_points += occupancy.n_quadrature_points(neighbor);
-                          });
+      occupancy.nodes().for_linked(
+        number, [&](const unsigned int neighbor, const auto &) {
+          if (!thin || occupancy.is_inner_candidate(neighbor))
+            largest = std::max(largest, occupancy.fill(neighbor));
+          n_points += occupancy.n_quadrature_points(neighbor);
+        });
       // 1e-9 absorbs the rounding of the product, as fills are exact multiples
       // of 2⁻⁴⁰.
       const double threshold = occupation_parameter * std::min(1., largest);
@@ -51,9 +48,9 @@ namespace Morula
   {
     // Only grid cells far enough inside of the window get a class: the others'
     // neighbours are not known here. For them other ranks find it.
-    std::vector<GridCellClass> classes(occupancy.boxes().size(),
+    std::vector<GridCellClass> classes(occupancy.nodes().size(),
                                        GridCellClass::empty);
-    const auto set_class = [&](const unsigned int number, const auto &) {
+    const auto                 set_class = [&](const unsigned int number) {
       if (!occupancy.active(number))
         {
           if (occupancy.fill(number) > 0.)
@@ -61,12 +58,16 @@ namespace Morula
         }
       else
         classes[number] = is_inner(occupancy, number, occupation_parameter) ?
-                            GridCellClass::inner :
-                            GridCellClass::cut;
+                                            GridCellClass::inner :
+                                            GridCellClass::cut;
     };
     for (const GridRange<dim> &known :
          occupancy.window().inner(reach_of_classes<dim>()))
-      occupancy.boxes().for_range(known, set_class);
+      occupancy.boxes().for_range(known,
+                                  [&](const unsigned int number, const auto &) {
+                                    occupancy.nodes().for_parts(number,
+                                                                set_class);
+                                  });
     return classes;
   }
 

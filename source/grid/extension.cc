@@ -80,46 +80,41 @@ namespace Morula
   ExtensionSearch<dim>::ExtensionSearch(
     const Occupancy<dim> &occupancy, const std::vector<GridCellClass> &classes)
     : occupancy(occupancy)
-    , boxes_(occupancy.boxes())
+    , nodes(occupancy.nodes())
     , classes(classes)
-    , reached(boxes_.size(), 0)
+    , reached(nodes.size(), 0)
   {}
 
   /** Grid cells with tissue within @p radius of the spline's centre that are
    *  connected, inside this window, to the copy's support. */
   template <int dim>
   std::vector<unsigned int>
-  ExtensionSearch<dim>::connected(const SplineCopy &copy, const int radius)
+  ExtensionSearch<dim>::connected(const GridIndex<dim>            &center,
+                                  const std::vector<unsigned int> &support,
+                                  const int                        radius)
   {
     // A breadth-first search over grid cells with tissue, which starts from the
     // copy's own support and does not leave the given radius. So it does not
     // reach bodies on the other side of a gap. `reached` serves all searches:
     // only the entries that were set are cleared.
-    const GridIndex<dim>      center = boxes_.index(copy.spline);
     std::vector<unsigned int> list;
-    const auto reach = [&](const unsigned int number, const auto &index) {
+    const auto reach = [&](const unsigned int node, const auto &index) {
       for (unsigned int d = 0; d < dim; ++d)
         if (std::abs(index[d] - center[d]) > radius)
           return;
-      if (classes[number] != GridCellClass::empty && !reached[number])
+      if (classes[node] != GridCellClass::empty && !reached[node])
         {
-          reached[number] = 1;
-          list.push_back(number);
+          reached[node] = 1;
+          list.push_back(node);
         }
     };
-    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-      if (copy.support & (1u << a))
-        {
-          GridIndex<dim> grid_cell = center;
-          for (unsigned int d = 0; d < dim; ++d)
-            grid_cell[d] += BSpline<dim>::offset(a, d);
-          reach(boxes_.number(grid_cell), grid_cell);
-        }
+    for (const unsigned int node : support)
+      reach(node, nodes.index(node));
     // The list grows while it is read.
     for (std::size_t i = 0; i < list.size(); ++i)
-      boxes_.for_neighbors(boxes_.index(list[i]), 1, reach);
-    for (const unsigned int number : list)
-      reached[number] = 0;
+      nodes.for_linked(list[i], reach);
+    for (const unsigned int node : list)
+      reached[node] = 0;
     return list;
   }
 
@@ -142,7 +137,7 @@ namespace Morula
     double                          most = 0.;
     for (const unsigned int block : blocks)
       {
-        Group &group = groups[extrapolation<dim>(spline, boxes_.index(block))];
+        Group &group = groups[extrapolation<dim>(spline, nodes.index(block))];
         group.blocks.push_back(block);
         group.fill += occupancy.fill(block);
         most = std::max(most, group.fill);
@@ -157,9 +152,9 @@ namespace Morula
 
   template <int dim>
   std::vector<unsigned int>
-  ExtensionSearch<dim>::blocks(const SplineCopy &copy)
+  ExtensionSearch<dim>::blocks(const GridIndex<dim>            &center,
+                               const std::vector<unsigned int> &support)
   {
-    const GridIndex<dim>      center = boxes_.index(copy.spline);
     std::vector<unsigned int> best;
     double                    best_sum = std::numeric_limits<double>::max();
     std::size_t               n_before = 0;
@@ -179,12 +174,12 @@ namespace Morula
             met_edge = true;
             return {};
           }
-        const auto list = connected(copy, radius);
+        const auto list = connected(center, support, radius);
         best.clear(); // the larger window finds them again
         for (const unsigned int number : list)
           if (classes[number] == GridCellClass::inner)
             {
-              const double sum = sum_of_weights(center, boxes_.index(number));
+              const double sum = sum_of_weights(center, nodes.index(number));
               if (sum < best_sum)
                 best.clear();
               if (sum <= best_sum)

@@ -16,8 +16,10 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  GridCellContents<dim>::GridCellContents(const GridWindow<dim> &window)
+  GridCellContents<dim>::GridCellContents(const GridWindow<dim> &window,
+                                          const Parting<dim>    &parting)
     : window_(window)
+    , nodes_(window, parting)
   {
     clear();
   }
@@ -26,20 +28,22 @@ namespace Morula
   void
   GridCellContents<dim>::clear()
   {
-    volumes.assign(boxes().size(), 0);
-    counts.assign(boxes().size(), Counts{});
-    reaches.assign(boxes().size(), Reaches{});
+    volumes.assign(nodes_.size(), 0);
+    counts.assign(nodes_.size(), Counts{});
+    reaches.assign(nodes_.size(), Reaches{});
   }
 
   template <int dim>
   void
-  GridCellContents<dim>::add_particle(const ParticleDomain<dim> &domain)
+  GridCellContents<dim>::add_particle(const ParticleDomain<dim>  &domain,
+                                      const types::particle_index id)
   {
     const Point<dim> lower = domain.lower(), upper = domain.upper();
     const double     h = boxes().spacing();
     boxes().for_range(
       {boxes().locate(lower), boxes().locate(upper)},
-      [&](const unsigned int number, const GridIndex<dim> &index) {
+      [&](const unsigned int, const GridIndex<dim> &index) {
+        const unsigned int node = nodes_.node_of_cell(index, id);
         // The volume is spread over the axis-parallel cube of the particle,
         // doc/theory.md (3.1). The overlap with each grid cell is rounded to an
         // integer, so that sums do not depend on the order of the particles.
@@ -52,28 +56,31 @@ namespace Morula
             const double from = std::max(0., (lower[d] - corner[d]) / h);
             const double to   = std::min(1., (upper[d] - corner[d]) / h);
             overlap *= std::max(0., to - from);
-            float &up   = reaches[number][2 * d];
-            float &down = reaches[number][2 * d + 1];
+            float &up   = reaches[node][2 * d];
+            float &down = reaches[node][2 * d + 1];
             up          = std::max(up, static_cast<float>(to));
             down        = std::max(down, static_cast<float>(1. - from));
           }
-        volumes[number] += std::llround(overlap * resolution);
+        volumes[node] += std::llround(overlap * resolution);
       });
-    ++counts[boxes().number(boxes().locate(domain.position()))][particle];
+    ++counts[nodes_.node_of_cell(boxes().locate(domain.position()), id)]
+            [particle];
   }
 
   template <int dim>
   void
-  GridCellContents<dim>::add_boundary_point(const Point<dim> &x)
+  GridCellContents<dim>::add_boundary_point(const Point<dim>  &x,
+                                            const unsigned int part)
   {
-    ++counts[boxes().number(boxes().locate(x))][boundary];
+    ++counts[nodes_.node(boxes().locate(x), part)][boundary];
   }
 
   // A point on a grid line counts on both sides, so the point is taken for a
   // box of the width of rounding.
   template <int dim>
   void
-  GridCellContents<dim>::add_quadrature_point(const Point<dim> &x)
+  GridCellContents<dim>::add_quadrature_point(const Point<dim>           &x,
+                                              const types::particle_index id)
   {
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
@@ -82,8 +89,8 @@ namespace Morula
         upper[d] += on_line * boxes().spacing();
       }
     boxes().for_range({boxes().locate(lower), boxes().locate(upper)},
-                      [&](const unsigned int number, const auto &) {
-                        ++counts[number][quadrature];
+                      [&](const unsigned int, const GridIndex<dim> &index) {
+                        ++counts[nodes_.node_of_cell(index, id)][quadrature];
                       });
   }
 
@@ -105,18 +112,19 @@ namespace Morula
     // here: the rest has been summed before, and stays.
     struct Count
     {
-      unsigned int number, n;
+      unsigned int number, part, n;
     };
     const auto list_of_counts = [&]() {
       std::vector<Count> list;
-      for (unsigned int number = 0; number < boxes().size(); ++number)
-        if (const unsigned int n = n_quadrature_points(number); n > 0)
-          list.push_back({window_.whole().number(boxes().index(number)), n});
+      for (unsigned int node = 0; node < nodes_.size(); ++node)
+        if (const unsigned int n = n_quadrature_points(node); n > 0)
+          list.push_back(
+            {window_.whole().number(nodes_.index(node)), nodes_.part(node), n});
       return list;
     };
     const auto n_at = [&](const Count &count) -> std::uint32_t & {
-      return counts[boxes().number(window_.whole().index(count.number))]
-                   [quadrature];
+      return counts[nodes_.node(window_.whole().index(count.number),
+                                count.part)][quadrature];
     };
     const auto summed = window_.to_owners(list_of_counts(), grid);
     // This rank's own counts have been sent; what comes back includes them.
@@ -142,6 +150,7 @@ namespace Morula
       if (grid.owner(record.number) == rank)
         own.push_back(record);
     window_.widen(here);
+    nodes_ = GridNodes<dim>(window_, Parting<dim>(nodes_.parting()));
     spread(own);
   }
 
@@ -166,18 +175,18 @@ namespace Morula
   GridCellContents<dim>::find_own()
   {
     own_.clear();
-    for (unsigned int number = 0; number < boxes().size(); ++number)
-      if (holds_something(number))
-        own_.push_back(number);
+    for (unsigned int node = 0; node < nodes_.size(); ++node)
+      if (holds_something(node))
+        own_.push_back(node);
   }
 
   template <int dim>
   bool
-  GridCellContents<dim>::holds_something(const unsigned int number) const
+  GridCellContents<dim>::holds_something(const unsigned int node) const
   {
-    return volumes[number] > 0 || active(number) ||
-           std::any_of(reaches[number].begin(),
-                       reaches[number].end(),
+    return volumes[node] > 0 || active(node) ||
+           std::any_of(reaches[node].begin(),
+                       reaches[node].end(),
                        [](const float reach) { return reach > 0.f; });
   }
 
@@ -186,35 +195,35 @@ namespace Morula
   GridCellContents<dim>::records() const
   {
     std::vector<Record> list;
-    for (unsigned int number = 0; number < boxes().size(); ++number)
-      if (holds_something(number))
-        list.push_back(record(number));
+    for (unsigned int node = 0; node < nodes_.size(); ++node)
+      if (holds_something(node))
+        list.push_back(record(node));
     return list;
   }
 
   template <int dim>
   typename GridCellContents<dim>::Record
-  GridCellContents<dim>::record(const unsigned int number) const
+  GridCellContents<dim>::record(const unsigned int node) const
   {
-    return {window_.whole().number(boxes().index(number)),
-            counts[number],
-            reaches[number],
-            volumes[number]};
+    return {window_.whole().number(nodes_.index(node)),
+            nodes_.part(node),
+            counts[node],
+            reaches[node],
+            volumes[node]};
   }
 
   template <int dim>
   void
   GridCellContents<dim>::add(const Record &record)
   {
-    // Records carry the number in the grid's box, tables are by number in the
-    // window.
-    const unsigned int number =
-      boxes().number(window_.whole().index(record.number));
-    volumes[number] += record.volume;
+    // Records carry the number in the grid's box, tables are by node.
+    const unsigned int node =
+      nodes_.node(window_.whole().index(record.number), record.part);
+    volumes[node] += record.volume;
     for (unsigned int k = 0; k < record.counts.size(); ++k)
-      counts[number][k] += record.counts[k];
+      counts[node][k] += record.counts[k];
     for (unsigned int k = 0; k < record.reaches.size(); ++k)
-      reaches[number][k] = std::max(reaches[number][k], record.reaches[k]);
+      reaches[node][k] = std::max(reaches[node][k], record.reaches[k]);
   }
 
   template class GridCellContents<2>;

@@ -21,10 +21,11 @@ namespace Morula
   template <int dim>
   Occupancy<dim>::Occupancy(const GridWindow<dim> &window,
                             const unsigned int     points_per_cell,
-                            const bool             share_points)
+                            const bool             share_points,
+                            const Parting<dim>    &parting)
     : points_per_cell(points_per_cell)
     , share_points(share_points)
-    , contents(window)
+    , contents(window, parting)
   {}
 
   template <int dim>
@@ -34,16 +35,18 @@ namespace Morula
 
   template <int dim>
   void
-  Occupancy<dim>::add_particle(const ParticleDomain<dim> &domain)
+  Occupancy<dim>::add_particle(const ParticleDomain<dim>  &domain,
+                               const types::particle_index id)
   {
-    contents.add_particle(domain);
+    contents.add_particle(domain, id);
   }
 
   template <int dim>
   void
-  Occupancy<dim>::add_boundary_point(const Point<dim> &x)
+  Occupancy<dim>::add_boundary_point(const Point<dim>  &x,
+                                     const unsigned int part)
   {
-    contents.add_boundary_point(x);
+    contents.add_boundary_point(x, part);
   }
 
   template <int dim>
@@ -71,14 +74,15 @@ namespace Morula
 
   template <int dim>
   void
-  Occupancy<dim>::add_quadrature_points(const ParticleDomain<dim> &domain)
+  Occupancy<dim>::add_quadrature_points(const ParticleDomain<dim>  &domain,
+                                        const types::particle_index id)
   {
     // A point on a grid line may be shared: each share is a point of its own.
     unsigned int n_points = 0;
     domain.for_quadrature_points(
-      n_points_per_edge(domain), [&](const Point<dim> &point) {
+      n_points_per_edge(domain, id), [&](const Point<dim> &point) {
         for_each_share(point, [&](const Point<dim> &share, unsigned int) {
-          contents.add_quadrature_point(share);
+          contents.add_quadrature_point(share, id);
           ++n_points;
         });
       });
@@ -119,7 +123,7 @@ namespace Morula
     std::vector<unsigned int> found;
     for (const unsigned int number : own())
       if (contents.n_boundary_points(number) > Utilities::pow(4, dim))
-        found.push_back(window().whole().number(boxes().index(number)));
+        found.push_back(window().whole().number(nodes().index(number)));
     crowded_.clear();
     for (const auto &list : gather_everywhere(found, window().communicator()))
       crowded_.insert(crowded_.end(), list.begin(), list.end());
@@ -128,13 +132,14 @@ namespace Morula
 
   template <int dim>
   typename ParticleDomain<dim>::Numbers
-  Occupancy<dim>::n_points_per_edge(const ParticleDomain<dim> &domain) const
+  Occupancy<dim>::n_points_per_edge(const ParticleDomain<dim>  &domain,
+                                    const types::particle_index id) const
   {
     // Thin tissue needs more points than its volume asks for, doc/theory.md,
     // section 3.2: two across a sheet, three across a rod, two where a rod is
     // two cells thick.
     const unsigned int number =
-      boxes().number(boxes().locate(domain.position()));
+      nodes().node_of_cell(boxes().locate(domain.position()), id);
     const double h = boxes().spacing(), side = domain.side();
     const bool   rod   = rows.n_thin(number) > 1; // or a cluster
     const auto   below = [&](const double n_layers) {
@@ -184,7 +189,7 @@ namespace Morula
   {
     // The reaches are units of h from the lower and the upper end of the grid
     // cell.
-    Point<dim> lower = boxes().corner(boxes().index(number)), upper = lower;
+    Point<dim> lower = boxes().corner(nodes().index(number)), upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       {
         upper[d] += contents.up(number, d) * boxes().spacing();
@@ -237,6 +242,13 @@ namespace Morula
   Occupancy<dim>::window() const
   {
     return contents.window();
+  }
+
+  template <int dim>
+  const GridNodes<dim> &
+  Occupancy<dim>::nodes() const
+  {
+    return contents.nodes();
   }
 
   template <int dim>

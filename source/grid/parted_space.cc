@@ -94,7 +94,7 @@ namespace Morula
           {
             for (unsigned int &unknown : grid_cell.unknowns)
               unknown = numbers[b](body.relevant().nth_index_in_set(unknown));
-            grid_cell.body = b;
+            grid_cell.part = b;
             grid_cells_.push_back(std::move(grid_cell));
           }
         n_active += body.n_active;
@@ -105,7 +105,7 @@ namespace Morula
     std::sort(grid_cells_.begin(),
               grid_cells_.end(),
               [](const GridCell &a, const GridCell &b) {
-                return std::tie(a.number, a.body) < std::tie(b.number, b.body);
+                return std::tie(a.number, a.part) < std::tie(b.number, b.part);
               });
     find_relevant();
   }
@@ -114,17 +114,17 @@ namespace Morula
   template <int dim>
   unsigned int
   SplineSpace<dim>::entry(const unsigned int number,
-                          const unsigned int body) const
+                          const unsigned int part) const
   {
     const auto found =
       std::lower_bound(grid_cells_.begin(),
                        grid_cells_.end(),
-                       std::make_pair(number, is_parted() ? body : 0u),
+                       std::make_pair(number, is_parted() ? part : 0u),
                        [](const GridCell &grid_cell, const auto &wanted) {
                          return std::make_pair(grid_cell.number,
-                                               grid_cell.body) < wanted;
+                                               grid_cell.part) < wanted;
                        });
-    Assert(found != grid_cells_.end() && is_at(*found, number, body),
+    Assert(found != grid_cells_.end() && is_at(*found, number, part),
            ExcInternalError());
     return found - grid_cells_.begin();
   }

@@ -22,16 +22,16 @@ namespace Morula
     using Pair = std::array<unsigned int, 3>;
 
     std::vector<Pair>
-    pairs_of(const PartsOnRanks::Seen                              &seen,
-             const std::function<unsigned int(const unsigned int)> &part_of,
-             const MPI_Comm                                         comm)
+    pairs_of(const PartsOnRanks::Seen                          &seen,
+             const std::function<unsigned int(const NodeName)> &part_of,
+             const MPI_Comm                                     comm)
     {
       std::vector<Pair> pairs;
-      // part_of() is asked on the owner, who knows its own part of the grid
-      // cell. A pair is told once, however many grid cells two parts share.
+      // part_of() is asked on the owner, who knows its own part there. A pair
+      // is told once, however many nodes two parts share.
       for (const auto &[rank, list] : send_records(seen, comm))
-        for (const PartsOnRanks::GridCellOfPart &grid_cell : list)
-          pairs.push_back({{rank, grid_cell.part, part_of(grid_cell.number)}});
+        for (const PartsOnRanks::NodeOfPart &node : list)
+          pairs.push_back({{rank, node.part, part_of(node.node)}});
       std::sort(pairs.begin(), pairs.end());
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
       return pairs;
@@ -40,10 +40,10 @@ namespace Morula
 
 
   PartsOnRanks::PartsOnRanks(
-    const std::vector<unsigned int>                       &lowest,
-    const Seen                                            &seen,
-    const std::function<unsigned int(const unsigned int)> &part_of,
-    const MPI_Comm                                         comm)
+    const std::vector<NodeName>                       &lowest,
+    const Seen                                        &seen,
+    const std::function<unsigned int(const NodeName)> &part_of,
+    const MPI_Comm                                     comm)
   {
     // Every rank gathers the lowest grid cells of all parts of all ranks, and
     // all pairs of parts that share a grid cell. Both are short: tissue has few
@@ -54,7 +54,7 @@ namespace Morula
     const auto all_pairs =
       gather_everywhere(pairs_of(seen, part_of, comm), comm);
     std::vector<unsigned int> first(1, 0); // part of each rank
-    std::vector<unsigned int> lowest_of;
+    std::vector<NodeName>     lowest_of;
     for (const auto &list : all_lowest)
       {
         first.push_back(first.back() + list.size());
@@ -74,8 +74,8 @@ namespace Morula
     // The lowest grid cell of a whole stands at its root.
     for (unsigned int part = 0; part < lowest_of.size(); ++part)
       {
-        unsigned int &low = lowest_of[sets.find_set(part)];
-        low               = std::min(low, lowest_of[part]);
+        NodeName &low = lowest_of[sets.find_set(part)];
+        low           = std::min(low, lowest_of[part]);
       }
     for (unsigned int part = 0; part < lowest_of.size(); ++part)
       if (sets.find_set(part) == part)
@@ -98,7 +98,7 @@ namespace Morula
   }
 
 
-  const std::vector<unsigned int> &
+  const std::vector<NodeName> &
   PartsOnRanks::lowest() const
   {
     return lowest_;

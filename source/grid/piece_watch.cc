@@ -157,10 +157,10 @@ namespace Morula
         std::vector<Kept<dim>> kept;
         for (const auto &grid_cell : space.grid_cells())
           if (const auto found =
-                former.find({grid_cell.number, grid_cell.body});
+                former.find({grid_cell.number, grid_cell.part});
               found != former.end())
             kept.push_back({box.index(grid_cell.number),
-                            space.piece(grid_cell.number, grid_cell.body),
+                            space.piece(grid_cell.number, grid_cell.part),
                             found->second});
         const auto joined = pieces_that_joined(kept, space.n_pieces(), comm);
         if (std::find(joined.begin(), joined.end(), true) != joined.end())
@@ -183,8 +183,8 @@ namespace Morula
     n_pieces = space.n_pieces();
     for (const auto &grid_cell : space.grid_cells())
       remembered.push_back({box.index(grid_cell.number),
-                            space.piece(grid_cell.number, grid_cell.body),
-                            grid_cell.body});
+                            space.piece(grid_cell.number, grid_cell.part),
+                            grid_cell.part});
     return place;
   }
 
@@ -194,10 +194,9 @@ namespace Morula
   {
     std::vector<unsigned int> holds_cells(space.n_pieces(), 0);
     for (const auto &grid_cell : space.grid_cells())
-      if (const Occupancy<dim> &occupancy = space.occupancy(grid_cell.body);
-          occupancy.n_particles(
-            occupancy.boxes().number(space.box().index(grid_cell.number))) > 0)
-        holds_cells[space.piece(grid_cell.number, grid_cell.body)] = 1;
+      if (space.occupancy(grid_cell.part).n_particles(space.node(grid_cell)) >
+          0)
+        holds_cells[space.piece(grid_cell.number, grid_cell.part)] = 1;
     Utilities::MPI::max(holds_cells, comm, holds_cells);
     return std::count(holds_cells.begin(), holds_cells.end(), 1);
   }

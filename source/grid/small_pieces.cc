@@ -38,15 +38,14 @@ namespace Morula
       // Each rank looks at its own grid cells. A maximum and a sum over all
       // ranks give all pieces at once; the lower corners carry a minus, so that
       // one maximum serves both.
-      const GridBoxes<dim> &boxes = occupancy.boxes();
-      Extents<dim>          all;
+      Extents<dim> all;
       all.corners.assign(copies.n_pieces() * 2 * dim,
                          std::numeric_limits<double>::lowest());
       all.counts.assign(copies.n_pieces() * Extents<dim>::n_counts, 0);
-      for (const unsigned int number : copies.own_grid_cells())
+      for (const unsigned int number : copies.own_nodes())
         {
           const unsigned int   piece  = copies.piece(number);
-          const GridIndex<dim> index  = boxes.index(number);
+          const GridIndex<dim> index  = occupancy.nodes().index(number);
           const auto [lower, upper]   = occupancy.bounds(number);
           double *const       corners = &all.corners[piece * 2 * dim];
           std::int64_t *const counts =

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/parts_on_ranks.h>
 #include <morula/grid/spline_copies.h>
 
 #include <deal.II/base/types.h>
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 
 namespace Morula
@@ -78,17 +78,18 @@ namespace Morula
         }
     }
 
-    /** By grid cell, whether it or a neighbour is active: only there stand
-     *  splines with active grid cells. */
+    /** By grid cell, whether it or a neighbour has an active node: only there
+     *  stand splines with active grid cells. */
     template <int dim>
     std::vector<char>
     near_active(const std::vector<GridCellClass> &classes,
+                const GridNodes<dim>             &nodes,
                 const GridBoxes<dim>             &boxes)
     {
       std::vector<char> near(boxes.size(), 0);
-      for (unsigned int number = 0; number < boxes.size(); ++number)
-        if (is_active(classes[number]))
-          boxes.for_neighbors(boxes.index(number),
+      for (unsigned int node = 0; node < nodes.size(); ++node)
+        if (is_active(classes[node]))
+          boxes.for_neighbors(nodes.index(node),
                               1,
                               [&](const unsigned int neighbor, const auto &) {
                                 near[neighbor] = 1;
@@ -99,18 +100,20 @@ namespace Morula
 
   template <int dim>
   SplineCopies<dim>::SplineCopies(const GridWindow<dim>            &window,
+                                  const GridNodes<dim>             &nodes,
                                   const std::vector<GridCellClass> &classes,
                                   const BackgroundGrid<dim>        &grid)
     : boxes(window.boxes())
+    , nodes(nodes)
     , first(boxes.size() + 1, 0)
-    , pieces(boxes.size(), no_piece)
+    , pieces(nodes.size(), no_piece)
   {
     // Copies follow from the classes around a spline, so they are made for
     // splines that are far enough inside of the window, and near active grid
     // cells. Parts are grid cells joined by copies on this rank; all ranks'
     // parts are joined to pieces then. Last, the copies that this rank uses
     // learn their piece, from any grid cell of their support.
-    const std::vector<char> near = near_active(classes, boxes);
+    const std::vector<char> near = near_active(classes, nodes, boxes);
     find_own(classes, near, grid);
     std::vector<char> known(boxes.size(), 0);
     for (const GridRange<dim> &range : window.inner(reach()))
@@ -121,19 +124,20 @@ namespace Morula
       {
         // first[] has an entry for each spline, also for those without copies.
         if (known[spline])
-          add_copies(spline, classes);
+          {
+            if (nodes.is_near_contest(spline))
+              add_copies_of_parts(spline, classes);
+            else
+              add_copies(spline, classes);
+          }
         first[spline + 1] = copies.size();
       }
     const unsigned int n_parts = find_parts();
     join_parts(n_parts, window.whole(), grid);
     for (SplineCopy &copy : copies)
       if (is_used(copy))
-        for_support(boxes,
-                    copy.spline,
-                    [&](const unsigned int a, const unsigned int number) {
-                      if (copy.support & (1u << a))
-                        copy.piece = pieces[number];
-                    });
+        for (const unsigned int node : nodes_of(copy))
+          copy.piece = pieces[node];
   }
 
   template <int dim>
@@ -151,18 +155,20 @@ namespace Morula
       if (near[number] && (alone || grid.owner(boxes.index(number)) == rank))
         {
           own[number] = 1;
-          if (is_active(classes[number]))
-            own_active.push_back(number);
+          nodes.for_parts(number, [&](const unsigned int node) {
+            if (is_active(classes[node]))
+              own_active.push_back(node);
+          });
         }
     // With several boxes the window's order is not that of the grid's box, in
     // which unknowns are numbered.
     if (boxes.boxes().size() > 1)
-      std::sort(own_active.begin(),
-                own_active.end(),
-                [&](const unsigned int a, const unsigned int b) {
-                  return grid.box().number(boxes.index(a)) <
-                         grid.box().number(boxes.index(b));
-                });
+      std::stable_sort(own_active.begin(),
+                       own_active.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return grid.box().number(nodes.index(a)) <
+                                grid.box().number(nodes.index(b));
+                       });
   }
 
   template <int dim>
@@ -196,17 +202,89 @@ namespace Morula
   }
 
   template <int dim>
+  void
+  SplineCopies<dim>::add_copies_of_parts(
+    const unsigned int spline, const std::vector<GridCellClass> &classes)
+  {
+    // As above, for nodes and their links instead of grid cells that touch.
+    // Links between nodes of the support alone count: parts that join outside
+    // of it have copies of their own.
+    std::vector<unsigned int> tissue;
+    for_support(boxes,
+                spline,
+                [&](const unsigned int, const unsigned int number) {
+                  nodes.for_parts(number, [&](const unsigned int node) {
+                    if (classes[node] >= GridCellClass::reached)
+                      tissue.push_back(node);
+                  });
+                });
+    const auto touches = [&](const unsigned int a, const unsigned int b) {
+      bool           touch = true;
+      GridIndex<dim> i = nodes.index(a), j = nodes.index(b);
+      for (unsigned int d = 0; d < dim; ++d)
+        touch = touch && std::abs(i[d] - j[d]) <= 1;
+      return touch && nodes.are_linked(a, b);
+    };
+    while (!tissue.empty())
+      {
+        // The part grows while it is read, from the first node that is left.
+        std::vector<unsigned int> part(1, tissue.front());
+        tissue.erase(tissue.begin());
+        for (std::size_t i = 0; i < part.size(); ++i)
+          for (std::size_t k = 0; k < tissue.size();)
+            if (touches(part[i], tissue[k]))
+              {
+                part.push_back(tissue[k]);
+                tissue.erase(tissue.begin() + k);
+              }
+            else
+              ++k;
+        bool inner = false;
+        for (const unsigned int node : part)
+          inner = inner || classes[node] == GridCellClass::inner;
+        part.erase(std::remove_if(part.begin(),
+                                  part.end(),
+                                  [&](const unsigned int node) {
+                                    return !is_active(classes[node]);
+                                  }),
+                   part.end());
+        if (part.empty())
+          continue;
+        copies.push_back({spline,
+                          0,
+                          inner,
+                          no_piece,
+                          static_cast<unsigned int>(lists.size())});
+        lists.push_back(std::move(part));
+      }
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  SplineCopies<dim>::nodes_of(const SplineCopy &copy) const
+  {
+    if (copy.listed != no_piece)
+      return lists[copy.listed];
+    std::vector<unsigned int> list;
+    for_support(boxes,
+                copy.spline,
+                [&](const unsigned int a, const unsigned int number) {
+                  if (copy.support & (1u << a))
+                    list.push_back(number);
+                });
+    return list;
+  }
+
+  template <int dim>
   bool
   SplineCopies<dim>::is_used(const SplineCopy &copy) const
   {
-    bool used = is_own(copy);
-    if (!used)
-      for_support(boxes,
-                  copy.spline,
-                  [&](const unsigned int a, const unsigned int number) {
-                    used = used || ((copy.support & (1u << a)) && own[number]);
-                  });
-    return used;
+    if (is_own(copy))
+      return true;
+    for (const unsigned int node : nodes_of(copy))
+      if (own[nodes.grid_cell(node)])
+        return true;
+    return false;
   }
 
   template <int dim>
@@ -218,37 +296,31 @@ namespace Morula
     // does not use are left out, since their grid cells may lie beyond what it
     // knows. The parts get numbers in the order of their first grid cells in
     // the window.
-    std::vector<unsigned int> rank(boxes.size(), 0), parent(boxes.size());
+    std::vector<unsigned int> rank(nodes.size(), 0), parent(nodes.size());
     std::iota(parent.begin(), parent.end(), 0u);
     boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
                                                               parent.data());
-    std::vector<char>                                    used(boxes.size(), 0);
+    std::vector<char>                                    used(nodes.size(), 0);
     for (const SplineCopy &copy : copies)
       {
         if (!is_used(copy))
           continue;
-        // The first grid cell of the support, with which the others are joined.
-        unsigned int one = no_piece;
-        for_support(boxes,
-                    copy.spline,
-                    [&](const unsigned int a, const unsigned int number) {
-                      if (!(copy.support & (1u << a)))
-                        return;
-                      used[number] = 1;
-                      if (one == no_piece)
-                        one = number;
-                      sets.union_set(one, number);
-                    });
+        const std::vector<unsigned int> support = nodes_of(copy);
+        for (const unsigned int node : support)
+          {
+            used[node] = 1;
+            sets.union_set(support.front(), node);
+          }
       }
     unsigned int              n_parts = 0;
-    std::vector<unsigned int> part_of_root(boxes.size(), no_piece);
-    for (unsigned int number = 0; number < boxes.size(); ++number)
-      if (used[number])
+    std::vector<unsigned int> part_of_root(nodes.size(), no_piece);
+    for (unsigned int node = 0; node < nodes.size(); ++node)
+      if (used[node])
         {
-          unsigned int &part = part_of_root[sets.find_set(number)];
+          unsigned int &part = part_of_root[sets.find_set(node)];
           if (part == no_piece)
             part = n_parts++;
-          pieces[number] = part;
+          pieces[node] = part;
         }
     return n_parts;
   }
@@ -259,26 +331,29 @@ namespace Morula
                                 const GridBox<dim>        &whole,
                                 const BackgroundGrid<dim> &grid)
   {
-    // For each part its lowest grid cell, and for each grid cell of another
-    // rank that this rank's parts hold, a message to its owner: there the two
-    // ranks' parts belong together.
-    std::vector<unsigned int> lowest_of_parts(n_parts, no_piece);
-    PartsOnRanks::Seen        seen;
-    for (unsigned int number = 0; number < boxes.size(); ++number)
-      if (pieces[number] != no_piece)
+    // For each part its lowest node, and for each node of another rank that
+    // this rank's parts hold, a message to its owner: there the two ranks'
+    // parts belong together.
+    std::vector<NodeName> lowest_of_parts(n_parts,
+                                          std::numeric_limits<NodeName>::max());
+    PartsOnRanks::Seen    seen;
+    for (unsigned int node = 0; node < nodes.size(); ++node)
+      if (pieces[node] != no_piece)
         {
-          const GridIndex<dim> index = boxes.index(number);
-          const unsigned int   there = whole.number(index);
-          unsigned int        &low   = lowest_of_parts[pieces[number]];
-          low                        = std::min(low, there);
-          if (!own[number])
-            seen[grid.owner(index)].push_back({there, pieces[number]});
+          const GridIndex<dim> index = nodes.index(node);
+          const NodeName       there =
+            node_name(whole.number(index), nodes.part(node));
+          NodeName &low = lowest_of_parts[pieces[node]];
+          low           = std::min(low, there);
+          if (!own[nodes.grid_cell(node)])
+            seen[grid.owner(index)].push_back({there, pieces[node]});
         }
     const PartsOnRanks joined(
       lowest_of_parts,
       seen,
-      [&](const unsigned int there) {
-        return pieces[boxes.number(whole.index(there))];
+      [&](const NodeName there) {
+        return pieces[nodes.node(whole.index(grid_cell_of(there)),
+                                 part_of(there))];
       },
       grid.communicator());
     lowest = joined.lowest();
@@ -297,7 +372,7 @@ namespace Morula
   template <int dim>
   unsigned int
   SplineCopies<dim>::at(const GridIndex<dim> &spline,
-                        const GridIndex<dim> &grid_cell) const
+                        const unsigned int    node) const
   {
     const unsigned int number = boxes.number(spline);
     unsigned int       copy   = first[number];
@@ -305,10 +380,17 @@ namespace Morula
     if (first[number + 1] - copy == 1)
       return copy;
     // The bit of the grid cell in the support of the spline.
-    unsigned int a = 0;
+    const GridIndex<dim> grid_cell = nodes.index(node);
+    unsigned int         a         = 0;
     for (int d = dim - 1; d >= 0; --d)
       a = 3 * a + (grid_cell[d] - spline[d] + 1);
-    while (copy < first[number + 1] && !(copies[copy].support & (1u << a)))
+    const auto has_node = [&](const SplineCopy &one) {
+      if (one.listed == no_piece)
+        return (one.support & (1u << a)) != 0;
+      const std::vector<unsigned int> &list = lists[one.listed];
+      return std::find(list.begin(), list.end(), node) != list.end();
+    };
+    while (copy < first[number + 1] && !has_node(copies[copy]))
       ++copy;
     Assert(copy < first[number + 1], ExcInternalError());
     return copy;
@@ -347,16 +429,16 @@ namespace Morula
 
   template <int dim>
   const std::vector<unsigned int> &
-  SplineCopies<dim>::own_grid_cells() const
+  SplineCopies<dim>::own_nodes() const
   {
     return own_active;
   }
 
   template <int dim>
   unsigned int
-  SplineCopies<dim>::piece(const unsigned int number) const
+  SplineCopies<dim>::piece(const unsigned int node) const
   {
-    return pieces[number];
+    return pieces[node];
   }
 
   template <int dim>
@@ -370,7 +452,7 @@ namespace Morula
   unsigned int
   SplineCopies<dim>::lowest_grid_cell(const unsigned int piece) const
   {
-    return lowest[piece];
+    return grid_cell_of(lowest[piece]);
   }
 
   template class SplineCopies<2>;

@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace Morula
 {
@@ -57,7 +58,8 @@ namespace Morula
   {
     boxes   = occupancy_.boxes();
     classes = classify(occupancy_, parameters.occupation_parameter);
-    copies  = SplineCopies<dim>(occupancy_.window(), classes, grid);
+    copies =
+      SplineCopies<dim>(occupancy_.window(), occupancy_.nodes(), classes, grid);
     // Without extension every spline is an unknown of its own.
     if (!extend)
       return true;
@@ -66,15 +68,15 @@ namespace Morula
     blocks.clear();
     ExtensionSearch<dim> search(occupancy_, classes);
     // Blocks are searched for outer copies of this rank's own grid cells alone.
-    for (const unsigned int number : copies.own_grid_cells())
+    for (const unsigned int node : copies.own_nodes())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          const unsigned int c    = copy_at(boxes.index(number), a);
+          const unsigned int c    = copy_at(node, a);
           const SplineCopy  &copy = copies.list()[c];
           // Many grid cells share a spline; its blocks are searched once.
           if (!is_unknown(copy) && small_pieces.count(copy.piece) == 0 &&
               blocks.count(c) == 0)
-            blocks[c] = search.blocks(copy);
+            blocks[c] = search.blocks(copies.center(c), copies.nodes_of(copy));
         }
     return !search.needs_wider_window();
   }
@@ -86,7 +88,7 @@ namespace Morula
     // Each rank counts its own grid cells and splines. Splines of small pieces
     // count as outer ones.
     std::vector<unsigned int> n{
-      static_cast<unsigned int>(copies.own_grid_cells().size()), 0, 0};
+      static_cast<unsigned int>(copies.own_nodes().size()), 0, 0};
     for (const SplineCopy &copy : copies.list())
       if (copies.is_own(copy))
         ++n[copy.inner && small_pieces.count(copy.piece) == 0 ? 1 : 2];
@@ -105,10 +107,9 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineSpace<dim>::copy_at(const GridIndex<dim> &grid_cell,
-                            const unsigned int    a) const
+  SplineSpace<dim>::copy_at(const unsigned int node, const unsigned int a) const
   {
-    return copies.at(neighbor(grid_cell, a), grid_cell);
+    return copies.at(neighbor(occupancy_.nodes().index(node), a), node);
   }
 
   template <int dim>
@@ -130,10 +131,10 @@ namespace Morula
     // These are splines of own grid cells that are unknowns of other ranks, and
     // the splines of other ranks by which own outer ones are expressed.
     std::vector<unsigned int> wanted;
-    for (const unsigned int number : copies.own_grid_cells())
+    for (const unsigned int node : copies.own_nodes())
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
-          const unsigned int c    = copy_at(boxes.index(number), a);
+          const unsigned int c    = copy_at(node, a);
           const SplineCopy  &copy = copies.list()[c];
           if (!copies.is_own(copy) && is_unknown(copy))
             wanted.push_back(c);
@@ -141,7 +142,7 @@ namespace Morula
     for (const auto &[copy, inner] : blocks)
       for (const unsigned int block : inner)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          if (const unsigned int c = copy_at(boxes.index(block), a);
+          if (const unsigned int c = copy_at(block, a);
               !copies.is_own(copies.list()[c]))
             wanted.push_back(c);
     std::sort(wanted.begin(), wanted.end());
@@ -171,11 +172,11 @@ namespace Morula
     std::map<unsigned int, double> sums;
     for (const unsigned int block : inner_grid_cells)
       {
-        const GridIndex<dim> inner   = boxes.index(block);
-        const auto           weights = extension_weights(index, inner);
+        const auto weights =
+          extension_weights(index, occupancy_.nodes().index(block));
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           if (weights[a] != 0.)
-            sums[numbers[copy_at(inner, a)]] += weights[a];
+            sums[numbers[copy_at(block, a)]] += weights[a];
       }
     Terms terms;
     for (const auto &[unknown, sum] : sums)
@@ -197,19 +198,18 @@ namespace Morula
         found = outer.emplace(copy, expression(copy)).first;
       return found->second;
     };
-    for (const unsigned int number : copies.own_grid_cells())
+    for (const unsigned int node : copies.own_nodes())
       {
-        const GridIndex<dim> index = boxes.index(number);
-        std::vector<Terms>   rows;
+        std::vector<Terms> rows;
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          rows.push_back(terms_of(copy_at(index, a)));
-        add_grid_cell(number, rows);
+          rows.push_back(terms_of(copy_at(node, a)));
+        add_grid_cell(node, rows);
       }
   }
 
   template <int dim>
   void
-  SplineSpace<dim>::add_grid_cell(const unsigned int        number,
+  SplineSpace<dim>::add_grid_cell(const unsigned int        node,
                                   const std::vector<Terms> &rows)
   {
     // A grid cell whose splines are all unknowns, each once, keeps them in the
@@ -232,8 +232,8 @@ namespace Morula
       });
 
     GridCell grid_cell;
-    grid_cell.number = occupancy_.window().whole().number(boxes.index(number));
-    grid_cell.thin   = occupancy_.is_thin(number);
+    std::tie(grid_cell.number, grid_cell.part) = occupancy_.nodes().name(node);
+    grid_cell.thin                             = occupancy_.is_thin(node);
     if (is_one_each)
       grid_cell.unknowns = std::move(terms);
     else
@@ -285,7 +285,7 @@ namespace Morula
     // affine fields. Small pieces have unknowns of their polynomial: the value
     // at its centre and the slopes per grid spacing, doc/theory.md (3.4);
     // quadratic ones are 0.
-    if (is_parted())
+    if (!bodies.empty())
       return affine_coefficients_of_body(piece, a, gradient);
     std::vector<double> coefficients(owned().n_elements(), 0.);
     const auto set = [&](const unsigned int unknown, const double value) {
@@ -369,18 +369,19 @@ namespace Morula
   template <int dim>
   unsigned int
   SplineSpace<dim>::piece(const unsigned int number,
-                          const unsigned int body) const
+                          const unsigned int part) const
   {
-    if (is_parted())
-      return first_piece[body] + bodies[body].piece(number);
-    return copies.piece(boxes.number(box().index(number)));
+    if (!bodies.empty())
+      return first_piece[part] + bodies[part].piece(number);
+    return copies.piece(
+      occupancy_.nodes().node(box().index(number), is_parted() ? part : 0));
   }
 
   template <int dim>
   unsigned int
   SplineSpace<dim>::n_pieces() const
   {
-    return is_parted() ? first_piece.back() : copies.n_pieces();
+    return bodies.empty() ? copies.n_pieces() : first_piece.back();
   }
 
   template <int dim>
@@ -394,7 +395,7 @@ namespace Morula
   const Occupancy<dim> &
   SplineSpace<dim>::occupancy(const unsigned int body) const
   {
-    return is_parted() ? bodies[body].occupancy_ : occupancy_;
+    return bodies.empty() ? occupancy_ : bodies[body].occupancy_;
   }
 
   template class SplineSpace<2>;

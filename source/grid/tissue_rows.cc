@@ -25,8 +25,8 @@ namespace Morula
      */
     constexpr double about_equal = 0.8;
 
-    /** Calls visit(row) for the connected rows of grid cells with tissue along
-     *  one direction. */
+    /** Calls visit(row) for the connected rows of nodes with tissue along one
+     *  direction. */
     template <int dim, typename Visit>
     void
     for_each_row(const GridCellContents<dim> &contents,
@@ -35,8 +35,27 @@ namespace Morula
     {
       // Along a direction a row begins wherever the coordinate is the first of
       // its box. The window's boxes do not touch, so no row runs through two of
-      // them. One step beyond the end closes the last row.
-      std::vector<unsigned int> row;
+      // them. Where strands of tissue are parted, several rows are open at a
+      // time: a node goes on with those that end in a node which it is linked
+      // with. One step beyond the end closes the last rows.
+      const GridNodes<dim>                  &nodes = contents.nodes();
+      std::vector<std::vector<unsigned int>> open, next;
+      const auto go_on = [&](const unsigned int node) {
+        if (contents.volume(node) == 0)
+          return;
+        std::vector<unsigned int> row;
+        for (std::vector<unsigned int> &before : open)
+          if (!before.empty() && nodes.are_linked(before.back(), node))
+            {
+              if (row.empty())
+                row = std::move(before);
+              else
+                row.insert(row.end(), before.begin(), before.end());
+              before.clear();
+            }
+        row.push_back(node);
+        next.push_back(std::move(row));
+      };
       for (unsigned int k = 0; k < contents.boxes().boxes().size(); ++k)
         {
           const GridBox<dim> &box    = contents.boxes().boxes()[k];
@@ -50,14 +69,13 @@ namespace Morula
               for (int i = 0; i <= n; ++i)
                 {
                   // The next grid cell of a row is `stride` numbers away.
-                  const unsigned int number = begin + first + i * stride;
-                  if (i < n && contents.volume(number) > 0)
-                    row.push_back(number);
-                  else if (!row.empty())
-                    {
+                  next.clear();
+                  if (i < n)
+                    nodes.for_parts(begin + first + i * stride, go_on);
+                  for (const std::vector<unsigned int> &row : open)
+                    if (!row.empty())
                       visit(row);
-                      row.clear();
-                    }
+                  std::swap(open, next);
                 }
         }
     }
@@ -105,24 +123,22 @@ namespace Morula
                    const unsigned int           number,
                    const GridCellContents<dim> &contents)
     {
-      const GridBoxes<dim> &boxes   = contents.boxes();
-      float                 largest = values[number];
-      boxes.for_neighbors(boxes.index(number),
-                          1,
-                          [&](const unsigned int neighbor, const auto &) {
-                            if (contents.volume(neighbor) > 0)
-                              largest = std::max(largest, values[neighbor]);
-                          });
+      float largest = values[number];
+      contents.nodes().for_linked(
+        number, [&](const unsigned int neighbor, const auto &) {
+          if (contents.volume(neighbor) > 0)
+            largest = std::max(largest, values[neighbor]);
+        });
       return largest;
     }
   } // namespace
 
   template <int dim>
   TissueRows<dim>::TissueRows(const GridCellContents<dim> &contents)
-    : thicknesses(contents.boxes().size(), 1.f)
-    , lengths(contents.boxes().size(), 2.f)
-    , n_thin_(contents.boxes().size(), 0)
-    , candidates(contents.boxes().size(), 1)
+    : thicknesses(contents.nodes().size(), 1.f)
+    , lengths(contents.nodes().size(), 2.f)
+    , n_thin_(contents.nodes().size(), 0)
+    , candidates(contents.nodes().size(), 1)
   {
     // Rows in x choose their candidates first, rows in y among what is left,
     // then rows in z. So the order of the directions is part of the rule.

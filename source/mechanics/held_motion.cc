@@ -184,7 +184,7 @@ namespace Morula
     Points<dim>         points;
     for (const auto &point : held)
       points.emplace_back(space.piece(box.number(box.locate(point.x)),
-                                      point.body),
+                                      point.part),
                           point);
     Fits<dim> fits(space.n_pieces());
     find_centers(points, fits, comm);

@@ -63,8 +63,8 @@ namespace Morula
                                     [](const auto &c, const unsigned int n) {
                                       return c.number < n;
                                     });
-      // The grid cell stands there once for each of its bodies.
-      while (space.piece(number, found->body) != piece)
+      // The grid cell stands there once for each of its parts.
+      while (space.piece(number, found->part) != piece)
         ++found;
       return *found;
     }

@@ -34,7 +34,7 @@ namespace Morula
 
   template <int dim>
   void
-  BoundaryColumns<dim>::need_contact(const bool fuses)
+  BoundaryColumns<dim>::need_contact(const bool fuses, const bool with_parts)
   {
     if (body.exists())
       return;
@@ -51,6 +51,9 @@ namespace Morula
                                     0.,
                                     AtDivision::copied,
                                     true});
+    if (with_parts)
+      part =
+        add<unsigned int>({"part", "", "number of the part of its grid cell"});
     if (fuses)
       contact_age = add<double>({"contact_age",
                                  "day",

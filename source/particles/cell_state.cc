@@ -47,7 +47,7 @@ namespace Morula
 
   template <int dim>
   void
-  CellColumns<dim>::need_bodies()
+  CellColumns<dim>::need_bodies(const bool with_parts)
   {
     if (!body.exists())
       body = add<unsigned int>({"body",
@@ -56,6 +56,9 @@ namespace Morula
                                 0,
                                 AtDivision::copied,
                                 true});
+    if (with_parts && !part.exists())
+      part =
+        add<unsigned int>({"part", "", "number of the part of its grid cell"});
   }
 
   template <int dim>

@@ -22,14 +22,14 @@ namespace Morula
      *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
-    /** Whether a cell of this rank, and of this body if one is given, in the
+    /** Whether a cell of this rank, and of this side if one is given, in the
      * grid cell of @p x or a neighbouring one, is at most @p near away. */
     template <int dim>
     bool
-    has_cell_near(const Point<dim>                  &x,
-                  const std::optional<unsigned int> &body,
-                  const Tissue<dim>                 &tissue,
-                  const double                       near)
+    has_cell_near(const Point<dim>  &x,
+                  const Side<dim>   *side,
+                  const Tissue<dim> &tissue,
+                  const double       near)
     {
       // Most boundary points have a cell in their own grid cell. So this is
       // looked at first, and the neighbours only if it holds none.
@@ -44,10 +44,10 @@ namespace Morula
                                      });
         for (; cell != store.grid_cells().end() && cell->number == number;
              ++cell)
-          for (unsigned int p = cell->begin;
-               p < cell->end && (!body || cell->body == *body);
-               ++p)
-            if (x.distance_square(store.position(p)) <= near * near)
+          for (unsigned int p = cell->begin; p < cell->end; ++p)
+            if (x.distance_square(store.position(p)) <= near * near &&
+                (side == nullptr || (side->body == store.body(p) &&
+                                     side->has(x, store.position(p)))))
               return true;
         return false;
       };
@@ -61,20 +61,20 @@ namespace Morula
       return found;
     }
 
-    /** Some of the points, and their bodies if they have any. */
+    /** Some of the points, and their sides if they have any. */
     template <int dim>
-    std::pair<std::vector<Point<dim>>, std::vector<unsigned int>>
+    std::pair<std::vector<Point<dim>>, std::vector<Side<dim>>>
     selected(const std::vector<unsigned int> &selection,
              const std::vector<Point<dim>>   &points,
-             const std::vector<unsigned int> &bodies)
+             const std::vector<Side<dim>>    &sides)
     {
-      std::vector<Point<dim>>   places;
-      std::vector<unsigned int> of_places;
+      std::vector<Point<dim>> places;
+      std::vector<Side<dim>>  of_places;
       for (const unsigned int p : selection)
         {
           places.push_back(points[p]);
-          if (!bodies.empty())
-            of_places.push_back(bodies[p]);
+          if (!sides.empty())
+            of_places.push_back(sides[p]);
         }
       return {places, of_places};
     }
@@ -89,10 +89,10 @@ namespace Morula
      *  cells nearest to them. Collective. */
     template <int dim>
     std::pair<std::vector<unsigned int>, std::vector<NearCell<dim>>>
-    far_points(const std::vector<Point<dim>>   &points,
-               const std::vector<unsigned int> &bodies,
-               const Tissue<dim>               &tissue,
-               const double                     reaches)
+    far_points(const std::vector<Point<dim>> &points,
+               const std::vector<Side<dim>>  &sides,
+               const Tissue<dim>             &tissue,
+               const double                   reaches)
     {
       // Points with a cell of this rank nearby are settled without any message:
       // a reach is never below a quarter of a grid spacing. Only for the others
@@ -103,10 +103,10 @@ namespace Morula
                             tissue,
                             reaches * least_reach *
                               tissue.grid().box().spacing(),
-                            bodies);
+                            sides);
       if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
         return {};
-      const auto [queries, of_queries] = selected(far, points, bodies);
+      const auto [queries, of_queries] = selected(far, points, sides);
       const Cells<dim> &cells          = tissue.cells();
       const double      h              = tissue.grid().box().spacing();
       const auto        nearest        = nearest_values(
@@ -157,18 +157,15 @@ namespace Morula
 
   template <int dim>
   std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>>   &points,
-                      const Tissue<dim>               &tissue,
-                      const double                     near,
-                      const std::vector<unsigned int> &bodies)
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near,
+                      const std::vector<Side<dim>>  &sides)
   {
     std::vector<unsigned int> found;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (!has_cell_near(points[p],
-                         bodies.empty() ? std::optional<unsigned int>() :
-                                          bodies[p],
-                         tissue,
-                         near))
+      if (!has_cell_near(
+            points[p], sides.empty() ? nullptr : &sides[p], tissue, near))
         found.push_back(p);
     return found;
   }
@@ -198,11 +195,11 @@ namespace Morula
 
   template <int dim>
   std::vector<double>
-  attachment(const std::vector<Point<dim>>   &points,
-             const Tissue<dim>               &tissue,
-             const std::vector<unsigned int> &bodies)
+  attachment(const std::vector<Point<dim>> &points,
+             const Tissue<dim>             &tissue,
+             const std::vector<Side<dim>>  &sides)
   {
-    const auto [far, nearest] = far_points(points, bodies, tissue, 1.);
+    const auto [far, nearest] = far_points(points, sides, tissue, 1.);
     std::vector<double> list(points.size(), 1.);
     for (std::size_t k = 0; k < far.size(); ++k)
       {
@@ -219,7 +216,7 @@ namespace Morula
     const std::vector<Point<dim>> positions =
       tissue.boundary_points().positions();
     const auto [far, nearest] = far_points(positions,
-                                           tissue.boundary_points().bodies(),
+                                           tissue.boundary_points().sides(),
                                            tissue,
                                            most_reaches);
     std::vector<unsigned int> found;
@@ -236,7 +233,7 @@ namespace Morula
     const BoundaryPoints<dim> &points    = tissue.boundary_points();
     std::vector<Point<dim>>    positions = points.positions();
     const auto [far, nearest] =
-      far_points(positions, points.bodies(), tissue, most_reaches);
+      far_points(positions, points.sides(), tissue, most_reaches);
 
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
@@ -273,17 +270,17 @@ namespace Morula
     const Cells<dim>               &cells     = tissue.cells();
     std::vector<Point<dim>>         positions = points.positions();
     const std::vector<unsigned int> far =
-      points_without_cell(positions, tissue, farthest, points.bodies());
+      points_without_cell(positions, tissue, farthest, points.sides());
     if (!Utilities::MPI::logical_or(!far.empty(), tissue.communicator()))
       return 0;
-    const auto [queries, bodies] = selected(far, positions, points.bodies());
-    const auto nearest           = nearest_values(
+    const auto [queries, sides] = selected(far, positions, points.sides());
+    const auto nearest          = nearest_values(
       queries,
       cells,
       [&cells](const unsigned int p) { return cells.position(p); },
       Ties::lowest_id,
       tissue.grid(),
-      bodies);
+      sides);
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < far.size(); ++k)
       {
@@ -307,12 +304,12 @@ namespace Morula
     const std::vector<Point<dim>> &,                                                \
     const Tissue<dim> &,                                                            \
     const double,                                                                   \
-    const std::vector<unsigned int> &);                                             \
+    const std::vector<Side<dim>> &);                                             \
   template double surface_reach(const CellView<dim, const double> &,                \
                                 const double);                                      \
   template std::vector<double>       attachment(const std::vector<Point<dim>> &,    \
                                                 const Tissue<dim> &,                \
-                                                const std::vector<unsigned int> &); \
+                                                const std::vector<Side<dim>> &); \
   template std::vector<unsigned int> detached_points(const Tissue<dim> &);          \
   template std::uint64_t             pull_back_detached_points(Tissue<dim> &);      \
   template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);

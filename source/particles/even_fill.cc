@@ -41,7 +41,7 @@ namespace Morula
       for (const unsigned int number : occupancy.own())
         if (const double fill = occupancy.fill(number); fill >= nearly_full)
           {
-            const GridIndex<dim>   index = occupancy.boxes().index(number);
+            const GridIndex<dim>   index = occupancy.nodes().index(number);
             std::set<unsigned int> ranks;
             grid.box().for_neighbors(
               index, 1, [&](const unsigned int, const GridIndex<dim> &other) {
@@ -54,7 +54,7 @@ namespace Morula
       for (const auto &[sender, list] :
            send_records(by_rank, grid.communicator()))
         for (const FullGridCell<dim> &one : list)
-          fills[occupancy.window().whole().number(one.grid_cell)] = one.fill;
+          fills[occupancy.window().whole().number(one.grid_cell)] += one.fill;
       return fills;
     }
 
@@ -96,7 +96,8 @@ namespace Morula
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const GridIndex<dim> index = box.locate(tissue.cells().position(p));
-        if (!box.contains(index) || tissue.cells().body(p) != body)
+        if (!box.contains(index) ||
+            (!tissue.cells().has_parts() && tissue.cells().body(p) != body))
           continue;
         // Where cells overlap F becomes smaller, where they leave gaps it
         // becomes larger: doc/theory.md (6.9c). The exponent is that of one

@@ -85,15 +85,23 @@ namespace Morula
     std::pair<std::vector<unsigned int>, double>
     nearest(const Point<dim>     &query,
             const PointList<dim> &list,
-            const Tree           &tree)
+            const Tree           &tree,
+            const Side<dim>      &side = {})
     {
       // A lattice can have 2^dim points at the same distance. Twice as many are
       // looked at, so that all of them are found also beside a few nearer ones.
       constexpr unsigned int n_ties   = 2 << dim;
       double                 shortest = std::numeric_limits<double>::infinity();
       std::vector<unsigned int> found;
-      tree.query(boost::geometry::index::nearest(query, n_ties),
-                 std::back_inserter(found));
+      namespace bgi = boost::geometry::index;
+      if (side.n.norm_square() == 0.)
+        tree.query(bgi::nearest(query, n_ties), std::back_inserter(found));
+      else
+        tree.query(bgi::nearest(query, n_ties) &&
+                     bgi::satisfies([&](const unsigned int i) {
+                       return side.has(query, list.positions[i]);
+                     }),
+                   std::back_inserter(found));
       for (const unsigned int i : found)
         shortest = std::min(shortest, query.distance(list.positions[i]));
       found.erase(std::remove_if(found.begin(),
@@ -165,27 +173,30 @@ namespace Morula
 
   namespace
   {
-    /** nearest_numbers() among points of the same body. */
+    /** nearest_numbers() among points of the same side. */
     template <int dim>
     std::vector<double>
-    nearest_of_body(const std::vector<Point<dim>>   &queries,
-                    const std::vector<unsigned int> &bodies,
-                    const PointStore<dim>           &points,
-                    const NearestQuery              &wanted,
-                    const BackgroundGrid<dim>       &grid)
+    nearest_of_side(const std::vector<Point<dim>> &queries,
+                    const std::vector<Side<dim>>  &sides,
+                    const PointStore<dim>         &points,
+                    const NearestQuery            &wanted,
+                    const BackgroundGrid<dim>     &grid)
     {
       // The points come with their body in front of what is wanted. Each body
       // has a tree of its own. The radius doubles as in nearest_numbers(); if
       // even the whole box holds no point of a query's body, that body is gone,
-      // and the nearest of all points counts.
-      NearestQuery with_body{wanted.n + 1,
+      // and the nearest of all points counts. So does the nearest of the body
+      // where none is behind a surface within a few grid cells: such a surface
+      // has lost its tissue.
+      constexpr int near_enough = 4;
+      NearestQuery  with_body{wanted.n + 1,
                              [&](const unsigned int   p,
                                  std::vector<double> &numbers) {
                                numbers.push_back(points.body(p));
                                wanted.append(p, numbers);
                              },
                              wanted.ties};
-      int          largest = 0;
+      int           largest = 0;
       for (const int n : grid.box().n())
         largest = std::max(largest, n);
       for (int radius = 1;; radius *= 2)
@@ -208,9 +219,9 @@ namespace Morula
             trees.emplace(body, pack_rtree_of_indices(one.positions));
           for (std::size_t q = 0; q < queries.size(); ++q)
             {
-              auto tree = trees.find(bodies[q]);
+              auto tree = trees.find(sides[q].body);
               for (auto other = trees.begin();
-                   everywhere_looked && trees.count(bodies[q]) == 0 &&
+                   everywhere_looked && trees.count(sides[q].body) == 0 &&
                    other != trees.end();
                    ++other)
                 if (tree == trees.end() ||
@@ -225,8 +236,16 @@ namespace Morula
                   break;
                 }
               const PointList<dim> &one = lists.at(tree->first);
-              const auto [found, distance] =
-                nearest(queries[q], one, tree->second);
+              auto [found, distance] =
+                nearest(queries[q], one, tree->second, sides[q]);
+              if (found.empty() && radius >= near_enough)
+                std::tie(found, distance) =
+                  nearest(queries[q], one, tree->second);
+              if (found.empty())
+                {
+                  farthest = std::numeric_limits<double>::infinity();
+                  break;
+                }
               farthest = std::max(farthest, distance);
               append_wanted(found, one, wanted.ties, numbers);
             }
@@ -240,15 +259,15 @@ namespace Morula
 
   template <int dim>
   std::vector<double>
-  nearest_numbers(const std::vector<Point<dim>>   &queries,
-                  const PointStore<dim>           &points,
-                  const NearestQuery              &wanted,
-                  const BackgroundGrid<dim>       &grid,
-                  const std::vector<unsigned int> &bodies)
+  nearest_numbers(const std::vector<Point<dim>> &queries,
+                  const PointStore<dim>         &points,
+                  const NearestQuery            &wanted,
+                  const BackgroundGrid<dim>     &grid,
+                  const std::vector<Side<dim>>  &sides)
   {
     if (points.has_bodies() &&
-        Utilities::MPI::logical_or(!bodies.empty(), grid.communicator()))
-      return nearest_of_body(queries, bodies, points, wanted, grid);
+        Utilities::MPI::logical_or(!sides.empty(), grid.communicator()))
+      return nearest_of_side(queries, sides, points, wanted, grid);
     // The nearest point may be in any grid cell. So the radius doubles until
     // every query of every rank has found a point that is nearer than all that
     // may lie outside of the list. Mostly the first radius does. Ranks go on
@@ -293,7 +312,7 @@ namespace Morula
     const PointStore<dim> &,                                                \
     const NearestQuery &,                                                   \
     const BackgroundGrid<dim> &,                                            \
-    const std::vector<unsigned int> &);
+    const std::vector<Side<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

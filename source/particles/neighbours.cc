@@ -160,7 +160,7 @@ namespace Morula
       },
       Ties::lowest_id,
       tissue.grid(),
-      store.bodies());
+      store.sides());
     std::map<unsigned int, std::vector<Patch>> patches_of;
     for (unsigned int k = 0; k < store.size(); ++k)
       patches_of[std::get<0>(nearest[k])].push_back(

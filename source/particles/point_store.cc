@@ -52,9 +52,11 @@ namespace Morula
 
   template <int dim>
   PointStore<dim>::PointStore(const unsigned int          n_numbers,
-                              const Column<unsigned int> &body)
+                              const Column<unsigned int> &body,
+                              const Column<unsigned int> &part)
     : n_numbers(n_numbers)
     , body_column(body)
+    , part_column(part)
   {}
 
   template <int dim>
@@ -230,7 +232,7 @@ namespace Morula
   PointStore<dim>::sort(const BackgroundGrid<dim> &grid)
   {
     // The handler has a list of points for each of its cells. Taken by number
-    // of the grid cells and sorted by body and id inside each, they are in the
+    // of the grid cells and sorted by part and id inside each, they are in the
     // canonical order, which all loops and sums use.
     grid_cells_.clear();
     order.clear();
@@ -242,24 +244,36 @@ namespace Morula
           order.push_back(point);
         if (order.size() == begin)
           continue;
-        const auto body_of = [&](const Iterator &point) {
-          return body_column.exists() ? body_column.get(ArrayView<const double>(
-                                          point->get_properties())) :
-                                        0;
+        const Column<unsigned int> &column =
+          part_column.exists() ? part_column : body_column;
+        const auto part_of = [&](const Iterator &point) {
+          return column.exists() ? column.get(ArrayView<const double>(
+                                     point->get_properties())) :
+                                   0;
         };
         std::sort(order.begin() + begin,
                   order.end(),
                   [&](const Iterator &a, const Iterator &b) {
-                    return std::make_pair(body_of(a), a->get_id()) <
-                           std::make_pair(body_of(b), b->get_id());
+                    return std::make_pair(part_of(a), a->get_id()) <
+                           std::make_pair(part_of(b), b->get_id());
                   });
         for (unsigned int p = begin; p < order.size(); ++p)
-          if (const unsigned int body = body_of(order[p]);
-              p > begin && grid_cells_.back().body == body)
+          if (const unsigned int part = part_of(order[p]);
+              p > begin && grid_cells_.back().part == part)
             ++grid_cells_.back().end;
           else
-            grid_cells_.push_back({number, p, p + 1, body});
+            grid_cells_.push_back({number, p, p + 1, part});
       }
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::set_parts(const std::vector<unsigned int> &parts,
+                             const BackgroundGrid<dim>       &grid)
+  {
+    for (unsigned int p = 0; p < size(); ++p)
+      set(part_column, p, parts[p]);
+    sort(grid);
   }
 
   template <int dim>
@@ -298,17 +312,6 @@ namespace Morula
     std::vector<Point<dim>> list;
     for (const unsigned int p : points)
       list.push_back(position(p));
-    return list;
-  }
-
-  template <int dim>
-  std::vector<unsigned int>
-  PointStore<dim>::bodies_of(const std::vector<unsigned int> &points) const
-  {
-    std::vector<unsigned int> list;
-    if (has_bodies())
-      for (const unsigned int p : points)
-        list.push_back(body(p));
     return list;
   }
 

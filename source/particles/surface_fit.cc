@@ -17,9 +17,9 @@ namespace Morula
      *  Collective. */
     template <int dim>
     double
-    largest_distance_of(const std::vector<Point<dim>>   &points,
-                        const std::vector<unsigned int> &bodies,
-                        const Tissue<dim>               &tissue)
+    largest_distance_of(const std::vector<Point<dim>> &points,
+                        const std::vector<Side<dim>>  &sides,
+                        const Tissue<dim>             &tissue)
     {
       const Cells<dim> &cells = tissue.cells();
       // The nearest cell may belong to another rank.
@@ -29,7 +29,7 @@ namespace Morula
         [&cells](const unsigned int p) { return cells.position(p); },
         Ties::lowest_id,
         tissue.grid(),
-        bodies);
+        sides);
       double largest = 0.;
       for (std::size_t k = 0; k < points.size(); ++k)
         largest = std::max(largest, points[k].distance(nearest[k]));
@@ -48,22 +48,21 @@ namespace Morula
     {
       const std::vector<Point<dim>> points =
         tissue.boundary_points().positions();
-      const std::vector<unsigned int> bodies =
-        tissue.boundary_points().bodies();
-      const double h       = tissue.grid().box().spacing();
-      double       near    = 0.5 * h;
-      double       largest = 0.;
+      const std::vector<Side<dim>> sides   = tissue.boundary_points().sides();
+      const double                 h       = tissue.grid().box().spacing();
+      double                       near    = 0.5 * h;
+      double                       largest = 0.;
       do
         {
           near = near > h / 64. ? 0.5 * near : 0.; // then these are all points
-          std::vector<Point<dim>>   far;
-          std::vector<unsigned int> of_far;
+          std::vector<Point<dim>> far;
+          std::vector<Side<dim>>  of_far;
           for (const unsigned int p :
-               points_without_cell(points, tissue, near, bodies))
+               points_without_cell(points, tissue, near, sides))
             {
               far.push_back(points[p]);
-              if (!bodies.empty())
-                of_far.push_back(bodies[p]);
+              if (!sides.empty())
+                of_far.push_back(sides[p]);
             }
           largest = largest_distance_of(far, of_far, tissue);
       } while (near > 0. && largest < near);

@@ -67,9 +67,9 @@ namespace Morula
 
 
   template <int dim>
-  Surroundings<dim>::Surroundings(const std::vector<Point<dim>>   &places,
-                                  const Tissue<dim>               &tissue,
-                                  const std::vector<unsigned int> &bodies)
+  Surroundings<dim>::Surroundings(const std::vector<Point<dim>> &places,
+                                  const Tissue<dim>             &tissue,
+                                  const std::vector<Side<dim>>  &sides)
     : places(places)
     , cells(tissue.cells())
     , grid(tissue.grid())
@@ -106,7 +106,8 @@ namespace Morula
             const Tensor<1, dim> s    = (near.positions[i] - x) / radius;
             const double         fall = 1. - s.norm_square();
             if (fall <= 0. ||
-                (!bodies.empty() && near.row(i)[1] != bodies[place]))
+                (!sides.empty() && (near.row(i)[1] != sides[place].body ||
+                                    !sides[place].has(x, near.positions[i]))))
               continue;
             around.push_back(i);
             ways.push_back(s);

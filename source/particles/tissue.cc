@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/particles/cell_domain.h>
+#include <morula/particles/find_parting.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/mpi.h>
@@ -244,21 +245,38 @@ namespace Morula
     // Each body is put on the grid as if it were alone, so that no rule of the
     // grid (thin tissue, inner grid cells, small pieces, extension) ever sees
     // two of them: doc/theory.md, section 3.3. Their unknowns are numbered
-    // together then.
+    // together then. Where a body can touch itself all are put on the grid
+    // together, part by part.
     if (!cells_.has_bodies())
       return unparted_splines(share_points);
-    unsigned int n_bodies = 0;
-    for (const auto &grid_cell : cells_.grid_cells())
-      n_bodies = std::max(n_bodies, grid_cell.body + 1);
-    for (const auto &grid_cell : boundary_points_.grid_cells())
-      n_bodies = std::max(n_bodies, grid_cell.body + 1);
-    n_bodies = Utilities::MPI::max(n_bodies, communicator());
+    if (cells_.has_parts())
+      return splines_around([](const unsigned int) { return true; },
+                            share_points,
+                            parting_);
     std::vector<SplineSpace<dim>> spaces;
-    for (unsigned int b = 0; b < n_bodies; ++b)
+    for (unsigned int b = 0; b < n_bodies(*this); ++b)
       spaces.push_back(
         splines_around([b](const unsigned int body) { return body == b; },
                        share_points));
     return SplineSpace<dim>(std::move(spaces), communicator());
+  }
+
+  template <int dim>
+  void
+  Tissue<dim>::part()
+  {
+    if (!cells_.has_parts())
+      return;
+    parting_ = find_parting(*this);
+    std::vector<unsigned int> parts;
+    for (const auto &grid_cell : cells_.grid_cells())
+      for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+        parts.push_back(parting_.part_of_cell(cells_.id(p), grid_cell.number));
+    cells_.set_parts(parts, grid_);
+    parts.clear();
+    for (unsigned int p = 0; p < boundary_points_.size(); ++p)
+      parts.push_back(parting_.part_of_patch(boundary_points_.id(p)));
+    boundary_points_.set_parts(parts, grid_);
   }
 
   template <int dim>
@@ -272,30 +290,38 @@ namespace Morula
   template <int dim>
   template <typename Belongs>
   SplineSpace<dim>
-  Tissue<dim>::splines_around(const Belongs &belongs,
-                              const bool     share_points) const
+  Tissue<dim>::splines_around(const Belongs      &belongs,
+                              const bool          share_points,
+                              const Parting<dim> &parting) const
   {
     // The first round of the occupancy takes all cells and boundary points, and
     // sums over ranks. It shows where tissue is thin, and so how many
     // quadrature points the cells need; these make the second round:
     // doc/theory.md, sections 3.1 and 3.2. Grid cells, classes and splines
     // follow from both.
-    std::vector<ParticleDomain<dim>> domains;
+    std::vector<ParticleDomain<dim>>   domains;
+    std::vector<types::particle_index> ids;
     domains.reserve(cells_.size());
     for (unsigned int p = 0; p < cells_.size(); ++p)
       if (belongs(cells_.body(p)))
-        domains.push_back(domain(p));
+        {
+          domains.push_back(domain(p));
+          ids.push_back(cells_.id(p));
+        }
     Occupancy<dim> occupancy(GridWindow<dim>(grid_, reached(domains, belongs)),
                              parameters.points_per_cell,
-                             share_points);
-    for (const ParticleDomain<dim> &domain : domains)
-      occupancy.add_particle(domain);
+                             share_points,
+                             parting);
+    for (std::size_t i = 0; i < domains.size(); ++i)
+      occupancy.add_particle(domains[i], ids[i]);
+    const bool has_parts = !parting.is_trivial();
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
       if (belongs(boundary_points_.body(p)))
-        occupancy.add_boundary_point(boundary_points_.position(p));
+        occupancy.add_boundary_point(boundary_points_.position(p),
+                                     has_parts ? boundary_points_.part(p) : 0);
     occupancy.sum(grid_);
-    for (const ParticleDomain<dim> &domain : domains)
-      occupancy.add_quadrature_points(domain);
+    for (std::size_t i = 0; i < domains.size(); ++i)
+      occupancy.add_quadrature_points(domains[i], ids[i]);
     occupancy.sum_quadrature_points(grid_);
     return SplineSpace<dim>(grid_, std::move(occupancy), parameters);
   }
@@ -325,10 +351,10 @@ namespace Morula
       ranges.push_back(GridRange<dim>{index, index}.grown(rings, box));
     };
     for (const auto &grid_cell : cells_.grid_cells())
-      if (belongs(grid_cell.body))
+      if (belongs(cells_.body(grid_cell.begin)))
         add(grid_cell.number, rings);
     for (const auto &grid_cell : boundary_points_.grid_cells())
-      if (belongs(grid_cell.body))
+      if (belongs(boundary_points_.body(grid_cell.begin)))
         add(grid_cell.number, 0);
     return ranges;
   }
@@ -370,6 +396,22 @@ namespace Morula
     return grid_.communicator();
   }
 
+  template <int dim>
+  unsigned int
+  n_bodies(const Tissue<dim> &tissue)
+  {
+    unsigned int n = 0;
+    for (const unsigned int body : tissue.cells().bodies())
+      n = std::max(n, body + 1);
+    for (const unsigned int body : tissue.boundary_points().bodies())
+      n = std::max(n, body + 1);
+    return Utilities::MPI::max(n, tissue.communicator());
+  }
+
+  template unsigned int
+  n_bodies(const Tissue<2> &);
+  template unsigned int
+  n_bodies(const Tissue<3> &);
   template class Tissue<2>;
   template class Tissue<3>;
 } // namespace Morula

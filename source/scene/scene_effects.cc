@@ -98,7 +98,7 @@ namespace Morula
     if (scene.has_growth())
       effects.columns.need_growth();
     if (scene.contact.is_on())
-      effects.columns.need_bodies();
+      effects.columns.need_bodies(scene.contact.is_of_all());
     std::unique_ptr<Proliferation<dim>> proliferation;
     if (scene.has_proliferation())
       proliferation =

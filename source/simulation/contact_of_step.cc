@@ -80,7 +80,7 @@ namespace Morula
         for (const unsigned int i : tree.within(x, reach))
           {
             const double *const row = near.row(i).data();
-            if (row[2 * dim] == store.body(p))
+            if (!store.has_parts() && row[2 * dim] == store.body(p))
               continue;
             const auto           area   = Flat<Tensor<1, dim>>::read(row);
             const auto           way    = Flat<Tensor<1, dim>>::read(row + dim);

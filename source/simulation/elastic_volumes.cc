@@ -11,14 +11,14 @@ namespace Morula
 {
   namespace
   {
-    /** ϑ of a grid cell, by its number in the grid's box. */
+    /** ϑ of a part of a grid cell, by its number in the grid's box. */
     struct Value
     {
-      unsigned int number;
+      unsigned int number, part;
       double       theta;
     };
 
-    /** ϑ of the grid cells of a body in this rank's window, by number there; 0
+    /** ϑ of the nodes of a body in this rank's window; 0
      *  where there is no point. Grid cells of other ranks are among them, since
      *  a cell may have part in those. Collective. */
     template <int dim>
@@ -32,52 +32,58 @@ namespace Morula
       // whose windows they lie. The grid cells are numbered in the grid's box
       // there, which is the same on all ranks, and in this rank's window in the
       // result.
-      const GridBoxes<dim> &boxes = space.occupancy(body).boxes();
+      const GridNodes<dim> &nodes     = space.occupancy(body).nodes();
+      const bool            of_bodies = space.n_bodies() > 1;
       std::vector<Value>    values;
       for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-        if (space.grid_cells()[c].body == body)
+        if (!of_bodies || space.grid_cells()[c].part == body)
           values.push_back(
             {space.grid_cells()[c].number,
+             of_bodies ? 0 : space.grid_cells()[c].part,
              force.log_volume_ratio(c, displacement.on_grid_cell(c))});
       const auto of_others = space.occupancy(body).window().to_windows(values);
       values.insert(values.end(), of_others.begin(), of_others.end());
-      std::vector<double> theta(boxes.size(), 0.);
+      std::vector<double> theta(nodes.size(), 0.);
       for (const Value &value : values)
-        theta[boxes.number(space.box().index(value.number))] = value.theta;
+        theta[nodes.node(space.box().index(value.number), value.part)] =
+          value.theta;
       return theta;
     }
 
-    /** Mean over the grid cells that share a point. @param values by number in
-     *  the window */
+    /** Mean over the grid cells that share a point of the cell with this id.
+     *  @param values by node */
     template <int dim>
     double
-    mean_of_shares(const Point<dim>          &x,
-                   const Occupancy<dim>      &occupancy,
-                   const std::vector<double> &values)
+    mean_of_shares(const Point<dim>           &x,
+                   const types::particle_index id,
+                   const Occupancy<dim>       &occupancy,
+                   const std::vector<double>  &values)
     {
-      const GridBoxes<dim> &boxes = occupancy.boxes();
-      double                mean  = 0.;
+      double mean = 0.;
       occupancy.for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
-          mean += values[boxes.number(boxes.locate(share))] / n;
+          mean += values[occupancy.nodes().node_of_cell(
+                    occupancy.boxes().locate(share), id)] /
+                  n;
         });
       return mean;
     }
 
-    /** Mean over the parts of a cell. @param values by grid cell's number in
-     * the window */
+    /** Mean over the quadrature points of the cell with this id. @param values
+     *  by node */
     template <int dim>
     double
-    mean_of_parts(const ParticleDomain<dim> &domain,
-                  const Occupancy<dim>      &occupancy,
-                  const std::vector<double> &values)
+    mean_of_points(const ParticleDomain<dim>  &domain,
+                   const types::particle_index id,
+                   const Occupancy<dim>       &occupancy,
+                   const std::vector<double>  &values)
     {
       double       sum = 0.;
       unsigned int n   = 0;
-      domain.for_quadrature_points(occupancy.n_points_per_edge(domain),
+      domain.for_quadrature_points(occupancy.n_points_per_edge(domain, id),
                                    [&](const Point<dim> &x) {
                                      sum +=
-                                       mean_of_shares(x, occupancy, values);
+                                       mean_of_shares(x, id, occupancy, values);
                                      ++n;
                                    });
       return sum / n;
@@ -115,14 +121,16 @@ namespace Morula
     ratios.reserve(tissue.cells().size());
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        const unsigned int    body      = tissue.cells().body(p);
+        // Where bodies are parted cell by cell, one space has all of them.
+        const unsigned int body =
+          space.n_bodies() > 1 ? tissue.cells().body(p) : 0;
+        const auto            id        = tissue.cells().id(p);
         const Occupancy<dim> &occupancy = space.occupancy(body);
         ratios.push_back(
           form == VolumetricStrain::pooled ?
-            mean_of_parts(tissue.domain(p), occupancy, values[body]) :
-            std::exp(mean_of_shares(tissue.cells().position(p),
-                                    occupancy,
-                                    values[body])));
+            mean_of_points(tissue.domain(p), id, occupancy, values[body]) :
+            std::exp(mean_of_shares(
+              tissue.cells().position(p), id, occupancy, values[body])));
       }
     return ratios;
   }

@@ -59,7 +59,7 @@ namespace Morula
       {
         for (const auto &grid_cell : space.grid_cells())
           {
-            auto &list = of[{grid_cell.number, grid_cell.body}] =
+            auto &list = of[{grid_cell.number, grid_cell.part}] =
               grid_cell.unknowns;
             std::sort(list.begin(), list.end());
           }

@@ -85,7 +85,7 @@ namespace Morula
     , points(held_groups(tissue, space).points)
     , surroundings(tissue.boundary_points().positions_of(points),
                    tissue,
-                   tissue.boundary_points().bodies_of(points))
+                   tissue.boundary_points().sides_of(points))
   {
     // All lists here have the order of held_groups(): this rank's held points
     // by active grid cell. Normals and areas are those at t, as the terms
@@ -94,7 +94,7 @@ namespace Morula
     const std::vector<double> attached =
       attachment(tissue.boundary_points().positions_of(points),
                  tissue,
-                 tissue.boundary_points().bodies_of(points));
+                 tissue.boundary_points().sides_of(points));
     for (std::size_t k = 0; k < points.size(); ++k)
       {
         const BoundaryView<dim> point = tissue.boundary_points()[points[k]];

@@ -73,8 +73,12 @@ namespace Morula
     const auto                            contact   = points_in_contact(space);
     const std::optional<SplineSpace<dim>> apart     = splines_of_fields(space);
     const SplineSpace<dim>               &of_fields = apart ? *apart : space;
-    pieces.look(space, tissue.grid(), time_steps.time());
-    gaps.look(tissue, space, time_steps.time());
+    // Where folds have contact, tissue that comes near does not stick.
+    if (!model.scene.contact.is_of_all())
+      {
+        pieces.look(space, tissue.grid(), time_steps.time());
+        gaps.look(tissue, space, time_steps.time());
+      }
     // The fields of t = 0 are known already: begin() needs them for the first
     // row of statistics.csv.
     if (run_state.n_steps > 1)
@@ -187,6 +191,7 @@ namespace Morula
     const TimerOutput::Scope section(timer, "grid");
     // A step holds the least memory here, before its matrix exists.
     tissue.defragment();
+    tissue.part();
     // Where the volumetric strain is a mean over grid cells, points on grid
     // lines belong to all grid cells around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
@@ -210,7 +215,7 @@ namespace Morula
   {
     // Within a step two points come nearer to each other by a grid spacing at
     // most, or the step is halved.
-    if (!space.is_parted())
+    if (!model.scene.contact.is_on())
       return {};
     const TimerOutput::Scope section(timer, "contact");
     return ContactPoints<dim>(tissue, space, space.box().spacing());

@@ -451,7 +451,7 @@ namespace Morula
     MassList          list;
     for (const auto &grid_cell : cells.grid_cells())
       for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-        list.push_back({space.piece(grid_cell.number, grid_cell.body),
+        list.push_back({space.piece(grid_cell.number, grid_cell.part),
                         cells.position(p),
                         cells.initial_volume(p)});
     return list;

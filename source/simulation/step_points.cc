@@ -92,7 +92,7 @@ namespace Morula
       return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
     }
 
-    /** What ranks tell each other of a quadrature point: its body, λ, μ, and A
+    /** What ranks tell each other of a quadrature point: its part, λ, μ, and A
      *  and W of both states. */
     template <int dim>
     using Message = std::tuple<unsigned int,
@@ -126,7 +126,8 @@ namespace Morula
           const Lame                lame = lame_of(tissue, i, growth, material);
           const ParticleDomain<dim> domain = tissue.domain(i);
           const unsigned int        body   = tissue.cells().body(i);
-          const auto   n    = space.occupancy(body).n_points_per_edge(domain);
+          const auto                id     = tissue.cells().id(i);
+          const auto   n = space.occupancy(body).n_points_per_edge(domain, id);
           const double part = 1. / n_points(n);
           domain.for_quadrature_points(n, [&](const Point<dim> &point) {
             // A point within rounding of a grid line belongs to all grid cells
@@ -134,21 +135,23 @@ namespace Morula
             space.occupancy(body).for_each_share(
               point, [&](const Point<dim> &share, const unsigned int n_shares) {
                 const double of_cell = part / n_shares;
-                list.add_value(tissue.cells().id(i),
-                               share,
-                               Message<dim>(body,
-                                            lame.lambda,
-                                            lame.mu,
-                                            data.current.A,
-                                            of_cell * data.current.W,
-                                            data.previous.A,
-                                            of_cell * data.previous.W));
+                list.add_value(
+                  id,
+                  share,
+                  Message<dim>(
+                    space.part_of_cell(id, body, box.number(box.locate(share))),
+                    lame.lambda,
+                    lame.mu,
+                    data.current.A,
+                    of_cell * data.current.W,
+                    data.previous.A,
+                    of_cell * data.previous.W));
               });
           });
         }
       list = send_to_owners(std::move(list), tissue.grid());
 
-      // The points are ordered by grid cell and body, then by the cell's id,
+      // The points are ordered by grid cell and part, then by the cell's id,
       // then as they stand in the cell, so that sums do not depend on who sent
       // what.
       std::vector<std::pair<unsigned int, unsigned int>> places(list.size());
@@ -180,7 +183,7 @@ namespace Morula
             {
               points.xi.push_back(
                 box.unit_position(list.positions[order[k]], index));
-              const auto [body, lambda, mu, A, W, A_before, W_before] =
+              const auto [part, lambda, mu, A, W, A_before, W_before] =
                 list.template value<Message<dim>>(order[k]);
               append<dim>({{lambda, mu}, {A, W}, {A_before, W_before}},
                           growth.present,

@@ -39,7 +39,7 @@ namespace Morula
               const double strength =
                 friction[p] * h * h / ((t_next - t) * stiffness);
               if (strength >= Drag<dim>::least)
-                list.push_back({space.piece(grid_cell.number, grid_cell.body),
+                list.push_back({space.piece(grid_cell.number, grid_cell.part),
                                 cells.position(p),
                                 Tensor<2, dim>(unit_symmetric_tensor<dim>()),
                                 strength * cells.initial_volume(p) / h});

@@ -270,7 +270,7 @@ namespace Morula
     std::set<Bodies>          touching;
     std::vector<unsigned int> numbers;
     for (const ContactForce<dim> &one : forces)
-      if (one.other < one.body)
+      if (one.other <= one.body)
         touching.emplace(one.other, one.body);
     for (const Bodies &bodies : touching)
       {
@@ -286,8 +286,10 @@ namespace Morula
       {
         ForceRow row;
         row.kind = "contact";
-        row.name = "body " + std::to_string(bodies.first) + " on body " +
-                   std::to_string(bodies.second);
+        row.name = "body " + std::to_string(bodies.first) +
+                   (bodies.first == bodies.second ?
+                      " on itself" :
+                      " on body " + std::to_string(bodies.second));
         for (const ContactForce<dim> &one : forces)
           if (Bodies(one.other, one.body) == bodies)
             {

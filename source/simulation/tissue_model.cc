@@ -47,7 +47,8 @@ namespace Morula
                                  !boundary_conditions.list().empty() ||
                                    scene.contact.is_on());
     if (scene.contact.is_on())
-      columns.need_contact(scene.contact.fusion_time > 0.);
+      columns.need_contact(scene.contact.fusion_time > 0.,
+                           scene.contact.is_of_all());
     // Nitsche's term (4.2) needs F_g of a carrier. The bounded form needs none,
     // as its traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&

@@ -78,15 +78,14 @@ namespace
       }
   }
 
-  /** The copy of a spline that all grid cells with tissue in its support use.
-   */
+  /** All active grid cells of a spline's support. */
   template <int dim>
-  SplineCopy
+  Blocks
   whole(const GridBox<dim>   &box,
         const Classes        &classes,
         const GridIndex<dim> &spline)
   {
-    SplineCopy copy{box.number(spline), 0, false, 0};
+    Blocks support;
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
         GridIndex<dim> grid_cell = spline;
@@ -94,9 +93,9 @@ namespace
           grid_cell[d] += BSpline<dim>::offset(a, d);
         if (box.contains(grid_cell) &&
             is_active(classes[box.number(grid_cell)]))
-          copy.support |= 1u << a;
+          support.push_back(box.number(grid_cell));
       }
-    return copy;
+    return support;
   }
 
   /** A ball of active grid cells, the inner ones at random in its middle. */
@@ -211,12 +210,13 @@ namespace
         ExtensionSearch<dim> search(occupancy, classes);
         for (unsigned int spline = 0; spline < box.size(); ++spline)
           {
-            const SplineCopy copy = whole(box, classes, box.index(spline));
-            if (copy.support == 0)
+            const Blocks support = whole(box, classes, box.index(spline));
+            if (support.empty())
               continue;
             const Blocks best =
               best_blocks<dim>(occupancy, classes, box.index(spline));
-            EXPECT_EQ(search.blocks(copy), best) << "spline " << spline;
+            EXPECT_EQ(search.blocks(box.index(spline), support), best)
+              << "spline " << spline;
             (best.size() > 1 ? n_several : n_one) += 1;
           }
       }
@@ -258,9 +258,11 @@ TEST(Extension, PrefersAFartherBlockToANearerOneOnTheDiagonal)
   classes[diagonal] = classes[straight] = GridCellClass::inner;
   const auto         occupancy          = full(box);
   ExtensionSearch<2> search(occupancy, classes);
-  EXPECT_EQ(search.blocks(whole(box, classes, {{{4, 4}}})), Blocks{straight});
+  EXPECT_EQ(search.blocks({{{4, 4}}}, whole<2>(box, classes, {{{4, 4}}})),
+            Blocks{straight});
   // 7 against 17
-  EXPECT_EQ(search.blocks(whole(box, classes, {{{3, 4}}})), Blocks{diagonal});
+  EXPECT_EQ(search.blocks({{{3, 4}}}, whole<2>(box, classes, {{{3, 4}}})),
+            Blocks{diagonal});
 }
 
 
@@ -283,7 +285,7 @@ TEST(Extension, TakesAllBlocksThatTieInFillAsWell)
       return found == ring.end() ? 1. : fills[found - ring.begin()];
     });
     ExtensionSearch<2> search(occupancy, classes);
-    return search.blocks(whole(box, classes, {{{2, 2}}}));
+    return search.blocks({{{2, 2}}}, whole<2>(box, classes, {{{2, 2}}}));
   };
   EXPECT_EQ(blocks({{0.9, 0.9, 0.9, 0.9}}), ring);
   // what a solver leaves between a body and its mirror image
@@ -307,7 +309,8 @@ TEST(Extension, TakesBlocksThatExtrapolateAlikeTogether)
     return number == below[0] || number == below[1] ? 0.86 : 1.;
   });
   ExtensionSearch<2> search(occupancy, classes);
-  EXPECT_EQ(search.blocks(whole(box, classes, {{{2, 2}}})), below);
+  EXPECT_EQ(search.blocks({{{2, 2}}}, whole<2>(box, classes, {{{2, 2}}})),
+            below);
 }
 
 
@@ -335,7 +338,8 @@ TEST(Extension, DoesNotCoupleAcrossAGap)
     const Classes      classes = slabs(true);
     ExtensionSearch<3> search(occupancy, classes);
     // Its support reaches 3 ... 5; the left slab would be one grid cell nearer.
-    const Blocks blocks = search.blocks(whole(box, classes, {{{4, 2, 2}}}));
+    const Blocks blocks =
+      search.blocks({{{4, 2, 2}}}, whole<3>(box, classes, {{{4, 2, 2}}}));
     EXPECT_FALSE(blocks.empty());
     for (const unsigned int block : blocks)
       EXPECT_EQ(box.index(block)[0], 6);
@@ -343,7 +347,11 @@ TEST(Extension, DoesNotCoupleAcrossAGap)
   {
     const Classes      classes = slabs(false);
     ExtensionSearch<3> search(occupancy, classes);
-    EXPECT_TRUE(search.blocks(whole(box, classes, {{{4, 2, 2}}})).empty());
-    EXPECT_FALSE(search.blocks(whole(box, classes, {{{2, 2, 2}}})).empty());
+    EXPECT_TRUE(
+      search.blocks({{{4, 2, 2}}}, whole<3>(box, classes, {{{4, 2, 2}}}))
+        .empty());
+    EXPECT_FALSE(
+      search.blocks({{{2, 2, 2}}}, whole<3>(box, classes, {{{2, 2, 2}}}))
+        .empty());
   }
 }

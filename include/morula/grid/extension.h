@@ -42,8 +42,8 @@ namespace Morula
                     const std::vector<GridCellClass> &classes);
 
     /**
-     * The inner grid cells with the smallest Σ|e|, in the order of their
-     * numbers. Only those count that grid cells with tissue connect to the
+     * The inner nodes with the smallest Σ|e|, in the order of their numbers.
+     * Only those count that grid cells with tissue connect to the
      * copy's support: bodies across a gap must not be coupled. The sums are
      * products of integers, so that equal sums are equal to the last bit. Grid
      * cells that extrapolate in the same directions by the same distances form
@@ -51,9 +51,12 @@ namespace Morula
      * several agree to 1e-6, all of these. So the choice turns with the tissue.
      * The list is empty if no inner grid cell is connected, or where the window
      * of this rank is too narrow to tell.
+     * @param center  the grid cell that the copy's spline is centred on
+     * @param support the active nodes of the copy
      */
     std::vector<unsigned int>
-    blocks(const SplineCopy &copy);
+    blocks(const GridIndex<dim>            &center,
+           const std::vector<unsigned int> &support);
 
     /** Whether some search has met the window's edge. */
     bool
@@ -61,13 +64,15 @@ namespace Morula
 
   private:
     std::vector<unsigned int>
-    connected(const SplineCopy &copy, const int radius);
+    connected(const GridIndex<dim>            &center,
+              const std::vector<unsigned int> &support,
+              const int                        radius);
     std::vector<unsigned int>
     fullest(const GridIndex<dim>            &spline,
             const std::vector<unsigned int> &blocks) const;
 
     const Occupancy<dim>             &occupancy;
-    const GridBoxes<dim>             &boxes_; // of the window
+    const GridNodes<dim>             &nodes;
     const std::vector<GridCellClass> &classes;
     std::vector<char>                 reached; // scratch, all 0 between calls
     bool                              met_edge = false;

@@ -4,7 +4,7 @@
 #ifndef morula_grid_grid_cell_contents_h
 #define morula_grid_grid_cell_contents_h
 
-#include <morula/grid/grid_window.h>
+#include <morula/grid/grid_nodes.h>
 #include <morula/grid/particle_domain.h>
 
 #include <array>
@@ -14,10 +14,10 @@
 namespace Morula
 {
   /**
-   * What the grid cells of this rank's window hold, over all ranks, by their
-   * numbers in GridWindow::boxes(). Numbers are integers, and a reach is the
-   * largest of all: so nothing depends on the order of the points or on the
-   * number of ranks.
+   * What the grid cells of this rank's window hold, over all ranks, by node:
+   * without contact that is the number in GridWindow::boxes(). Numbers are
+   * integers, and a reach is the largest of all: so nothing depends on the
+   * order of the points or on the number of ranks.
    */
   template <int dim>
   class GridCellContents
@@ -27,20 +27,24 @@ namespace Morula
      *  million times before the integers overflow. */
     static constexpr double resolution = 1099511627776.;
 
-    explicit GridCellContents(const GridWindow<dim> &window);
+    explicit GridCellContents(const GridWindow<dim> &window,
+                              const Parting<dim>    &parting = {});
 
-    /** Adds a particle, whose volume is spread over its cube. */
+    /** Adds a particle, whose volume is spread over its cube.
+     *  @param id of its cell, by which its part is known */
     void
-    add_particle(const ParticleDomain<dim> &domain);
+    add_particle(const ParticleDomain<dim>  &domain,
+                 const types::particle_index id);
 
     /** Adds a boundary point at @p x. */
     void
-    add_boundary_point(const Point<dim> &x);
+    add_boundary_point(const Point<dim> &x, const unsigned int part);
 
-    /** Adds a quadrature point at @p x. On a grid line it counts on both sides:
-     *  else a mirrored tissue would have other classes of grid cells. */
+    /** Adds a quadrature point at @p x of the cell with this id. On a grid line
+     *  it counts on both sides: else a mirrored tissue would have other classes
+     *  of grid cells. */
     void
-    add_quadrature_point(const Point<dim> &x);
+    add_quadrature_point(const Point<dim> &x, const types::particle_index id);
 
     /** Sums all but the quadrature points over all ranks. Collective. */
     void
@@ -60,53 +64,53 @@ namespace Morula
 
     /** The volume of particles, in units of h^dim / resolution. */
     std::int64_t
-    volume(const unsigned int number) const
+    volume(const unsigned int node) const
     {
-      return volumes[number];
+      return volumes[node];
     }
 
     /** Number of quadrature points in the grid cell. */
     unsigned int
-    n_quadrature_points(const unsigned int number) const
+    n_quadrature_points(const unsigned int node) const
     {
-      return counts[number][quadrature];
+      return counts[node][quadrature];
     }
 
     /** Number of particles in the grid cell. */
     unsigned int
-    n_particles(const unsigned int number) const
+    n_particles(const unsigned int node) const
     {
-      return counts[number][particle];
+      return counts[node][particle];
     }
 
     /** Number of boundary points in the grid cell. */
     unsigned int
-    n_boundary_points(const unsigned int number) const
+    n_boundary_points(const unsigned int node) const
     {
-      return counts[number][boundary];
+      return counts[node][boundary];
     }
 
     /** Whether there is a particle, a quadrature point or a boundary point. */
     bool
-    active(const unsigned int number) const
+    active(const unsigned int node) const
     {
-      return n_quadrature_points(number) > 0 || n_particles(number) > 0 ||
-             n_boundary_points(number) > 0;
+      return n_quadrature_points(node) > 0 || n_particles(node) > 0 ||
+             n_boundary_points(node) > 0;
     }
 
     /** How far the tissue reaches up from the grid cell's lower end, in units
      *  of h. */
     float
-    up(const unsigned int number, const unsigned int direction) const
+    up(const unsigned int node, const unsigned int direction) const
     {
-      return reaches[number][2 * direction];
+      return reaches[node][2 * direction];
     }
 
     /** How far the tissue reaches down from the upper end, in units of h. */
     float
-    down(const unsigned int number, const unsigned int direction) const
+    down(const unsigned int node, const unsigned int direction) const
     {
-      return reaches[number][2 * direction + 1];
+      return reaches[node][2 * direction + 1];
     }
 
     const GridWindow<dim> &
@@ -121,8 +125,14 @@ namespace Morula
       return window_.boxes();
     }
 
-    /** Grid cells with tissue or points that this rank owned when they were
-     *  summed, by number. */
+    const GridNodes<dim> &
+    nodes() const
+    {
+      return nodes_;
+    }
+
+    /** Nodes with tissue or points that this rank owned when they were summed.
+     */
     const std::vector<unsigned int> &
     own() const
     {
@@ -143,16 +153,17 @@ namespace Morula
     struct Record
     {
       unsigned int number; // in the grid's box
+      unsigned int part;
       Counts       counts;
       Reaches      reaches;
       std::int64_t volume;
     };
 
     bool
-    holds_something(const unsigned int number) const;
+    holds_something(const unsigned int node) const;
 
     Record
-    record(const unsigned int number) const;
+    record(const unsigned int node) const;
 
     /** Records of all grid cells with something. */
     std::vector<Record>
@@ -165,12 +176,16 @@ namespace Morula
     void
     clear();
 
+    unsigned int
+    node_of(const Record &record) const;
+
     /** Replaces what this rank has counted by what all have, from @p records of
      *  its grid cells. Collective. */
     void
     spread(const std::vector<Record> &records);
 
     GridWindow<dim>           window_;
+    GridNodes<dim>            nodes_;
     std::vector<std::int64_t> volumes;
     std::vector<Counts>       counts;
     std::vector<Reaches>      reaches;

@@ -24,7 +24,7 @@ namespace Morula
    * whose number depends on the first round.
    *
    * It is known in the window of this rank: a `number` is that of a grid cell
-   * in boxes().
+   * in boxes(), or of a further part of one: see nodes().
    *
    * Volumes are summed as integers. So the result, and with it the
    * classification, does not depend on the order of the points or on the
@@ -39,21 +39,24 @@ namespace Morula
      *        particle
      * @param share_points whether a quadrature point on a grid line belongs to
      *        all grid cells around it; see SharedPoint
+     * @param parting which tissue belongs together, with contact
      */
     explicit Occupancy(const GridWindow<dim> &window,
                        const unsigned int     points_per_cell = 1,
-                       const bool             share_points    = false);
+                       const bool             share_points    = false,
+                       const Parting<dim>    &parting         = {});
 
     /** The occupancy of a box on one rank. */
     explicit Occupancy(const GridBox<dim> &box);
 
-    /** Adds a particle. */
+    /** Adds a particle. @param id of its cell, by which its part is known */
     void
-    add_particle(const ParticleDomain<dim> &domain);
+    add_particle(const ParticleDomain<dim>  &domain,
+                 const types::particle_index id = 0);
 
-    /** Adds a boundary point at @p x. */
+    /** Adds a boundary point at @p x in a part of its grid cell. */
     void
-    add_boundary_point(const Point<dim> &x);
+    add_boundary_point(const Point<dim> &x, const unsigned int part = 0);
 
     /** Ends the first round on one rank. */
     void
@@ -66,7 +69,8 @@ namespace Morula
     /** Adds the quadrature points (see ParticleDomain) of a particle that was
      *  added before. */
     void
-    add_quadrature_points(const ParticleDomain<dim> &domain);
+    add_quadrature_points(const ParticleDomain<dim>  &domain,
+                          const types::particle_index id = 0);
 
     /** Whether a particle of this rank has more than one quadrature point, or
      *  one that several grid cells share; after the second round. */
@@ -92,7 +96,8 @@ namespace Morula
      * of a rod or cluster that is two cells thick.
      */
     typename ParticleDomain<dim>::Numbers
-    n_points_per_edge(const ParticleDomain<dim> &domain) const;
+    n_points_per_edge(const ParticleDomain<dim>  &domain,
+                      const types::particle_index id = 0) const;
 
     /** Calls @p visit(position, n) for each of the n grid cells that a
      *  quadrature point at @p x belongs to. The position lies in that grid
@@ -174,8 +179,11 @@ namespace Morula
     const GridWindow<dim> &
     window() const;
 
-    /** Grid cells with tissue or points that this rank owned when they were
-     *  summed. */
+    const GridNodes<dim> &
+    nodes() const;
+
+    /** Nodes with tissue or points that this rank owned when they were summed.
+     */
     const std::vector<unsigned int> &
     own() const;
 

@@ -81,6 +81,13 @@ namespace Morula
       return x;
     }
 
+    /** A: its edges, as columns, µm. */
+    const Tensor<2, dim> &
+    edge_vectors() const
+    {
+      return edges;
+    }
+
     /** V, µm^dim. */
     double
     volume() const

@@ -6,52 +6,75 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <vector>
 
 namespace Morula
 {
+  /** A part of a grid cell (see Parting) in one number, which orders by grid
+   *  cell first. */
+  using NodeName = std::uint64_t;
+
+  inline NodeName
+  node_name(const unsigned int grid_cell, const unsigned int part)
+  {
+    return (NodeName(grid_cell) << 32) | part;
+  }
+
+  /** The number of the grid cell in the grid's box. */
+  inline unsigned int
+  grid_cell_of(const NodeName name)
+  {
+    return name >> 32;
+  }
+
+  inline unsigned int
+  part_of(const NodeName name)
+  {
+    return static_cast<std::uint32_t>(name);
+  }
+
   /**
    * Joins the parts of all ranks to wholes. Parts of two ranks belong together
-   * if they have a grid cell in common. Every rank gets the list of all wholes.
+   * if they have a node in common. Every rank gets the list of all wholes.
    * (Boost's disjoint sets, one for each part of a rank.)
    */
   class PartsOnRanks
   {
   public:
-    /** A grid cell, by its number in the grid's box, and this rank's part of
-     *  it. */
-    struct GridCellOfPart
+    /** A node, and this rank's part that holds it. */
+    struct NodeOfPart
     {
-      unsigned int number, part;
+      NodeName     node;
+      unsigned int part;
     };
 
-    /** Grid cells of other ranks that this rank's parts hold, by owner. */
-    using Seen = std::map<unsigned int, std::vector<GridCellOfPart>>;
+    /** Nodes of other ranks that this rank's parts hold, by owner. */
+    using Seen = std::map<unsigned int, std::vector<NodeOfPart>>;
 
     /**
      * Collective.
-     * @param lowest  lowest grid cell that this rank knows of each of its parts
-     * @param part_of the part of a grid cell of this rank, by its number in the
-     *        grid's box
+     * @param lowest  lowest node that this rank knows of each of its parts
+     * @param part_of the part that holds a node of this rank
      */
-    PartsOnRanks(const std::vector<unsigned int>                       &lowest,
-                 const Seen                                            &seen,
-                 const std::function<unsigned int(const unsigned int)> &part_of,
-                 const MPI_Comm                                         comm);
+    PartsOnRanks(const std::vector<NodeName>                       &lowest,
+                 const Seen                                        &seen,
+                 const std::function<unsigned int(const NodeName)> &part_of,
+                 const MPI_Comm                                     comm);
 
     /** Number of the whole that this rank's part belongs to. */
     unsigned int
     whole_of(const unsigned int part) const;
 
-    /** The lowest grid cell of each whole, increasing. */
-    const std::vector<unsigned int> &
+    /** The lowest node of each whole, increasing. */
+    const std::vector<NodeName> &
     lowest() const;
 
   private:
     std::vector<unsigned int> wholes; // of this rank's parts
-    std::vector<unsigned int> lowest_;
+    std::vector<NodeName>     lowest_;
   };
 } // namespace Morula
 

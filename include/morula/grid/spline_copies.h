@@ -6,6 +6,7 @@
 
 #include <morula/grid/bspline.h>
 #include <morula/grid/classification.h>
+#include <morula/grid/parts_on_ranks.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,18 +18,22 @@ namespace Morula
   {
     unsigned int spline; // number of the grid cell it is centred on
     /** The active grid cells of the part. Bit a stands for the grid cell at the
-     *  spline's centre + BSpline::offset(a). */
+     *  spline's centre + BSpline::offset(a). Where contact parts grid cells it
+     *  is empty; SplineCopies has a list of nodes then. */
     std::uint32_t support;
     bool          inner; // whether an inner grid cell is among them
     /** See SplineCopies. Only known of copies that this rank's grid cells use,
      *  and of those whose splines it owns. */
     unsigned int piece;
+    /** Its list of nodes, or none. */
+    unsigned int listed = numbers::invalid_unsigned_int;
   };
 
   /**
    * The splines around the tissue. A spline reaches over 3^dim grid cells. If
    * those with tissue form parts that do not touch each other, each part has
-   * its own copy of the spline. (Grid cells touch if they share a vertex.) So
+   * its own copy of the spline. (Grid cells touch if they share a vertex; where
+   * contact parts them, their nodes have to be linked: see Parting.) So
    * bodies, or arms of one body, with an empty layer of grid cells between them
    * do not feel each other (doc/theory.md, section 3.3).
    *
@@ -42,8 +47,9 @@ namespace Morula
   public:
     SplineCopies() = default;
 
-    /** @param classes in the window. Collective. */
+    /** @param classes of the nodes. Collective. */
     SplineCopies(const GridWindow<dim>            &window,
+                 const GridNodes<dim>             &nodes,
                  const std::vector<GridCellClass> &classes,
                  const BackgroundGrid<dim>        &grid);
 
@@ -59,10 +65,14 @@ namespace Morula
     const std::vector<SplineCopy> &
     list() const;
 
-    /** The copy of the spline centred on @p spline that the active grid cell
-     *  @p grid_cell of its support uses: a position in list(). */
+    /** The copy of the spline centred on @p spline that the active node
+     *  @p node of its support uses: a position in list(). */
     unsigned int
-    at(const GridIndex<dim> &spline, const GridIndex<dim> &grid_cell) const;
+    at(const GridIndex<dim> &spline, const unsigned int node) const;
+
+    /** The active nodes of a copy's support. */
+    std::vector<unsigned int>
+    nodes_of(const SplineCopy &copy) const;
 
     /** Copies that stand before this one in list() and have the same spline. */
     unsigned int
@@ -80,10 +90,10 @@ namespace Morula
     bool
     is_own(const SplineCopy &copy) const;
 
-    /** The piece of an active grid cell that this rank owns: 0, ...,
-     *  n_pieces() - 1 in the order of the pieces' lowest grid cells. */
+    /** The piece of an active node that this rank owns: 0, ...,
+     *  n_pieces() - 1 in the order of the pieces' lowest nodes. */
     unsigned int
-    piece(const unsigned int number) const;
+    piece(const unsigned int node) const;
 
     unsigned int
     n_pieces() const;
@@ -92,15 +102,18 @@ namespace Morula
     unsigned int
     lowest_grid_cell(const unsigned int piece) const;
 
-    /** The active grid cells that this rank owns, in the order of their numbers
-     *  in the grid's box. */
+    /** The active nodes that this rank owns, in the order of their names. */
     const std::vector<unsigned int> &
-    own_grid_cells() const;
+    own_nodes() const;
 
   private:
     void
     add_copies(const unsigned int                spline,
                const std::vector<GridCellClass> &classes);
+    /** As add_copies(), where grid cells are parted. */
+    void
+    add_copies_of_parts(const unsigned int                spline,
+                        const std::vector<GridCellClass> &classes);
     void
     find_own(const std::vector<GridCellClass> &classes,
              const std::vector<char>          &near,
@@ -119,14 +132,16 @@ namespace Morula
                const BackgroundGrid<dim> &grid);
 
     GridBoxes<dim> boxes; // the window's
+    GridNodes<dim> nodes;
     /** Whether this rank owns it, by grid cell of the window; only of those
      *  near active ones. */
     std::vector<char>         own;
     std::vector<unsigned int> own_active;
     std::vector<SplineCopy>   copies;
     std::vector<unsigned int> first;  // copy of each spline, and the end
-    std::vector<unsigned int> pieces; // by grid cell of the window
-    std::vector<unsigned int> lowest; // by piece, in the grid's box
+    std::vector<unsigned int> pieces; // by node
+    std::vector<NodeName>     lowest; // node by piece
+    std::vector<std::vector<unsigned int>> lists; // of nodes, see SplineCopy
   };
 } // namespace Morula
 

@@ -47,9 +47,10 @@ namespace Morula
       std::vector<double> weights;
       /** Whether the tissue around is thin, see Occupancy::is_thin(). */
       bool thin;
-      /** The body whose splines these are; 0 where bodies are not parted. A
-       *  grid cell of several bodies stands in the list once for each. */
-      unsigned int body = 0;
+      /** The part of the tissue there whose splines these are: the body, where
+       *  each has a space of its own, or that of Parting; else 0. A grid cell
+       *  of several parts stands in the list once for each. */
+      unsigned int part = 0;
     };
 
     /** @param occupancy after both rounds. Collective. */
@@ -64,35 +65,57 @@ namespace Morula
      */
     SplineSpace(std::vector<SplineSpace> bodies, const MPI_Comm comm);
 
-    /** Whether bodies have splines of their own. */
+    /** Whether a grid cell may have several parts. */
     bool
     is_parted() const
     {
-      return !bodies.empty();
+      return !bodies.empty() || !occupancy_.nodes().is_trivial();
     }
 
-    /** The number of bodies; 1 where they are not parted. */
+    /** The number of bodies with a space of their own; 1 without contact, and
+     *  where parts are found cell by cell. */
     unsigned int
     n_bodies() const
     {
-      return is_parted() ? bodies.size() : 1;
+      return bodies.empty() ? 1 : bodies.size();
     }
 
-    /** Whether a point of this body in the grid cell with this number belongs
+    /** The part that a cell of this body belongs to in a grid cell that it
+     *  reaches. */
+    unsigned int
+    part_of_cell(const types::particle_index id,
+                 const unsigned int          body,
+                 const unsigned int          number) const
+    {
+      return bodies.empty() ?
+               occupancy_.nodes().parting().part_of_cell(id, number) :
+               body;
+    }
+
+    /** The node in occupancy(grid_cell.part) of one of grid_cells(). */
+    unsigned int
+    node(const GridCell &grid_cell) const
+    {
+      return occupancy(grid_cell.part)
+        .nodes()
+        .node(box().index(grid_cell.number), bodies.empty() ? grid_cell.part : 0);
+    }
+
+    /** Whether a point of this part of the grid cell with this number belongs
      *  to @p grid_cell. */
     bool
     is_at(const GridCell    &grid_cell,
           const unsigned int number,
-          const unsigned int body) const
+          const unsigned int part) const
     {
       return grid_cell.number == number &&
-             (!is_parted() || grid_cell.body == body);
+             (!is_parted() || grid_cell.part == part);
     }
 
     /** The place in grid_cells() of this rank's active grid cell with this
-     *  number that has the splines of this body. */
+     *  number that has the splines of this part. */
     unsigned int
-    entry(const unsigned int number, const unsigned int body) const;
+    entry(const unsigned int number, const unsigned int part) const;
 
     /** Makes unknowns of other ranks relevant. The places of all unknowns in
      *  relevant() change. */
@@ -100,7 +123,7 @@ namespace Morula
     add_relevant(const IndexSet &unknowns);
 
     /** This rank's active grid cells in the order of their numbers, then of
-     *  their bodies. */
+     *  their parts. */
     const std::vector<GridCell> &
     grid_cells() const;
 
@@ -124,9 +147,9 @@ namespace Morula
     n_outer_splines() const;
 
     /** The piece of an active grid cell of this rank, by its number in the
-     *  grid's box, and of one of the bodies there; see SplineCopies. */
+     *  grid's box, and of one of the parts there; see SplineCopies. */
     unsigned int
-    piece(const unsigned int number, const unsigned int body = 0) const;
+    piece(const unsigned int number, const unsigned int part = 0) const;
 
     unsigned int
     n_pieces() const;
@@ -181,7 +204,7 @@ namespace Morula
     void
     express_grid_cells();
     void
-    add_grid_cell(const unsigned int number, const std::vector<Terms> &rows);
+    add_grid_cell(const unsigned int node, const std::vector<Terms> &rows);
     void
     find_relevant();
 
@@ -191,9 +214,9 @@ namespace Morula
                                 const double          a,
                                 const Tensor<1, dim> &gradient) const;
 
-    /** The copy of spline @p a of a grid cell. */
+    /** The copy of spline @p a of a node's grid cell. */
     unsigned int
-    copy_at(const GridIndex<dim> &grid_cell, const unsigned int a) const;
+    copy_at(const unsigned int node, const unsigned int a) const;
 
     /** The global unknowns of one spline and their weights. */
     Terms

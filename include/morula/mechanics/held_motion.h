@@ -19,7 +19,7 @@ namespace Morula
     Point<dim>     x, from, to;
     Tensor<2, dim> projection; // onto the held directions
     double         area;       // µm^(dim-1)
-    unsigned int   body = 0;   // see SplineSpace::GridCell
+    unsigned int   part = 0;   // see SplineSpace::GridCell
   };
 
   /**

@@ -108,7 +108,7 @@ namespace Morula
     for (const auto &grid_cell : store.grid_cells())
       {
         while (
-          !space.is_at(space.grid_cells()[c], grid_cell.number, grid_cell.body))
+          !space.is_at(space.grid_cells()[c], grid_cell.number, grid_cell.part))
           ++c;
         action(grid_cell, on_grid_cell(c), box().index(grid_cell.number));
       }

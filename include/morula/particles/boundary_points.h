@@ -6,6 +6,10 @@
 
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/point_store.h>
+#include <morula/particles/side.h>
+
+#include <numeric>
+#include <vector>
 
 namespace Morula
 {
@@ -20,7 +24,7 @@ namespace Morula
   public:
     /** No points yet, with these columns. */
     explicit BoundaryPoints(const BoundaryColumns<dim> &columns)
-      : PointStore<dim>(columns.n_numbers(), columns.body)
+      : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
       , columns_(columns)
     {}
 
@@ -64,6 +68,29 @@ namespace Morula
     area_vector(const unsigned int p) const
     {
       return (*this)[p].area_vector();
+    }
+
+    /** Which cells each point may look at; empty without contact. */
+    std::vector<Side<dim>>
+    sides() const
+    {
+      std::vector<unsigned int> all(this->size());
+      std::iota(all.begin(), all.end(), 0u);
+      return sides_of(all);
+    }
+
+    /** The same of some points of this rank. */
+    std::vector<Side<dim>>
+    sides_of(const std::vector<unsigned int> &points) const
+    {
+      std::vector<Side<dim>> list;
+      if (this->has_bodies())
+        for (const unsigned int p : points)
+          list.push_back({this->body(p),
+                          this->has_parts() ?
+                            area_vector(p) / area_vector(p).norm() :
+                            Tensor<1, dim>()});
+      return list;
     }
 
   private:

@@ -40,7 +40,7 @@ namespace Morula
     /** Declares the body and the pressure of contact, and its time where bodies
      *  fuse. Contact calls it. */
     void
-    need_contact(const bool fuses = false);
+    need_contact(const bool fuses = false, const bool with_parts = false);
 
     /** @param with_patch whether the scene refines the surface
      *  @param coarsens whether it also merges patches that shrink
@@ -95,6 +95,9 @@ namespace Morula
     Column<Tensor<1, dim>> force;
     /** Number of the body that the point belongs to; only with contact. */
     Column<unsigned int> body;
+    /** Number of the part of its grid cell that it belongs to, see Parting;
+     *  only where bodies can touch themselves. */
+    Column<unsigned int> part;
     /** Pressure of other bodies at the end of the last step, kPa; likewise. */
     Column<double> contact_pressure;
     /** For how long another body has touched the point, day; if bodies fuse. */

@@ -38,9 +38,10 @@ namespace Morula
     void
     need_lineage();
 
-    /** Declares the body. Contact calls it. */
+    /** Declares the body and, if bodies can touch themselves, the part.
+     *  Contact calls it. */
     void
-    need_bodies();
+    need_bodies(const bool with_parts = false);
 
     /** Declares the lineage key, if not yet declared. Effects that divide cells
      *  call it. */
@@ -70,6 +71,9 @@ namespace Morula
     Column<unsigned int> generation;
     /** Number of the body that the cell belongs to; only with contact. */
     Column<unsigned int> body;
+    /** Number of the part of its grid cell that it belongs to, see Parting;
+     *  only where bodies can touch themselves. */
+    Column<unsigned int> part;
 
     /** Key of the cell's random numbers, which follows from the mother's. */
     Column<std::uint64_t> lineage_key;

@@ -20,7 +20,7 @@ namespace Morula
   public:
     /** No cells yet, with these columns. */
     explicit Cells(const CellColumns<dim> &columns)
-      : PointStore<dim>(columns.n_numbers(), columns.body)
+      : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
       , columns_(columns)
     {}
 

@@ -16,15 +16,15 @@ namespace Morula
    * (µm), which is at most a grid spacing. Other ranks may have one. The points
    * are on this rank. Most boundary points have a cell near in their own grid
    * cell, so that this is far cheaper than to find the nearest ones.
-   * @param bodies of the points, where they have some: only cells of the same
-   *        body count
+   * @param sides of the points, where they have some: only cells of the same
+   *        side count
    */
   template <int dim>
   std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>>   &points,
-                      const Tissue<dim>               &tissue,
-                      const double                     near,
-                      const std::vector<unsigned int> &bodies);
+  points_without_cell(const std::vector<Point<dim>> &points,
+                      const Tissue<dim>             &tissue,
+                      const double                   near,
+                      const std::vector<Side<dim>>  &sides);
 
   /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present
@@ -45,12 +45,12 @@ namespace Morula
   attachment(const double distance, const double reach);
 
   /** The attachment of each of these boundary points of this rank, to cells of
-   *  their @p bodies where they have some. Collective. */
+   *  their @p sides where they have some. Collective. */
   template <int dim>
   std::vector<double>
-  attachment(const std::vector<Point<dim>>   &points,
-             const Tissue<dim>               &tissue,
-             const std::vector<unsigned int> &bodies = {});
+  attachment(const std::vector<Point<dim>> &points,
+             const Tissue<dim>             &tissue,
+             const std::vector<Side<dim>>  &sides = {});
 
   /** Boundary points of this rank that are farther from their nearest cell than
    *  4/3 of its reach, by their positions in the store, in order. Collective,

@@ -6,6 +6,7 @@
 
 #include <morula/grid/background_grid.h>
 #include <morula/particles/point_store.h>
+#include <morula/particles/side.h>
 
 #include <cstdlib>
 #include <functional>
@@ -49,33 +50,33 @@ namespace Morula
    * The wanted numbers of the point nearest to each query position, over all
    * ranks, query by query. Queries lie in grid cells of this rank. Only points
    * near some query are sent. Collective.
-   * @param bodies of the queries, if only points of the same body count; those
-   *        of another body count where theirs has no point left
+   * @param sides of the queries, if only points on the same side count; others
+   *        count where theirs has no point left, or none near
    */
   template <int dim>
   std::vector<double>
-  nearest_numbers(const std::vector<Point<dim>>   &queries,
-                  const PointStore<dim>           &points,
-                  const NearestQuery              &wanted,
-                  const BackgroundGrid<dim>       &grid,
-                  const std::vector<unsigned int> &bodies = {});
+  nearest_numbers(const std::vector<Point<dim>> &queries,
+                  const PointStore<dim>         &points,
+                  const NearestQuery            &wanted,
+                  const BackgroundGrid<dim>     &grid,
+                  const std::vector<Side<dim>>  &sides = {});
 
   /** As nearest_numbers(), for the values value(p) of a type that is Flat. */
   template <int dim, typename Value>
   auto
-  nearest_values(const std::vector<Point<dim>>   &queries,
-                 const PointStore<dim>           &points,
-                 const Value                     &value,
-                 const Ties                       ties,
-                 const BackgroundGrid<dim>       &grid,
-                 const std::vector<unsigned int> &bodies = {})
+  nearest_values(const std::vector<Point<dim>> &queries,
+                 const PointStore<dim>         &points,
+                 const Value                   &value,
+                 const Ties                     ties,
+                 const BackgroundGrid<dim>     &grid,
+                 const std::vector<Side<dim>>  &sides = {})
   {
     using T           = std::invoke_result_t<Value, unsigned int>;
     const auto append = [&](const unsigned int p, std::vector<double> &list) {
       append_flat(list, value(p));
     };
-    const std::vector<double> numbers = nearest_numbers(
-      queries, points, {Flat<T>::n, append, ties}, grid, bodies);
+    const std::vector<double> numbers =
+      nearest_numbers(queries, points, {Flat<T>::n, append, ties}, grid, sides);
     std::vector<T> values;
     for (std::size_t first = 0; first < numbers.size(); first += Flat<T>::n)
       values.push_back(Flat<T>::read(&numbers[first]));

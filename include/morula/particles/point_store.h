@@ -18,7 +18,7 @@ namespace Morula
   /**
    * Points (cells, or boundary points) on the background grid: a deal.II
    * ParticleHandler whose particles are on the rank that owns their grid cell,
-   * and a canonical order over them: by grid cell, by body, then by id. The
+   * and a canonical order over them: by grid cell, by part, then by id. The
    * order does not depend on the history, so that sums over points come out the
    * same in a resumed run.
    */
@@ -26,20 +26,25 @@ namespace Morula
   class PointStore
   {
   public:
-    /** The points of one body in one grid cell: those from begin to end - 1.
-     *  Without bodies there is one for each grid cell, with body 0. */
+    /** The points of one part of the tissue in a grid cell: those from begin
+     *  to end - 1. Without contact there is one for each grid cell, part 0;
+     *  with contact of bodies it is the number of a body; where a body can
+     *  touch itself it is that of Parting. */
     struct GridCell
     {
       unsigned int number; // of the grid cell in the box
       unsigned int begin, end;
-      unsigned int body;
+      unsigned int part;
     };
 
     /** @param n_numbers in a point's row
      *  @param body the column with the number of a point's body, if the scene
-     *         has contact between bodies */
+     *         has contact
+     *  @param part the column with its part of the grid cell, if bodies can
+     *         touch themselves */
     explicit PointStore(const unsigned int          n_numbers,
-                        const Column<unsigned int> &body = {});
+                        const Column<unsigned int> &body = {},
+                        const Column<unsigned int> &part = {});
 
     /**
      * Binds the store to the grid's present triangulation. All points must
@@ -129,6 +134,26 @@ namespace Morula
       return body_column.exists() ? get(body_column, p) : 0;
     }
 
+    /** The part of the tissue in its grid cell that it belongs to: see
+     *  GridCell. */
+    unsigned int
+    part(const unsigned int p) const
+    {
+      return part_column.exists() ? get(part_column, p) : body(p);
+    }
+
+    /** Whether parts are found in each step: a body can touch itself. */
+    bool
+    has_parts() const
+    {
+      return part_column.exists();
+    }
+
+    /** Sets the parts of all points of this rank, and orders them anew. */
+    void
+    set_parts(const std::vector<unsigned int> &parts,
+              const BackgroundGrid<dim>       &grid);
+
     /** Whether the points know their bodies. */
     bool
     has_bodies() const
@@ -148,10 +173,6 @@ namespace Morula
     /** Positions (µm) of some of this rank's points. */
     std::vector<Point<dim>>
     positions_of(const std::vector<unsigned int> &points) const;
-
-    /** Their bodies; empty in a scene without contact. */
-    std::vector<unsigned int>
-    bodies_of(const std::vector<unsigned int> &points) const;
 
     /** The value in a column. */
     template <typename T>
@@ -207,7 +228,7 @@ namespace Morula
     reserve(const std::size_t n);
 
     const unsigned int         n_numbers;
-    const Column<unsigned int> body_column;
+    const Column<unsigned int> body_column, part_column;
     std::size_t                capacity = 0; // number of points that fit
     /** Points inserted or removed since all of them were in order, without
      *  gaps, in memory. */

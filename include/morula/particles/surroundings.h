@@ -25,11 +25,11 @@ namespace Morula
   {
   public:
     /** Finds them for places (µm) in grid cells of this rank, among cells of
-     *  their @p bodies where they have some. A place without a cell nearer than
+     *  their @p sides where they have some. A place without a cell nearer than
      *  3/4 of a grid spacing has none. Collective. */
-    Surroundings(const std::vector<Point<dim>>   &places,
-                 const Tissue<dim>               &tissue,
-                 const std::vector<unsigned int> &bodies = {});
+    Surroundings(const std::vector<Point<dim>> &places,
+                 const Tissue<dim>             &tissue,
+                 const std::vector<Side<dim>>  &sides = {});
 
     /** The values at the places, from those of the cells, value(p) for cell p
      *  of this rank; zero where there are no cells. Collective. */

@@ -85,15 +85,31 @@ namespace Morula
     void
     defragment();
 
+    /** Finds the parts of grid cells where tissue faces tissue across a gap,
+     * and orders points by them; only if bodies can touch themselves.
+     * Collective.
+     */
+    void
+    part();
+
+    /** The parts as part() has found them. */
+    const Parting<dim> &
+    parting() const
+    {
+      return parting_;
+    }
+
     /**
      * The extended B-splines around the tissue as it is now. Where points know
-     * their bodies, each body has splines of its own. Collective.
+     * their bodies, each body has splines of its own; where bodies can touch
+     * themselves, the parts that part() has found have. Collective.
      * @param share_points see Occupancy
      */
     SplineSpace<dim>
     splines(const bool share_points = false) const;
 
-    /** The same, as if all points belonged to one body. Collective. */
+    /** The same, as if all points belonged to one body that is not parted.
+     *  Collective. */
     SplineSpace<dim>
     unparted_splines(const bool share_points = false) const;
 
@@ -124,7 +140,9 @@ namespace Morula
      *  Collective. */
     template <typename Belongs>
     SplineSpace<dim>
-    splines_around(const Belongs &belongs, const bool share_points) const;
+    splines_around(const Belongs      &belongs,
+                   const bool          share_points,
+                   const Parting<dim> &parting = {}) const;
 
     template <typename Belongs>
     std::vector<GridRange<dim>>
@@ -135,7 +153,13 @@ namespace Morula
     BackgroundGrid<dim>  grid_;
     Cells<dim>           cells_;
     BoundaryPoints<dim>  boundary_points_;
+    Parting<dim>         parting_;
   };
+
+  /** One more than the largest number of a body. Collective. */
+  template <int dim>
+  unsigned int
+  n_bodies(const Tissue<dim> &tissue);
 
   /**
    * A selection of a store's points by active grid cell: the selected points
@@ -163,7 +187,7 @@ namespace Morula
         // Where the space does not part bodies, a grid cell has the points of
         // all of them.
         for (; cell != store.grid_cells().end() &&
-               space.is_at(active, cell->number, cell->body);
+               space.is_at(active, cell->number, cell->part);
              ++cell)
           for (unsigned int p = cell->begin; p < cell->end; ++p)
             if (select(p))

@@ -65,11 +65,11 @@ namespace Morula
         }
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
       list.push_back(of_points[p]);
-      list.push_back(store.area_vector(p).norm());
+      append_flat(list, store.area_vector(p));
       list.push_back(store.body(p));
     };
     const PointList<dim> near = near_points(
-      queries, store, {3, numbers, Ties::lowest_id}, tissue.grid(), 1);
+      queries, store, {2 + dim, numbers, Ties::lowest_id}, tissue.grid(), 1);
     const NearTree<dim> tree(near.positions);
     const double        radius = 0.5 * tissue.grid().box().spacing();
 
@@ -84,10 +84,13 @@ namespace Morula
                   });
         double force = 0., area = 0.;
         for (const unsigned int i : around)
-          if (near.row(i)[2] == store.body(loaded[k]))
+          if (const auto around = Flat<Tensor<1, dim>>::read(&near.row(i)[1]);
+              near.row(i)[1 + dim] == store.body(loaded[k]) &&
+              (!store.has_parts() ||
+               around * store.area_vector(loaded[k]) > 0.))
             {
               force += near.row(i)[0];
-              area += near.row(i)[1];
+              area += around.norm();
             }
         pressures[loaded[k]] = force / area;
       }

@@ -18,10 +18,6 @@ namespace Morula
      *  this. */
     constexpr double opposite_normals = -0.3;
 
-    /** Deepest overlap of a pair that acts, in units of h: the two faces of a
-     *  sheet "overlap" by its thickness. */
-    constexpr double deepest_pair = 0.4;
-
     /** k_t of a pair, in units of its pressure by h, and of one that is about
      *  to touch, in units of E/h; such a pair has a gap below this times h. */
     constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
@@ -120,7 +116,7 @@ namespace Morula
         const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
         const Tensor<1, dim> distance = one.x - other.x;
         const double         gap      = across * distance;
-        if (gap <= -deepest_pair * law.h || gap >= law.h)
+        if (gap <= -ContactPoints<dim>::deepest_pair * law.h || gap >= law.h)
           continue;
         const Tensor<1, dim> normal = across / across.norm();
         const double s = (distance - (normal * distance) * normal).norm();
@@ -164,7 +160,7 @@ namespace Morula
     const auto                    group_of = [&](const unsigned int k) {
       const ContactPoint<dim> &point = points.points()[k];
       const auto [found, is_new] =
-        groups.emplace(Group{point.grid_cell, point.body}, links.size());
+        groups.emplace(Group{point.grid_cell, point.part}, links.size());
       if (is_new)
         links.push_back({point.unknowns, point.unknowns});
       return found->second;
@@ -315,7 +311,7 @@ namespace Morula
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
         const auto &[b, c] = points.pairs()[k];
-        if (first_gaps[k] <= -0.5 * deepest_pair * law.h ||
+        if (first_gaps[k] <= -0.5 * ContactPoints<dim>::deepest_pair * law.h ||
             now[b].n * now[c].n >= opposite_normals)
           continue;
         const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
@@ -327,7 +323,7 @@ namespace Morula
               std::max(points.points()[b].spacing, points.points()[c].spacing))
           result.crossed = std::max(result.crossed, -(across * distance));
       }
-    if (result.crossed < 0.5 * deepest_pair * law.h)
+    if (result.crossed < 0.5 * ContactPoints<dim>::deepest_pair * law.h)
       result.crossed = 0.;
     return result;
   }

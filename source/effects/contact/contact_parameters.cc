@@ -12,8 +12,9 @@ namespace Morula
         "What may touch, press on each other, slide without friction and "
         "part again. none: tissue that comes within a grid spacing or two "
         "of other tissue sticks to it. bodies: different bodies have "
-        "contact where their surfaces meet.",
-        {"none|bodies"})
+        "contact where their surfaces meet. all: so have folds and arms of "
+        "one body.",
+        {"none|bodies|all"})
     , bodies("Contact/Bodies",
              "apart",
              "What is a body. apart: cells that stand together at t = 0; gaps "
@@ -60,6 +61,13 @@ namespace Morula
   ContactParameters::is_on() const
   {
     return between != "none";
+  }
+
+
+  bool
+  ContactParameters::is_of_all() const
+  {
+    return between == "all";
   }
 
 

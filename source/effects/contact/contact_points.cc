@@ -22,10 +22,10 @@ namespace Morula
     constexpr double may_face = 0.2;
 
     /** What ranks tell each other of a boundary point: its area vector, body,
-     *  spacing, and position in the store. */
+     *  part, spacing, and position in the store. */
     template <int dim>
-    using PointMessage =
-      std::tuple<Tensor<1, dim>, unsigned int, double, unsigned int>;
+    using PointMessage = std::
+      tuple<Tensor<1, dim>, unsigned int, unsigned int, double, unsigned int>;
 
     /** Value and gradient weights of the unknowns of a point at @p x. */
     template <int dim>
@@ -35,7 +35,7 @@ namespace Morula
       // With u = C ũ inside a grid cell, the displacement of a place is
       // Σ_s (Σ_a C_as N_a) ũ_s, doc/theory.md (3.5).
       const auto &grid_cell =
-        space.grid_cells()[space.entry(point.grid_cell, point.body)];
+        space.grid_cells()[space.entry(point.grid_cell, point.part)];
       const SplineValues<dim> splines(
         space.box().unit_position(point.x, space.box().index(grid_cell.number)),
         space.box().spacing());
@@ -92,6 +92,7 @@ namespace Morula
       append_flat(list,
                   PointMessage<dim>(store.area_vector(p),
                                     store.body(p),
+                                    store.part(p),
                                     store[p].spacing(),
                                     p));
     };
@@ -107,16 +108,24 @@ namespace Morula
     std::vector<ContactPair> found;
     for (unsigned int i = 0; i < near.size(); ++i)
       {
-        const auto [area, body, spacing, p] =
+        const auto [area, body, part, spacing, p] =
           near.template value<PointMessage<dim>>(i);
         if (tissue.grid().owner(box.locate(near.positions[i])) != rank)
           continue;
         for (const unsigned int j : tree.within(near.positions[i], reach))
           {
-            const auto [other_area, other_body, other_spacing, q] =
+            const auto [other_area, other_body, other_part, other_spacing, q] =
               near.template value<PointMessage<dim>>(j);
-            if (near.ids[j] > near.ids[i] && other_body != body &&
-                area * other_area < may_face * area.norm() * other_area.norm())
+            if (near.ids[j] > near.ids[i] &&
+                area * other_area <
+                  may_face * area.norm() * other_area.norm() &&
+                (other_body != body ||
+                 (store.has_parts() &&
+                  !tissue.parting().are_connected(
+                    near.ids[i],
+                    near.ids[j],
+                    kernel * std::max(spacing, other_spacing) +
+                      deepest_pair * box.spacing()))))
               found.emplace_back(i, j);
           }
       }
@@ -128,12 +137,13 @@ namespace Morula
     std::map<unsigned int, unsigned int> number; // by place in `near`
     for (const auto &[key, k] : places)
       {
-        const auto [area, body, spacing, p] =
+        const auto [area, body, part, spacing, p] =
           near.template value<PointMessage<dim>>(k);
         number[k]                  = points_.size();
         const GridIndex<dim> index = box.locate(near.positions[k]);
         points_.push_back({near.ids[k],
                            body,
+                           part,
                            near.positions[k],
                            area,
                            spacing,
@@ -181,6 +191,7 @@ namespace Morula
           ContactPoint<dim> point;
           point.x         = store.position(p);
           point.body      = store.body(p);
+          point.part      = store.part(p);
           point.grid_cell = space.box().number(space.box().locate(point.x));
           set_unknowns(space, point);
           std::vector<double> &answer = answers[asking];

@@ -102,15 +102,9 @@ namespace Morula
       const BoundaryPoints<dim> &points = tissue.boundary_points();
       if (!points.has_bodies())
         return;
-      unsigned int n = 0;
-      for (const auto &grid_cell : points.grid_cells())
-        n = std::max(n, grid_cell.body + 1);
-      for (const auto &grid_cell : tissue.cells().grid_cells())
-        n = std::max(n, grid_cell.body + 1);
-      n = Utilities::MPI::max(n, tissue.communicator());
-      std::vector<double> cells(n, 0.);
-      for (const auto &grid_cell : tissue.cells().grid_cells())
-        cells[grid_cell.body] += grid_cell.end - grid_cell.begin;
+      std::vector<double> cells(n_bodies(tissue), 0.);
+      for (const unsigned int body : tissue.cells().bodies())
+        ++cells[body];
       Utilities::MPI::sum(cells, tissue.communicator(), cells);
       for (unsigned int p = 0; p < points.size(); ++p)
         if (cells[points.body(p)] == 0.)
@@ -194,7 +188,7 @@ namespace Morula
         [&goes](const unsigned int p) { return goes[p]; },
         Ties::lowest_id,
         tissue.grid(),
-        tissue.boundary_points().bodies());
+        tissue.boundary_points().sides());
       std::vector<unsigned int> list;
       for (unsigned int p = 0; p < nearest.size(); ++p)
         if (nearest[p] > 0.)

@@ -192,8 +192,8 @@ namespace Morula
 
     const std::vector<Point<dim>> places =
       points.positions_of(at_surface.points);
-    const auto                bodies   = points.bodies_of(at_surface.points);
-    const std::vector<double> attached = attachment(places, tissue, bodies);
+    const auto                sides    = points.sides_of(at_surface.points);
+    const std::vector<double> attached = attachment(places, tissue, sides);
     std::vector<double>       of_cells, diffusion; // of the nearest cell
     if (!field.uniform_diffusion())
       {
@@ -207,7 +207,7 @@ namespace Morula
           [&](const unsigned int p) { return of_cells[p]; },
           Ties::mean,
           tissue.grid(),
-          bodies);
+          sides);
       }
     everywhere(tissue.communicator(), [&]() {
       for (std::size_t k = 0; k < at_surface.points.size(); ++k)

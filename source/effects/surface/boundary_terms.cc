@@ -89,7 +89,7 @@ namespace Morula
       const std::vector<Point<dim>> places =
         store.positions_of(held.groups.points);
       const std::vector<double> attached =
-        attachment(places, tissue, store.bodies_of(held.groups.points));
+        attachment(places, tissue, store.sides_of(held.groups.points));
       if (growth.present || !growth.lame.empty())
         held.carriers = states_of_carriers(held.groups.points, tissue, growth);
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -249,7 +249,7 @@ namespace Morula
     // the same order.
     static_cast<GroupedPoints<dim> &>(loaded) =
       grouped_places(store, space, groups);
-    loaded.bodies = store.bodies_of(groups.points);
+    loaded.sides = store.sides_of(groups.points);
     for (const unsigned int p : groups.points)
       {
         const BoundaryView<dim> point = store[p];
@@ -339,7 +339,7 @@ namespace Morula
         const Point<dim>        x     = points.position(p);
         if (is_held(point.condition()))
           list.push_back({space.piece(space.box().number(space.box().locate(x)),
-                                      points.body(p)),
+                                      points.part(p)),
                           x,
                           projection(point),
                           point.initial_area()});
@@ -367,7 +367,7 @@ namespace Morula
           continue;
         const Point<dim> x = points.position(p);
         HeldPoint<dim>   held{
-          x, x, x, projection(point), point.initial_area(), points.body(p)};
+          x, x, x, projection(point), point.initial_area(), points.part(p)};
         if (point.condition() == SurfaceCondition::fixed)
           {
             const Point<dim> X = point.initial_position();

@@ -87,12 +87,12 @@ namespace Morula
       return;
     // Among several nearest cells the mean of the ids is larger than the lowest
     // of them.
-    const std::vector<Point<dim>>   queries = store.positions_of(lost);
-    const std::vector<unsigned int> bodies  = store.bodies_of(lost);
-    const auto                      lowest  = nearest_values(
-      queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), bodies);
+    const std::vector<Point<dim>> queries = store.positions_of(lost);
+    const std::vector<Side<dim>>  sides   = store.sides_of(lost);
+    const auto                    lowest  = nearest_values(
+      queries, tissue.cells(), id, Ties::lowest_id, tissue.grid(), sides);
     const auto mean = nearest_values(
-      queries, tissue.cells(), id, Ties::mean, tissue.grid(), bodies);
+      queries, tissue.cells(), id, Ties::mean, tissue.grid(), sides);
     for (std::size_t k = 0; k < lost.size(); ++k)
       tissue.boundary_point(lost[k]).set(
         ids, mean[k] == lowest[k] ? static_cast<int>(lowest[k]) : -1);

@@ -116,7 +116,7 @@ namespace Morula
           [&](const unsigned int p) { return tensions[cells.get(type, p)]; },
           Ties::mean,
           points.tissue->grid(),
-          points.bodies);
+          points.sides);
       }
     std::vector<typename AreaTerm<dim>::Load> loads;
     for (std::size_t k = 0; k < of_points.size(); ++k)

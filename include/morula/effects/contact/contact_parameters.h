@@ -26,6 +26,10 @@ namespace Morula
     bool
     is_on() const;
 
+    /** Whether a body can touch itself, too. */
+    bool
+    is_of_all() const;
+
     using Keys::list;
     KeyList
     list() override;

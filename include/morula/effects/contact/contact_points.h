@@ -22,7 +22,8 @@ namespace Morula
   struct ContactPoint
   {
     types::particle_index id;
-    unsigned int          body;
+    /** Its body, and the part of its grid cell that it belongs to. */
+    unsigned int body, part;
     /** Position (µm) and area vector a n (µm^(dim-1)) at t. */
     Point<dim>     x;
     Tensor<1, dim> area;
@@ -30,7 +31,7 @@ namespace Morula
     double spacing;
     /** The rank that has it, and its position in the store there. */
     unsigned int owner, p;
-    /** Its grid cell, by number; points of one body there have the same
+    /** Its grid cell, by number; points of one part there have the same
      *  unknowns. */
     unsigned int grid_cell;
     /** The unknowns that move it, as positions in SplineSpace::relevant(). */
@@ -40,15 +41,17 @@ namespace Morula
     std::vector<Tensor<1, dim>> gradients;
   };
 
-  /** Two points of different bodies, by their numbers in a list of points: the
+  /** Two points of different sides, by their numbers in a list of points: the
    *  first one has the lower id and is one of this rank. */
   using ContactPair = std::pair<unsigned int, unsigned int>;
 
   /**
-   * The boundary points of a configuration that may touch another body within a
-   * step, and the pairs that they may make: those nearer to each other than the
-   * reach of the contact's kernel plus a way. Each pair is on the rank of its
-   * point with the lower id, in the order of the ids.
+   * The boundary points of a configuration that may touch tissue of another
+   * side within a step: of another body or, where bodies can touch themselves,
+   * of another strand, which bonds around the pair do not join with the first
+   * (see Parting). With them come the pairs that they may make: those nearer
+   * to each other than the reach of the contact's kernel plus a way. Each pair
+   * is on the rank of its point with the lower id, in the order of the ids.
    */
   template <int dim>
   class ContactPoints
@@ -57,6 +60,10 @@ namespace Morula
     /** Pairs of points farther from each other than this along their surface
      *  do not act on each other: in units of the larger spacing. */
     static constexpr double kernel = 1.5;
+
+    /** Deepest overlap of a pair that acts, in units of h: the two faces of a
+     *  sheet "overlap" by its thickness. */
+    static constexpr double deepest_pair = 0.4;
 
     /**
      * Collective.

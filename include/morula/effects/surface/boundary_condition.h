@@ -8,6 +8,7 @@
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/boundary_state.h>
+#include <morula/particles/side.h>
 
 #include <memory>
 #include <string>
@@ -40,8 +41,8 @@ namespace Morula
 
     /** The points in the order of xi. */
     std::vector<Point> points;
-    /** Their bodies; empty without contact. */
-    std::vector<unsigned int> bodies;
+    /** Their sides; empty without contact. */
+    std::vector<Side<dim>> sides;
     /** The tissue whose points they are. */
     const Tissue<dim> *tissue = nullptr;
     /** Time of the configuration, day. */

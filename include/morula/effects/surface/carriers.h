@@ -93,7 +93,7 @@ namespace Morula
                                         value,
                                         Ties::mean,
                                         tissue.grid(),
-                                        store.bodies_of(others));
+                                        store.sides_of(others));
     std::vector<std::invoke_result_t<Value, unsigned int>> values;
     for (std::size_t k = 0, n = 0; k < places.size(); ++k)
       values.push_back(found[k] ? *found[k] : nearest[n++]);

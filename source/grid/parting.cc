@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/near_tree.h>
+#include <morula/grid/parting.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Cells whose distance is at most so many edges of each other's box are
+     *  neighbours. It is more than √2 or √3, so that a lattice moved at random
+     *  keeps its bonds, and less than what joins the second next ones. */
+    constexpr double longest_bond = 2.4;
+
+    /** A bond is cut if it crosses a patch at most so many spacings from its
+     *  middle: patches are taken 1.3 times as wide as they stand apart, so that
+     *  no bond slips through a seam between them. */
+    constexpr double half_patch = 0.65;
+
+    /** Two patches face each other if the product of their normals is below
+     *  this, as in the energy of contact, doc/theory.md (4.8k). */
+    constexpr double facing = -0.3;
+
+    class DisjointSets
+    {
+    public:
+      explicit DisjointSets(const std::size_t n)
+        : rank(n, 0)
+        , parent(n)
+        , sets(rank.data(), parent.data())
+      {
+        std::iota(parent.begin(), parent.end(), 0u);
+      }
+
+      DisjointSets(const DisjointSets &) = delete;
+
+      void
+      unite(const unsigned int a, const unsigned int b)
+      {
+        sets.union_set(a, b);
+      }
+
+      unsigned int
+      find(const unsigned int a)
+      {
+        return sets.find_set(a);
+      }
+
+    private:
+      std::vector<unsigned int>                            rank, parent;
+      boost::disjoint_sets<unsigned int *, unsigned int *> sets;
+    };
+
+    template <int dim>
+    bool
+    touch(const GridIndex<dim> &a, const GridIndex<dim> &b)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(a[d] - b[d]) > 1)
+          return false;
+      return true;
+    }
+
+    /** Whether the segment from @p x to @p y crosses the patch. */
+    template <int dim>
+    bool
+    crosses(const Point<dim>       &x,
+            const Point<dim>       &y,
+            const PartedPatch<dim> &patch)
+    {
+      const double from = (x - patch.x) * patch.n, to = (y - patch.x) * patch.n;
+      if ((from < 0.) == (to < 0.))
+        return false;
+      const Point<dim> at = x + from / (from - to) * (y - x);
+      return at.distance(patch.x) <= half_patch * patch.spacing;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Parting<dim>::Parting(const GridBox<dim>                  &box,
+                        std::vector<unsigned int>            contested,
+                        const std::vector<PartedCell<dim>>  &cells,
+                        const std::vector<PartedPatch<dim>> &patches)
+    : contested_(std::move(contested))
+  {
+    for (const PartedCell<dim> &cell : cells)
+      {
+        places.emplace(cell.id, positions.size());
+        positions.push_back(cell.x);
+      }
+    for (const PartedPatch<dim> &patch : patches)
+      patches_at.emplace(patch.id, patch.x);
+    bond(cells, patches);
+    find_owners(cells, patches);
+    find_parts(box, cells, patches);
+  }
+
+
+  template <int dim>
+  void
+  Parting<dim>::bond(const std::vector<PartedCell<dim>>  &cells,
+                     const std::vector<PartedPatch<dim>> &patches)
+  {
+    // Cells are neighbours by their distance in units of their own boxes, so
+    // that flat and long ones keep theirs. A bond between neighbours is cut by
+    // any patch that its segment crosses, whichever side's it is. Patches that
+    // can be crossed lie within half the segment's length and half a patch of
+    // its middle.
+    std::vector<Point<dim>> places_of_patches;
+    double                  widest = 0.;
+    for (const PartedPatch<dim> &patch : patches)
+      {
+        places_of_patches.push_back(patch.x);
+        widest = std::max(widest, patch.spacing);
+      }
+    const NearTree<dim> tree(positions), tree_of_patches(places_of_patches);
+    const auto          is_near = [](const PartedCell<dim> &cell,
+                            const Tensor<1, dim>  &distance) {
+      return (cell.from_edges * distance).norm() <= longest_bond;
+    };
+    const auto is_cut = [&](const Point<dim> &x, const Point<dim> &y) {
+      const auto near =
+        tree_of_patches.within(x + 0.5 * (y - x),
+                               0.5 * x.distance(y) + half_patch * widest);
+      return std::any_of(near.begin(), near.end(), [&](const unsigned int i) {
+        return crosses(x, y, patches[i]);
+      });
+    };
+    bonds.resize(cells.size());
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        // The smaller of the two relative distances counts. The search is as
+        // wide as the cell's own box reaches; the partner looks, too.
+        const double farthest =
+          longest_bond * invert(cells[p].from_edges).norm();
+        for (const unsigned int q : tree.within(cells[p].x, farthest))
+          {
+            const Tensor<1, dim> distance = cells[q].x - cells[p].x;
+            if (q == p || cells[q].body != cells[p].body ||
+                !is_near(cells[p], distance) ||
+                (q < p && is_near(cells[q], distance)) ||
+                is_cut(cells[p].x, cells[q].x))
+              continue;
+            bonds[p].push_back(q);
+            bonds[q].push_back(p);
+          }
+      }
+    for (std::vector<unsigned int> &list : bonds)
+      std::sort(list.begin(), list.end());
+  }
+
+
+  template <int dim>
+  void
+  Parting<dim>::find_owners(const std::vector<PartedCell<dim>>  &cells,
+                            const std::vector<PartedPatch<dim>> &patches)
+  {
+    // The nearest cell alone would often be one across the gap. The search
+    // grows until it finds a cell of the patch's body behind it.
+    if (cells.empty())
+      return;
+    const NearTree<dim> tree(positions);
+    for (const PartedPatch<dim> &patch : patches)
+      {
+        unsigned int owner   = cells.size();
+        double       nearest = 0.;
+        for (double reach = 2. * patch.spacing;
+             owner == cells.size() && reach < 100. * patch.spacing;
+             reach *= 2.)
+          for (const unsigned int p : tree.within(patch.x, reach))
+            {
+              const Tensor<1, dim> distance = cells[p].x - patch.x;
+              if (cells[p].body == patch.body && distance * patch.n < 0. &&
+                  (owner == cells.size() || distance.norm() < nearest))
+                {
+                  owner   = p;
+                  nearest = distance.norm();
+                }
+            }
+        if (owner < cells.size())
+          owners.emplace(patch.id, owner);
+      }
+  }
+
+
+  template <int dim>
+  void
+  Parting<dim>::find_parts(const GridBox<dim>                  &box,
+                           const std::vector<PartedCell<dim>>  &cells,
+                           const std::vector<PartedPatch<dim>> &patches)
+  {
+    // A token is a cell in a grid cell that it reaches. The tokens of a grid
+    // cell that bonds connect are one part; in grid cells that are not
+    // contested all of them are. Parts are numbered by their lowest cell. Two
+    // tokens of one cell, or of bonded cells, in grid cells that touch link
+    // their parts.
+    std::vector<std::map<unsigned int, unsigned int>> tokens(cells.size());
+    std::map<unsigned int, std::vector<unsigned int>> at; // tokens there
+    unsigned int                                      n_tokens = 0;
+    const auto add = [&](const unsigned int p, const unsigned int number) {
+      if (tokens[p].emplace(number, n_tokens).second)
+        at[number].push_back(n_tokens++);
+    };
+    std::vector<char> near(box.size(), 0);
+    for (const unsigned int number : contested_)
+      box.for_neighbors(box.index(number),
+                        1,
+                        [&](const unsigned int neighbor, const auto &) {
+                          near[neighbor] = 1;
+                        });
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      box.for_overlap(box.locate(cells[p].lower),
+                      box.locate(cells[p].upper),
+                      [&](const unsigned int number, const auto &) {
+                        if (near[number])
+                          add(p, number);
+                      });
+    for (const PartedPatch<dim> &patch : patches)
+      if (const auto owner = owners.find(patch.id); owner != owners.end())
+        if (const GridIndex<dim> index = box.locate(patch.x);
+            box.contains(index) && near[box.number(index)])
+          add(owner->second, box.number(index));
+
+    DisjointSets sets(n_tokens);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      for (const unsigned int q : bonds[p])
+        for (const auto &[number, token] : tokens[p])
+          if (const auto other = tokens[q].find(number);
+              q > p && other != tokens[q].end())
+            sets.unite(token, other->second);
+    std::vector<unsigned int> part(n_tokens, 0);
+    for (const auto &[number, list] : at)
+      {
+        // Tokens were made in the order of the cells, but for those of patches.
+        std::map<unsigned int, unsigned int> numbers; // of parts, by root
+        if (is_contested(number))
+          for (const unsigned int token : list)
+            part[token] =
+              numbers.emplace(sets.find(token), numbers.size()).first->second;
+        for (unsigned int k = 1; k < numbers.size(); ++k)
+          further.emplace_back(number, k);
+      }
+
+    std::set<std::pair<GridCellPart, GridCellPart>> linked;
+    const auto link = [&](const auto &a, const auto &b) {
+      if ((is_contested(a.first) || is_contested(b.first)) &&
+          touch(box.index(a.first), box.index(b.first)))
+        {
+          const GridCellPart one(a.first, part[a.second]),
+            other(b.first, part[b.second]);
+          linked.emplace(one, other);
+          linked.emplace(other, one);
+        }
+    };
+    parts_of_cells.resize(cells.size());
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      for (const auto &token : tokens[p])
+        {
+          parts_of_cells[p].emplace_back(token.first, part[token.second]);
+          for (const auto &other : tokens[p])
+            link(token, other);
+          for (const unsigned int q : bonds[p])
+            for (const auto &other : tokens[q])
+              link(token, other);
+        }
+    links.assign(linked.begin(), linked.end());
+    for (const PartedPatch<dim> &patch : patches)
+      if (const auto owner = owners.find(patch.id); owner != owners.end())
+        if (const GridIndex<dim> index = box.locate(patch.x);
+            box.contains(index))
+          parts_of_patches.emplace(patch.id,
+                                   part_of_cell(cells[owner->second].id,
+                                                box.number(index)));
+  }
+
+
+  template <int dim>
+  bool
+  Parting<dim>::is_contested(const unsigned int number) const
+  {
+    return std::binary_search(contested_.begin(), contested_.end(), number);
+  }
+
+
+  template <int dim>
+  unsigned int
+  Parting<dim>::n_parts(const unsigned int number) const
+  {
+    const auto end = std::lower_bound(further.begin(),
+                                      further.end(),
+                                      GridCellPart(number + 1, 0));
+    return end != further.begin() && std::prev(end)->first == number ?
+             std::prev(end)->second + 1 :
+             1;
+  }
+
+
+  template <int dim>
+  bool
+  Parting<dim>::are_linked(const GridCellPart &a, const GridCellPart &b) const
+  {
+    if (!is_contested(a.first) && !is_contested(b.first))
+      return true;
+    return a == b ||
+           std::binary_search(links.begin(), links.end(), std::make_pair(a, b));
+  }
+
+
+  template <int dim>
+  unsigned int
+  Parting<dim>::part_of_cell(const types::particle_index id,
+                             const unsigned int          number) const
+  {
+    const auto place = places.find(id);
+    if (place == places.end())
+      return 0;
+    for (const auto &[there, part] : parts_of_cells[place->second])
+      if (there == number)
+        return part;
+    return 0;
+  }
+
+
+  template <int dim>
+  unsigned int
+  Parting<dim>::part_of_patch(const types::particle_index id) const
+  {
+    const auto part = parts_of_patches.find(id);
+    return part == parts_of_patches.end() ? 0 : part->second;
+  }
+
+
+  template <int dim>
+  bool
+  Parting<dim>::are_connected(const types::particle_index a,
+                              const types::particle_index b,
+                              const double                radius) const
+  {
+    // A breadth-first search along bonds that stays in the ball. The list grows
+    // while it is read.
+    const auto first = owners.find(a), last = owners.find(b);
+    if (first == owners.end() || last == owners.end())
+      return false;
+    if (first->second == last->second)
+      return true;
+    const Point<dim> middle =
+      patches_at.at(a) + 0.5 * (patches_at.at(b) - patches_at.at(a));
+    std::vector<unsigned int> list(1, first->second);
+    std::set<unsigned int>    seen(list.begin(), list.end());
+    for (std::size_t i = 0; i < list.size(); ++i)
+      for (const unsigned int q : bonds[list[i]])
+        {
+          if (q == last->second)
+            return true;
+          if (positions[q].distance(middle) <= radius && seen.insert(q).second)
+            list.push_back(q);
+        }
+    return false;
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  contested_grid_cells(const GridBox<dim>                  &box,
+                       const std::vector<PartedPatch<dim>> &patches,
+                       const double                         overlap)
+  {
+    // Two patches are in the surroundings of one grid cell if theirs are at
+    // most two apart. That grid cell is then among those which touch both.
+    std::map<unsigned int, std::vector<unsigned int>> at;
+    for (unsigned int i = 0; i < patches.size(); ++i)
+      at[box.number(box.locate(patches[i].x))].push_back(i);
+    const auto contest = [&](const PartedPatch<dim> &a,
+                             const PartedPatch<dim> &b) {
+      const double cosine = a.n * b.n;
+      return a.body != b.body ||
+             (cosine < facing &&
+              0.5 * ((b.n - a.n) * (a.x - b.x)) > -overlap);
+    };
+    const auto meet = [&](const std::vector<unsigned int> &here,
+                          const std::vector<unsigned int> &there) {
+      for (const unsigned int i : here)
+        for (const unsigned int j : there)
+          if (contest(patches[i], patches[j]))
+            return true;
+      return false;
+    };
+    std::vector<unsigned int> found;
+    for (const auto &[number, list] : at)
+      {
+        const GridIndex<dim> here = box.index(number);
+        box.for_neighbors(
+          here, 2, [&](const unsigned int other, const GridIndex<dim> &there) {
+            if (other < number || at.count(other) == 0 ||
+                !meet(list, at.at(other)))
+              return;
+            box.for_neighbors(here,
+                              1,
+                              [&](const unsigned int    between,
+                                  const GridIndex<dim> &index) {
+                                if (touch(index, there))
+                                  found.push_back(between);
+                              });
+          });
+      }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+
+#define INSTANTIATE(dim)                                   \
+  template class Parting<dim>;                             \
+  template std::vector<unsigned int> contested_grid_cells( \
+    const GridBox<dim> &, const std::vector<PartedPatch<dim>> &, double);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -23,9 +23,16 @@ namespace Morula
     constexpr double longest_bond = 2.4;
 
     /** A bond is cut if it crosses a patch at most so many spacings from its
-     *  middle: patches are taken 1.3 times as wide as they stand apart, so that
-     *  no bond slips through a seam between them. */
-    constexpr double half_patch = 0.65;
+     *  middle: patches are taken 1.3 times as wide as they stand apart, and as
+     *  far as to the corners of a square in 3-D, so that no bond slips through
+     *  a seam between them. */
+    template <int dim>
+    constexpr double half_patch = dim == 2 ? 0.65 : 0.92;
+
+    /** Cells of a straight chain from the owner of one boundary point to that
+     * of another are at most so many of their lengths beside the segment from
+     *  point to point. */
+    constexpr double beside_chain = 1.5;
 
     /** Two patches face each other if the product of their normals is below
      *  this, as in the energy of contact, doc/theory.md (4.8k). */
@@ -82,7 +89,7 @@ namespace Morula
       if ((from < 0.) == (to < 0.))
         return false;
       const Point<dim> at = x + from / (from - to) * (y - x);
-      return at.distance(patch.x) <= half_patch * patch.spacing;
+      return at.distance(patch.x) <= half_patch<dim> * patch.spacing;
     }
   } // namespace
 
@@ -98,6 +105,7 @@ namespace Morula
       {
         places.emplace(cell.id, positions.size());
         positions.push_back(cell.x);
+        lengths.push_back(invert(cell.from_edges).norm() / std::sqrt(1. * dim));
       }
     for (const PartedPatch<dim> &patch : patches)
       patches_at.emplace(patch.id, patch.x);
@@ -132,7 +140,7 @@ namespace Morula
     const auto is_cut = [&](const Point<dim> &x, const Point<dim> &y) {
       const auto near =
         tree_of_patches.within(x + 0.5 * (y - x),
-                               0.5 * x.distance(y) + half_patch * widest);
+                               0.5 * x.distance(y) + half_patch<dim> * widest);
       return std::any_of(near.begin(), near.end(), [&](const unsigned int i) {
         return crosses(x, y, patches[i]);
       });
@@ -344,18 +352,19 @@ namespace Morula
   template <int dim>
   bool
   Parting<dim>::are_connected(const types::particle_index a,
-                              const types::particle_index b,
-                              const double                radius) const
+                              const types::particle_index b) const
   {
     // A breadth-first search along bonds that stays in the ball. The list grows
     // while it is read.
     const auto first = owners.find(a), last = owners.find(b);
-    if (first == owners.end() || last == owners.end())
-      return false;
-    if (first->second == last->second)
+    if (first == owners.end() || last == owners.end() ||
+        first->second == last->second)
       return true;
-    const Point<dim> middle =
-      patches_at.at(a) + 0.5 * (patches_at.at(b) - patches_at.at(a));
+    const Point<dim> &x = patches_at.at(a), &y = patches_at.at(b);
+    const Point<dim>  middle = x + 0.5 * (y - x);
+    const double      radius =
+      0.5 * x.distance(y) +
+      beside_chain * std::max(lengths[first->second], lengths[last->second]);
     std::vector<unsigned int> list(1, first->second);
     std::set<unsigned int>    seen(list.begin(), list.end());
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -385,8 +394,7 @@ namespace Morula
                              const PartedPatch<dim> &b) {
       const double cosine = a.n * b.n;
       return a.body != b.body ||
-             (cosine < facing &&
-              0.5 * ((b.n - a.n) * (a.x - b.x)) > -overlap);
+             (cosine < facing && 0.5 * ((b.n - a.n) * (a.x - b.x)) > -overlap);
     };
     const auto meet = [&](const std::vector<unsigned int> &here,
                           const std::vector<unsigned int> &there) {

@@ -299,19 +299,19 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                            \
-  template std::vector<unsigned int> points_without_cell(                           \
-    const std::vector<Point<dim>> &,                                                \
-    const Tissue<dim> &,                                                            \
-    const double,                                                                   \
+#define INSTANTIATE(dim)                                                         \
+  template std::vector<unsigned int> points_without_cell(                        \
+    const std::vector<Point<dim>> &,                                             \
+    const Tissue<dim> &,                                                         \
+    const double,                                                                \
     const std::vector<Side<dim>> &);                                             \
-  template double surface_reach(const CellView<dim, const double> &,                \
-                                const double);                                      \
-  template std::vector<double>       attachment(const std::vector<Point<dim>> &,    \
-                                                const Tissue<dim> &,                \
+  template double surface_reach(const CellView<dim, const double> &,             \
+                                const double);                                   \
+  template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
+                                                const Tissue<dim> &,             \
                                                 const std::vector<Side<dim>> &); \
-  template std::vector<unsigned int> detached_points(const Tissue<dim> &);          \
-  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);      \
+  template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
+  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);   \
   template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

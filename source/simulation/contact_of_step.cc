@@ -21,6 +21,11 @@ namespace Morula
      *  after the last turn, in units of the normal forces. */
     constexpr double small_part = 0.01;
 
+    /** The geometry follows a smaller part of the way, down to the least, after
+     *  turns in which more than this part of the tangential forces has stayed.
+     */
+    constexpr double staying = 0.8, least_part = 0.25;
+
     /** Forces below this count as none, in units of E h^(dim-1). */
     constexpr double no_force = 1e-9;
 
@@ -155,11 +160,33 @@ namespace Morula
       throw StepFailed(text.str());
 
     const double unit = law.E * std::pow(law.h, dim - 1);
+    if (getenv("DBG"))
+      fprintf(
+        stderr,
+        "turn normal %g tangential %g new %g links %g crossed %g slid %g\n",
+        sums[0],
+        sums[1],
+        sums[2],
+        sums[3],
+        crossed,
+        slid);
     if (sums[1] <= small_part * sums[0] + no_force * unit &&
         sums[2] <= small_part * sums[0] + no_force * unit)
       return false;
+    // Where a surface is strongly curved the geometry may swing between two
+    // states for ever. So it follows only a part of the way, half as much each
+    // time that less than a fifth of the tangential forces has gone.
+    if (sums[1] > staying * left_over)
+      part = std::max(0.5 * part, least_part);
+    left_over                        = sums[1];
+    const std::vector<double> values = balance.relevant_values(u);
+    frozen.resize(values.size(), 0.);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      frozen[i] += part * (values[i] - frozen[i]);
+    if (part < 1.)
+      sums[3] = pairs.look(frozen).has_new_links;
     pairs.adopt();
-    if (sums[3] > 0.)
+    if (Utilities::MPI::max(sums[3], comm) > 0.)
       balance.renew_links();
     std::vector<Tensor<1, dim>> ways(tissue.cells().size());
     displacement.at_points(tissue.cells(),

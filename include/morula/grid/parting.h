@@ -111,13 +111,14 @@ namespace Morula
     unsigned int
     part_of_patch(const types::particle_index id) const;
 
-    /** Whether bonds connect the cells behind two boundary points inside the
-     *  ball with this radius (µm) around the middle of these. Then the points
-     *  belong to one strand, and their facing each other is no contact. */
+    /** Whether bonds connect the cells behind two boundary points inside a ball
+     *  around the middle of these, which is wide enough for a straight chain of
+     *  cells from one to the other. Then the points belong to one strand, and
+     *  their facing each other is no contact. So do points whose surroundings
+     *  are not contested. */
     bool
     are_connected(const types::particle_index a,
-                  const types::particle_index b,
-                  const double                radius) const;
+                  const types::particle_index b) const;
 
   private:
     using Parts = std::vector<std::pair<unsigned int, unsigned int>>;
@@ -145,6 +146,7 @@ namespace Morula
     std::unordered_map<types::particle_index, unsigned int> owners;
     std::vector<std::vector<unsigned int>>                  bonds; // by place
     std::vector<Point<dim>>                                 positions;
+    std::vector<double>                                     lengths;
     std::unordered_map<types::particle_index, Point<dim>>   patches_at;
   };
 

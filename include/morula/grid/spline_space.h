@@ -98,7 +98,8 @@ namespace Morula
     {
       return occupancy(grid_cell.part)
         .nodes()
-        .node(box().index(grid_cell.number), bodies.empty() ? grid_cell.part : 0);
+        .node(box().index(grid_cell.number),
+              bodies.empty() ? grid_cell.part : 0);
     }
 
     /** Whether a point of this part of the grid cell with this number belongs

@@ -71,6 +71,10 @@ namespace Morula
     MomentumBalance<dim>     &balance;
     TimerOutput              &timer;
     const MPI_Comm            comm;
+    /** The relevant unknowns at which the geometry is frozen; empty at t. */
+    std::vector<double> frozen;
+    double              part      = 1.; // of the way that the geometry follows
+    double              left_over = std::numeric_limits<double>::max();
   };
 } // namespace Morula
 

@@ -121,11 +121,7 @@ namespace Morula
                   may_face * area.norm() * other_area.norm() &&
                 (other_body != body ||
                  (store.has_parts() &&
-                  !tissue.parting().are_connected(
-                    near.ids[i],
-                    near.ids[j],
-                    kernel * std::max(spacing, other_spacing) +
-                      deepest_pair * box.spacing()))))
+                  !tissue.parting().are_connected(near.ids[i], near.ids[j]))))
               found.emplace_back(i, j);
           }
       }

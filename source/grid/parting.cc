@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <queue>
 #include <set>
 
 namespace Morula
@@ -23,11 +24,20 @@ namespace Morula
     constexpr double longest_bond = 2.4;
 
     /** A bond is cut if it crosses a patch at most so many spacings from its
-     *  middle: patches are taken 1.3 times as wide as they stand apart, and as
-     *  far as to the corners of a square in 3-D, so that no bond slips through
-     *  a seam between them. */
+     *  middle. Patches are taken 1.3 times as wide as they stand apart, in 3-D
+     *  to the corners of a square, so that no bond slips through a seam. */
     template <int dim>
     constexpr double half_patch = dim == 2 ? 0.65 : 0.92;
+
+    /** In 3-D patches stand irregularly. So one that is farther away, up to
+     *  this many spacings, cuts a bond if no other is nearer to the crossing.
+     */
+    template <int dim>
+    constexpr double farthest_patch = dim == 2 ? half_patch<dim> : 1.3;
+
+    /** Patches that are at most so many times as far as the nearest one, in
+     *  units of their spacings, are as near. */
+    constexpr double about_nearest = 1.2;
 
     /** Cells of a straight chain from the owner of one boundary point to that
      * of another are at most so many of their lengths beside the segment from
@@ -78,18 +88,29 @@ namespace Morula
       return true;
     }
 
-    /** Whether the segment from @p x to @p y crosses the patch. */
+    /** Whether the segment from @p x to @p y crosses a patch, which is one of
+     *  those @p near the segment. */
     template <int dim>
     bool
-    crosses(const Point<dim>       &x,
-            const Point<dim>       &y,
-            const PartedPatch<dim> &patch)
+    crosses(const Point<dim>                    &x,
+            const Point<dim>                    &y,
+            const PartedPatch<dim>              &patch,
+            const std::vector<unsigned int>     &near,
+            const std::vector<PartedPatch<dim>> &patches)
     {
       const double from = (x - patch.x) * patch.n, to = (y - patch.x) * patch.n;
       if ((from < 0.) == (to < 0.))
         return false;
-      const Point<dim> at = x + from / (from - to) * (y - x);
-      return at.distance(patch.x) <= half_patch<dim> * patch.spacing;
+      const Point<dim> at      = x + from / (from - to) * (y - x);
+      const auto       away_of = [&at](const PartedPatch<dim> &one) {
+        return at.distance(one.x) / one.spacing;
+      };
+      const double away = away_of(patch);
+      return away <= half_patch<dim> ||
+             (away <= farthest_patch<dim> &&
+              std::all_of(near.begin(), near.end(), [&](const unsigned int i) {
+                return away <= about_nearest * away_of(patches[i]);
+              }));
     }
   } // namespace
 
@@ -109,6 +130,7 @@ namespace Morula
       }
     for (const PartedPatch<dim> &patch : patches)
       patches_at.emplace(patch.id, patch.x);
+    marks.assign(cells.size(), 0);
     bond(cells, patches);
     find_owners(cells, patches);
     find_parts(box, cells, patches);
@@ -138,11 +160,11 @@ namespace Morula
       return (cell.from_edges * distance).norm() <= longest_bond;
     };
     const auto is_cut = [&](const Point<dim> &x, const Point<dim> &y) {
-      const auto near =
-        tree_of_patches.within(x + 0.5 * (y - x),
-                               0.5 * x.distance(y) + half_patch<dim> * widest);
+      const auto near = tree_of_patches.within(x + 0.5 * (y - x),
+                                               0.5 * x.distance(y) +
+                                                 farthest_patch<dim> * widest);
       return std::any_of(near.begin(), near.end(), [&](const unsigned int i) {
-        return crosses(x, y, patches[i]);
+        return crosses(x, y, patches[i], near, patches);
       });
     };
     bonds.resize(cells.size());
@@ -354,8 +376,9 @@ namespace Morula
   Parting<dim>::are_connected(const types::particle_index a,
                               const types::particle_index b) const
   {
-    // A breadth-first search along bonds that stays in the ball. The list grows
-    // while it is read.
+    // A search along bonds that stays in the ball, and goes on from the cell
+    // that is nearest to the one it looks for: in one strand it arrives after a
+    // few cells. Marks of earlier searches need not be removed.
     const auto first = owners.find(a), last = owners.find(b);
     if (first == owners.end() || last == owners.end() ||
         first->second == last->second)
@@ -365,16 +388,28 @@ namespace Morula
     const double      radius =
       0.5 * x.distance(y) +
       beside_chain * std::max(lengths[first->second], lengths[last->second]);
-    std::vector<unsigned int> list(1, first->second);
-    std::set<unsigned int>    seen(list.begin(), list.end());
-    for (std::size_t i = 0; i < list.size(); ++i)
-      for (const unsigned int q : bonds[list[i]])
-        {
-          if (q == last->second)
-            return true;
-          if (positions[q].distance(middle) <= radius && seen.insert(q).second)
-            list.push_back(q);
-        }
+    const Point<dim> &wanted = positions[last->second];
+    std::priority_queue<std::pair<double, unsigned int>> queue;
+    ++mark;
+    const auto add = [&](const unsigned int q) {
+      if (marks[q] == mark)
+        return;
+      marks[q] = mark;
+      queue.emplace(-wanted.distance_square(positions[q]), q);
+    };
+    add(first->second);
+    while (!queue.empty())
+      {
+        const unsigned int p = queue.top().second;
+        queue.pop();
+        for (const unsigned int q : bonds[p])
+          {
+            if (q == last->second)
+              return true;
+            if (positions[q].distance_square(middle) <= radius * radius)
+              add(q);
+          }
+      }
     return false;
   }
 

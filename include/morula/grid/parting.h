@@ -148,6 +148,8 @@ namespace Morula
     std::vector<Point<dim>>                                 positions;
     std::vector<double>                                     lengths;
     std::unordered_map<types::particle_index, Point<dim>>   patches_at;
+    mutable std::vector<unsigned int> marks; // of are_connected(), by place
+    mutable unsigned int              mark = 0;
   };
 
   /**

@@ -23,6 +23,10 @@ namespace Morula
     constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
                      nearly_touching = 0.05;
 
+    /** So much of an overlap that no pressure has made is let go in a step, in
+     *  units of h: as much as facetted surfaces make gaps scatter. */
+    constexpr double let_go = 0.005;
+
     /** The kernel ω, whose integral along the surface is 1: doc/theory.md
      *  (4.8k). */
     template <int dim>
@@ -50,9 +54,21 @@ namespace Morula
                          point.x,
                          point.area / point.area.norm(),
                          point.area.norm()});
+    // Points of a fold that deepens may overlap before they count as a pair, as
+    // long as bonds around its end connect them. An overlap at t that is deeper
+    // than their pressure makes it is let go a little in each step, since all
+    // of it at once would be a blow: doc/theory.md (4.8m).
     for (const auto &[b, c] : points.pairs())
-      first_gaps.push_back(0.5 * (at_rest[c].n - at_rest[b].n) *
-                           (at_rest[b].x - at_rest[c].x));
+      {
+        first_gaps.push_back(0.5 * (at_rest[c].n - at_rest[b].n) *
+                             (at_rest[b].x - at_rest[c].x));
+        const double expected =
+          0.5 * (points.points()[b].pressure + points.points()[c].pressure) /
+          law.kappa;
+        slacks.push_back(std::max(0.,
+                                  -first_gaps.back() - expected -
+                                    std::max(let_go * law.h, 0.5 * expected)));
+      }
     pairs  = pairs_at(at_rest, true);
     links_ = link(pairs);
   }
@@ -108,23 +124,26 @@ namespace Morula
     // used up, so that gaps up to h count: bodies that meet within a solve do
     // not pass through each other.
     std::vector<Pair> list;
-    for (const auto &[b, c] : points.pairs())
+    for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
+        const auto &[b, c] = points.pairs()[k];
         const State &one = states[b], &other = states[c];
         if (one.n * other.n >= opposite_normals)
           continue;
         const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
         const Tensor<1, dim> distance = one.x - other.x;
-        const double         gap      = across * distance;
-        if (gap <= -ContactPoints<dim>::deepest_pair * law.h || gap >= law.h)
+        const double         overlap  = -(across * distance);
+        if (overlap >= ContactPoints<dim>::deepest_pair * law.h ||
+            overlap <= -law.h)
           continue;
+        const double         gap    = slacks[k] - overlap;
         const Tensor<1, dim> normal = across / across.norm();
         const double s = (distance - (normal * distance) * normal).norm();
         const double r =
           ContactPoints<dim>::kernel *
           std::max(points.points()[b].spacing, points.points()[c].spacing);
         const double weight = one.a * other.a * contact_kernel<dim>(s, r);
-        if (weight <= 0.)
+        if (weight <= 0. || !points.are_apart(k))
           continue;
         // The drag keeps frozen normals from letting a body spin: k_t of
         // doc/theory.md (4.8k).
@@ -318,9 +337,10 @@ namespace Morula
         const Tensor<1, dim> distance = now[b].x - now[c].x;
         const Tensor<1, dim> normal   = across / across.norm();
         const double s = (distance - (normal * distance) * normal).norm();
-        if (s <
-            ContactPoints<dim>::kernel *
-              std::max(points.points()[b].spacing, points.points()[c].spacing))
+        if (s < ContactPoints<dim>::kernel *
+                  std::max(points.points()[b].spacing,
+                           points.points()[c].spacing) &&
+            -(across * distance) > result.crossed && points.are_apart(k))
           result.crossed = std::max(result.crossed, -(across * distance));
       }
     if (result.crossed < 0.5 * ContactPoints<dim>::deepest_pair * law.h)

@@ -22,10 +22,14 @@ namespace Morula
     constexpr double may_face = 0.2;
 
     /** What ranks tell each other of a boundary point: its area vector, body,
-     *  part, spacing, and position in the store. */
+     *  part, spacing, pressure, and position in the store. */
     template <int dim>
-    using PointMessage = std::
-      tuple<Tensor<1, dim>, unsigned int, unsigned int, double, unsigned int>;
+    using PointMessage = std::tuple<Tensor<1, dim>,
+                                    unsigned int,
+                                    unsigned int,
+                                    double,
+                                    double,
+                                    unsigned int>;
 
     /** Value and gradient weights of the unknowns of a point at @p x. */
     template <int dim>
@@ -63,6 +67,7 @@ namespace Morula
   ContactPoints<dim>::ContactPoints(const Tissue<dim> &tissue,
                                     SplineSpace<dim>  &space,
                                     const double       way)
+    : parting(&tissue.parting())
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     for (unsigned int p = 0; p < store.size(); ++p)
@@ -70,6 +75,7 @@ namespace Morula
     largest_spacing_ =
       Utilities::MPI::max(largest_spacing_, tissue.communicator());
     find_pairs(tissue, kernel * largest_spacing_ + way);
+    apart.assign(pairs_.size(), Apart::unknown);
     any_ = Utilities::MPI::logical_or(!pairs_.empty(), tissue.communicator());
     if (any_)
       find_unknowns(tissue, space);
@@ -94,6 +100,8 @@ namespace Morula
                                     store.body(p),
                                     store.part(p),
                                     store[p].spacing(),
+                                    store.get(store.columns().contact_pressure,
+                                              p),
                                     p));
     };
     const PointList<dim> near =
@@ -108,19 +116,30 @@ namespace Morula
     std::vector<ContactPair> found;
     for (unsigned int i = 0; i < near.size(); ++i)
       {
-        const auto [area, body, part, spacing, p] =
+        const auto [area, body, part, spacing, pressure, p] =
           near.template value<PointMessage<dim>>(i);
         if (tissue.grid().owner(box.locate(near.positions[i])) != rank)
           continue;
         for (const unsigned int j : tree.within(near.positions[i], reach))
           {
-            const auto [other_area, other_body, other_part, other_spacing, q] =
-              near.template value<PointMessage<dim>>(j);
-            if (near.ids[j] > near.ids[i] &&
-                area * other_area <
-                  may_face * area.norm() * other_area.norm() &&
-                (other_body != body ||
-                 (store.has_parts() &&
+            const auto [other_area,
+                        other_body,
+                        other_part,
+                        other_spacing,
+                        other_pressure,
+                        q] = near.template value<PointMessage<dim>>(j);
+            if (near.ids[j] <= near.ids[i] ||
+                area * other_area >=
+                  may_face * area.norm() * other_area.norm() ||
+                (other_body == body && !store.has_parts()))
+              continue;
+            // The sides of a sheet, and of an edge, overlap for ever.
+            const double gap =
+              0.5 * ((other_area / other_area.norm() - area / area.norm()) *
+                     (near.positions[i] - near.positions[j]));
+            if (other_body != body ||
+                (gap > -2. * deepest_pair * box.spacing() &&
+                 (gap >= 0. ||
                   !tissue.parting().are_connected(near.ids[i], near.ids[j]))))
               found.emplace_back(i, j);
           }
@@ -133,7 +152,7 @@ namespace Morula
     std::map<unsigned int, unsigned int> number; // by place in `near`
     for (const auto &[key, k] : places)
       {
-        const auto [area, body, part, spacing, p] =
+        const auto [area, body, part, spacing, pressure, p] =
           near.template value<PointMessage<dim>>(k);
         number[k]                  = points_.size();
         const GridIndex<dim> index = box.locate(near.positions[k]);
@@ -143,6 +162,7 @@ namespace Morula
                            near.positions[k],
                            area,
                            spacing,
+                           pressure,
                            tissue.grid().owner(index),
                            p,
                            box.number(index),
@@ -232,6 +252,20 @@ namespace Morula
         for (const auto unknown : global[k])
           points_[k].unknowns.push_back(
             space.relevant().index_within_set(unknown));
+  }
+
+
+  template <int dim>
+  bool
+  ContactPoints<dim>::are_apart(const unsigned int k) const
+  {
+    const ContactPoint<dim> &b = points_[pairs_[k].first],
+                            &c = points_[pairs_[k].second];
+    if (b.body != c.body)
+      return true;
+    if (apart[k] == Apart::unknown)
+      apart[k] = parting->are_connected(b.id, c.id) ? Apart::no : Apart::yes;
+    return apart[k] == Apart::yes;
   }
 
 

@@ -91,7 +91,7 @@ namespace Morula
     {
       unsigned int   b, c;             // points
       double         weight;           // A = a_b a_c ω, µm^(dim-1)
-      double         gap;              // g_k, µm
+      double         gap;              // g_k and the slack, µm
       Tensor<1, dim> across;           // D = (n_c - n_b)/2
       Tensor<1, dim> normal;           // m = D/|D|
       Tensor<1, dim> jump;             // w_k = u_b - u_c, µm
@@ -156,7 +156,8 @@ namespace Morula
     const ContactLaw          law;
     std::vector<Pair>         pairs, seen;
     std::vector<UnknownLink>  links_, seen_links;
-    std::vector<double>       first_gaps; // by pair of points
+    std::vector<double>       first_gaps; // by pair of points, µm
+    std::vector<double>       slacks;     // likewise
   };
 } // namespace Morula
 

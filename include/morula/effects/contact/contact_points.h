@@ -29,6 +29,8 @@ namespace Morula
     Tensor<1, dim> area;
     /** Distance to its neighbours l, µm. */
     double spacing;
+    /** Pressure of contact at t, averaged, kPa. */
+    double pressure;
     /** The rank that has it, and its position in the store there. */
     unsigned int owner, p;
     /** Its grid cell, by number; points of one part there have the same
@@ -88,6 +90,12 @@ namespace Morula
       return pairs_;
     }
 
+    /** Whether the two points of pair k are on different sides. This is found
+     *  out where it is asked for first, as it costs more than to see that two
+     *  points are far apart. */
+    bool
+    are_apart(const unsigned int k) const;
+
     /** Whether any rank has a pair. */
     bool
     any() const
@@ -113,8 +121,16 @@ namespace Morula
 
     std::vector<ContactPoint<dim>> points_;
     std::vector<ContactPair>       pairs_;
-    bool                           any_             = false;
-    double                         largest_spacing_ = 0.;
+    const Parting<dim>            *parting; // of the tissue
+    enum class Apart : char
+    {
+      unknown,
+      yes,
+      no
+    };
+    mutable std::vector<Apart> apart; // by pair
+    bool                       any_             = false;
+    double                     largest_spacing_ = 0.;
   };
 } // namespace Morula
 

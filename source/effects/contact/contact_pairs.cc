@@ -326,25 +326,26 @@ namespace Morula
         result.of_new_pairs +=
           pair.weight * law.kappa * std::max(-pair.gap, 0.);
     result.has_new_links = seen_links != links_;
-    // A pair that was no overlap at t but is a deep one now has crossed.
+    // A pair that overlaps far more than at t has crossed.
+    const double deep = 0.5 * ContactPoints<dim>::deepest_pair * law.h;
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
         const auto &[b, c] = points.pairs()[k];
-        if (first_gaps[k] <= -0.5 * ContactPoints<dim>::deepest_pair * law.h ||
-            now[b].n * now[c].n >= opposite_normals)
+        if (now[b].n * now[c].n >= opposite_normals)
           continue;
         const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
         const Tensor<1, dim> distance = now[b].x - now[c].x;
         const Tensor<1, dim> normal   = across / across.norm();
+        const double         overlap  = -(across * distance);
         const double s = (distance - (normal * distance) * normal).norm();
-        if (s < ContactPoints<dim>::kernel *
+        if (overlap > deep + std::max(0., -first_gaps[k]) &&
+            overlap > result.crossed &&
+            s < ContactPoints<dim>::kernel *
                   std::max(points.points()[b].spacing,
                            points.points()[c].spacing) &&
-            -(across * distance) > result.crossed && points.are_apart(k))
-          result.crossed = std::max(result.crossed, -(across * distance));
+            points.are_apart(k))
+          result.crossed = overlap;
       }
-    if (result.crossed < 0.5 * ContactPoints<dim>::deepest_pair * law.h)
-      result.crossed = 0.;
     return result;
   }
 

@@ -161,7 +161,9 @@ namespace Morula
         measures_of_bodies(tissue.founders, tissue.surface, comm);
       std::ostringstream text;
       text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
-           << ", each with splines of its own";
+           << (scene.contact.is_of_all() ?
+                 ", whose folds and arms have contact, too" :
+                 ", each with splines of its own");
       double thinnest = std::numeric_limits<double>::infinity();
       for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
         text << "; body " << b << ": " << bodies[b].cells << " cells, "

@@ -153,7 +153,7 @@ namespace Morula
     tissue.warnings = scene_warnings(
       scene, tissue.founders, tissue.surface, tissue.counts, comm);
     review_applied(scene, tissue.applied, tissue.warnings);
-    if (scene.contact.is_on() &&
+    if (scene.contact.is_on() && !scene.contact.is_of_all() &&
         measures_of_bodies(tissue.founders, tissue.surface, comm).size() < 2)
       tissue.warnings.push_back(
         "Warning: " + scene.contact.between.path() +

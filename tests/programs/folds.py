@@ -1,99 +1,249 @@
 #!/usr/bin/python3
-# ranks: 2
+# ranks: 3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Rings and layers that fold: equilibria that halved steps do not find."""
-import numpy
+"""Tissue that touches itself: a slit that closes and opens, the arms of a hairpin
+that are pressed together and drawn apart."""
+import math
+import random
 
-from program import (TESTS, ProgramTest, main, overrides, read_csv,
-                     without_wall_time)
+import numpy as np
 
-HARD = TESTS.parent / "prm/hard"
-RING = HARD / "folding-ring.prm"
+from morula.run import Run
+from program import ProgramTest, main, overrides, read_csv
+
+SCENE = """
+subsection Time
+  set End time = 0.4
+  set Step     = 0.1
+end
+subsection Tissue
+  set Shape          = points
+  set Points file    = cells.csv
+  set Points surface = surface.{ending}
+end
+subsection Grid
+  set Spacing = 10
+end
+subsection Contact
+  set Between = all
+end
+subsection Material
+  set Young's modulus = 1
+  set Poisson's ratio = 0.4
+end
+subsection Output
+  set Formats  = csv
+  set Interval = 0.1
+end
+"""
+
+
+class Strip:
+    """A strip that is bent by 180 degrees around a gap, along x."""
+
+    def __init__(self, thickness, gap, length):
+        self.inner, self.outer = gap / 2, gap / 2 + thickness
+        self.length, self.thickness = length, thickness
+
+    def cells(self, side):
+        """x, y and area of cells with edges of about this length (um)."""
+        n = max(2, round(self.thickness / side))
+        across = self.thickness / n
+        for k in range(n):
+            r = self.inner + (k + 0.5) * across
+            for i in range(round(self.length / side)):
+                for sign in (-1, 1):
+                    yield (i + 0.5) * side, sign * r, side * across
+            m = max(3, round(math.pi * r / side))
+            for j in range(m):
+                angle = math.pi / 2 + (j + 0.5) * math.pi / m
+                yield (r * math.cos(angle), r * math.sin(angle),
+                       math.pi * r / m * across)
+
+    def side(self, r, n):
+        """One side of the strip, from the lower arm's end to the upper one's."""
+        turn = [(r * math.cos(a), r * math.sin(a)) for a in
+                (-math.pi / 2 - math.pi * j / n for j in range(1, n))]
+        return [(self.length, -r), (0, -r), *turn, (0, r), (self.length, r)]
 
 
 class Folds(ProgramTest):
-    def rows(self, name="statistics"):
-        return read_csv(self.work / f"output/{name}.csv")
+    def write_scene(self, cells, surface, ending, dim=2):
+        names = "x,y,z,volume" if dim == 3 else "x,y,volume"
+        self.write("cells.csv", "\n".join(
+            [names] + [",".join(f"{value:.9f}" for value in cell)
+                       for cell in cells]) + "\n")
+        self.write(f"surface.{ending}", surface)
+        return self.write("scene.prm", f"set Dimension = {dim}\n"
+                          + SCENE.replace("{ending}", ending))
 
-    def test_a_ring_folds(self):
-        """Without friction it takes two lobes, with friction more, wherever the
-        grid lies; no step is halved."""
-        for friction, lobes in (("0", 2), ("1e-5", 4)):
-            for offset in ("0, 0", "3, 7"):
-                self.execute(RING, "--replace", *overrides(
-                    {"Tissue/Cell spacing": "3.3", "Time/End time": "1",
-                     "Output/Interval": "1", "Grid/Offset": offset,
-                     "Friction/Coefficient": friction}))
-                rows = self.rows()
-                self.assertEqual(rows["rejected_steps"].sum(), 0)
-                worst = numpy.sort(rows["newton_iterations"])[-10:]
-                self.assertLessEqual(worst.mean(), 60)
-                self.assertGreater(self.rows("newton")["energy"].min(), 0)
-                surface = self.rows("surface-0001")
-                outer = surface[numpy.hypot(surface["X"], surface["Y"]) > 90]
-                self.assertEqual(self.lobes(outer), lobes, (friction, offset))
+    def polygon(self, cells, ring):
+        return self.write_scene(cells, "POLYGON((" + ", ".join(
+            f"{x:.9f} {y:.9f}" for x, y in [*ring, ring[0]]) + "))\n", "wkt")
+
+    def run_scene(self, scene, keys, ranks=1):
+        self.execute(scene, "--replace", *overrides(keys), ranks=ranks)
+        return Run(self.work / "output").forces
 
     @staticmethod
-    def lobes(points):
-        """The strongest wave of the radius along the ring."""
-        angle = numpy.arctan2(points["Y"], points["X"])
-        order = numpy.argsort(angle)
-        radius = numpy.hypot(points["x"], points["y"])[order]
-        around = numpy.linspace(-numpy.pi, numpy.pi, 512, endpoint=False)
-        values = numpy.interp(around, angle[order], radius,
-                              period=2 * numpy.pi)
-        return 1 + numpy.abs(numpy.fft.rfft(values))[1:20].argmax()
+    def last(forces, name):
+        return forces[forces["name"] == name].iloc[-1]
 
-    def test_unequal_volumes_are_named(self):
-        """Neighbours that do and do not grow, each with its own strain."""
-        text = self.execute(RING, "--explain").stdout
-        self.assertIn("Material/Volumetric strain = pooled", text)
-        self.assertIn("a lumen whose volume is given", text)
-        self.assertIn("founders grow unequally", text)
+    def slit(self, width, noise=0.0):
+        """A block of 60 um, slit from its left side to its middle, with cells of
+        2 um that are moved by up to this part of that."""
+        generator = random.Random(1)
+        cells = [(*(1 + 2 * i + 2 * noise * generator.uniform(-1, 1)
+                    for i in place), 4)
+                 for place in ((i, j) for j in range(30) for i in range(30))]
+        mouth = [(0, 30 + width / 2), (30, 30), (0, 30 - width / 2)]
+        return self.polygon(cells, [(0, 0), (60, 0), (60, 60), (0, 60)]
+                            + (mouth if width > 0 else []))
 
-    def test_a_patch_between_walls(self):
-        """Held points are squeezed where a layer folds at its walls: the energy
-        stays that of an elastic body, and no step is halved."""
-        self.execute(HARD / "folding-patch.prm", *overrides(
-            {"Tissue/Size": "60, 60, 80", "Tissue/Cell spacing": "7.5",
-             "Grid/Spacing": "22", "Time/End time": "0.5",
-             "Boundary conditions/Slip where":
-                 "abs(X) > 29.9 || abs(Y) > 29.9"}))
-        self.assertEqual(self.rows()["rejected_steps"].sum(), 0)
-        self.assertGreater(self.rows("newton")["energy"].min(), 0)
+    def test_a_slit_carries_pressure_and_no_tension(self):
+        keys = {"Boundary conditions/Slip where": "Y < 0.001",
+                "Boundary conditions/Fixed where": "Y > 59.999"}
+        for offset, noise in (("0, 0", 0), ("3, 7", 0), ("0, 5", 0.2)):
+            found = {}
+            for width, points in ((0, 240), (1e-4, 300)):
+                scene = self.slit(width, noise)
+                for way in ("-10*t", "10*t"):
+                    forces = self.run_scene(
+                        scene, {**keys, "Grid/Offset": offset,
+                                "Tissue/Boundary points": str(points),
+                                "Boundary conditions/Displacement": f"0; {way}"})
+                    found[width, way] = self.last(forces, "fixed")["force_y"]
+                    points_of = read_csv(self.work / "output/surface-0004.csv")
+                    at_slit = ((abs(points_of["Y"] - 30) < 0.01)
+                               & (points_of["X"] > 1) & (points_of["X"] < 29))
+                    sides = [points_of[at_slit & (sign * points_of["ny"] > 0)]
+                             for sign in (1, -1)]
+                    if width > 0:
+                        lower, upper = (np.interp(
+                            np.arange(2, 28), np.sort(side["x"]),
+                            side["y"][np.argsort(side["x"])]) for side in sides)
+                        # p/kappa is 0.009 um
+                        if way == "-10*t":
+                            self.assertGreater(np.min(upper - lower), -0.05)
+                            self.assertLess(np.max(upper - lower), 0.01)
+                        else:
+                            self.assertGreater(np.max(upper - lower), 2.5)
+            self.assertAlmostEqual(found[1e-4, "-10*t"] / found[0, "-10*t"], 1,
+                                   delta=3e-3)
+            self.assertLess(found[1e-4, "10*t"], 0.9 * found[0, "10*t"])
 
-    def test_a_pressure_that_jumps(self):
-        """One proximal path finds the same state on any ranks, and after a run
-        was resumed."""
-        jump = HARD / "jumping-pressure.prm"
-        whole, resumed = self.work / "whole", self.work / "resumed"
-        self.execute(jump, output=whole)
-        rows = read_csv(whole / "statistics.csv")
-        self.assertEqual(rows["proximal_paths"].sum(), 1)
-        self.execute(jump, *overrides({"Time/End time": "0.4"}),
-                     output=resumed)
-        self.execute(jump, "--resume", output=resumed)
-        self.assertEqual(*[without_wall_time(run) for run in (whole, resumed)])
-        self.execute(jump, ranks=2)
-        for column in ("total_volume", "mean_energy_density", "ymax"):
-            numpy.testing.assert_allclose(
-                self.rows()[column][-1], rows[column][-1], rtol=1e-5)
+    def hairpin_keys(self, strip, points):
+        return {"Time/End time": "2",
+                "Tissue/Boundary points": str(points),
+                "Boundary conditions/Fixed where":
+                f"X > 10 && abs(Y) > {strip.outer - 0.001}",
+                "Boundary conditions/Displacement":
+                "0; if(Y > 0, -if(t < 1, 12*t, 12*(2 - t)), 0)"}
 
-    def test_jumps_of_all_kinds(self):
-        """A traction, a clamp and growth that jump are found, too."""
-        base = {"Boundary conditions/Pressure where": "",
-                "Boundary conditions/Pressure": "0"}
-        for kind in (
-                {"Boundary conditions/Traction where": "Y > 49.9",
-                 "Boundary conditions/Traction": "0; -0.3*(t > 0.45)"},
-                {"Boundary conditions/Fixed where": "abs(Y) > 49.9",
-                 "Boundary conditions/Displacement":
-                 "0; -40*(t > 0.45)*(Y > 0)"},
-                {"Growth/Law": "isotropic",
-                 "Growth/Isotropic/Stretch": "1 + (t > 0.45)"}):
-            self.execute(HARD / "jumping-pressure.prm", "--replace",
-                         *overrides({**base, **kind}))
+    def check_closing_and_opening(self, forces, dim):
+        """Contact begins when the gap of 10 um is used up, and ends when it is
+        back, with the same forces on the way in and out."""
+        rows = forces[forces["name"] == "body 0 on itself"]
+        times = [round(t, 6) for t in rows["time"]]
+        self.assertGreaterEqual(times[0], 0.7)
+        self.assertLessEqual(times[-1], 1.3)
+        inward = dict(zip(times, rows["force_inward"]))
+        self.assertAlmostEqual(inward[0.9], inward[1.1],
+                               delta=0.03 * inward[1.0])
+        self.assertGreater(inward[1.0], 5 * inward.get(0.8, 0.0))
+        for name in ("force_x", "force_y"):
+            self.assertLess(max(abs(rows[name])), 1e-9 * inward[1.0])
+        self.assertLess(np.hypot(*(rows[f"moment_{axis}"].iloc[-1]
+                                   for axis in "yz")) if dim == 3 else 0.0,
+                        0.1 * inward[1.0])
+
+    def test_a_hairpin_closes_and_opens(self):
+        """on any ranks, and resumed in contact bit for bit."""
+        for thickness in (20, 6):
+            strip = Strip(thickness, 10, 40)
+            scene = self.polygon(list(strip.cells(2)),
+                                 strip.side(strip.inner, 24)
+                                 + strip.side(strip.outer, 48)[::-1])
+            keys = self.hairpin_keys(strip, round(
+                (160 + math.pi * (strip.inner + strip.outer)) / 2))
+            self.check_closing_and_opening(self.run_scene(scene, keys), 2)
+        files = ("cells-0010", "surface-0020", "cells-0020", "forces")
+        whole = [(self.work / f"output/{name}.csv").read_bytes()
+                 for name in files]
+        alone = read_csv(self.work / "output/cells-0010.csv")
+        self.run_scene(scene, {**keys, "Time/End time": "1.1"})
+        self.execute(scene, "--resume", *overrides(keys))
+        self.assertEqual(whole, [(self.work / f"output/{name}.csv").read_bytes()
+                                 for name in files])
+        self.run_scene(scene, {**keys, "Time/End time": "1"}, ranks=3)
+        together = read_csv(self.work / "output/cells-0010.csv")
+        order = [np.argsort(table["id"]) for table in (alone, together)]
+        for name in ("x", "y"):
+            self.assertLess(np.max(abs(alone[name][order[0]]
+                                       - together[name][order[1]])), 1e-5)
+
+    def test_a_hairpin_in_3d(self):
+        strip, width, side = Strip(10, 10, 20), 10, 2.5
+        cells = [(x, y, (k + 0.5) * side, area * side)
+                 for x, y, area in strip.cells(side) for k in range(4)]
+        corners, triangles = [], []
+        rows = []
+        for r in (strip.inner, strip.outer):
+            for z in (0, width):
+                rows.append(range(len(corners),
+                                  len(corners) + len(strip.side(r, 12))))
+                corners += [(x, y, z) for x, y in strip.side(r, 12)]
+        n = len(rows[0])
+
+        def quad(a, b, c, d):
+            triangles.extend([(a, b, c), (a, c, d)])
+        # around the cross-section, and its two ends
+        for one, other in ((0, 1), (1, 3), (3, 2), (2, 0)):
+            for i in range(n - 1):
+                quad(rows[one][i], rows[one][i + 1],
+                     rows[other][i + 1], rows[other][i])
+        quad(*(rows[k][0] for k in (0, 1, 3, 2)))
+        quad(*(rows[k][n - 1] for k in (2, 3, 1, 0)))
+        surface = "\n".join(["OFF", f"{len(corners)} {len(triangles)} 0"]
+                            + ["%.9g %.9g %.9g" % corner for corner in corners]
+                            + ["3 %d %d %d" % triangle for triangle in triangles])
+        scene = self.write_scene(cells, surface + "\n", "off", dim=3)
+        keys = {**self.hairpin_keys(strip, 700),
+                "Boundary conditions/Displacement":
+                "0; if(Y > 0, -if(t < 1, 12*t, 12*(2 - t)), 0); 0"}
+        self.check_closing_and_opening(self.run_scene(scene, keys, 2), 3)
+
+    def test_bodies_touch_as_with_bodies_alone(self):
+        """Two blocks press on each other as where only bodies can touch."""
+        cells = [(1 + 2 * i, y + 1 + 2 * j, 4) for y in (0, 32)
+                 for j in range(15) for i in range(30)]
+        scene = self.write_scene(
+            cells, "MULTIPOLYGON(((0 0, 60 0, 60 30, 0 30, 0 0)), "
+            "((0 32, 60 32, 60 62, 0 62, 0 32)))\n", "wkt")
+        keys = {"Boundary conditions/Slip where":
+                "X < 0.001 || X > 59.999 || Y < 0.001",
+                "Boundary conditions/Fixed where": "Y > 61.999",
+                "Boundary conditions/Displacement": "0; -15*t",
+                "Tissue/Boundary points": "144"}
+        found = [self.last(self.run_scene(scene, {**keys,
+                                                  "Contact/Between": between}),
+                           "body 0 on body 1")["force_y"]
+                 for between in ("bodies", "all")]
+        self.assertAlmostEqual(*found, delta=1e-3 * found[0])
+
+    def test_what_is_refused(self):
+        scene = self.slit(1e-4)
+        for keys, message in (
+                ({"Tissue/Renew surface": "1", "Tissue/Refine surface": "true",
+                  "Tissue/Coarsen surface": "true"},
+                 "so that the sides of folds would stick"),
+                ({"Contact/Fusion time": "1", "Tissue/Refine surface": "true"},
+                 "Only different bodies can fuse")):
+            self.assertIn(message, self.execute(
+                scene, "--replace", *overrides(keys), code=1).text)
+        self.assertIn("1 body, whose folds and arms have contact, too",
+                      self.execute(scene, "--explain").text)
 
 
 if __name__ == "__main__":

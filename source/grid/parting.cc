@@ -39,6 +39,10 @@ namespace Morula
      *  units of their spacings, are as near. */
     constexpr double about_nearest = 1.2;
 
+    /** A surface is near a cell if it is at most so many of its lengths away: a
+     *  bond reaches from the first layer to the third one beyond. */
+    constexpr double near_surface = 3.;
+
     /** Cells of a straight chain from the owner of one boundary point to that
      * of another are at most so many of their lengths beside the segment from
      *  point to point. */
@@ -146,7 +150,9 @@ namespace Morula
     // that flat and long ones keep theirs. A bond between neighbours is cut by
     // any patch that its segment crosses, whichever side's it is. Patches that
     // can be crossed lie within half the segment's length and half a patch of
-    // its middle.
+    // its middle. A single bond that slips through between irregular patches
+    // would weld two surfaces. So a bond is also cut if the surfaces above its
+    // two cells face each other and each cell is beyond that of the other.
     std::vector<Point<dim>> places_of_patches;
     double                  widest = 0.;
     for (const PartedPatch<dim> &patch : patches)
@@ -167,6 +173,25 @@ namespace Morula
         return crosses(x, y, patches[i], near, patches);
       });
     };
+    // The nearest patch in front of each cell, if it is near.
+    constexpr unsigned int    none = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> above(cells.size(), none);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      for (const unsigned int i :
+           tree_of_patches.within(cells[p].x, near_surface * lengths[p]))
+        if ((cells[p].x - patches[i].x) * patches[i].n < 0. &&
+            (above[p] == none ||
+             cells[p].x.distance_square(patches[i].x) <
+               cells[p].x.distance_square(patches[above[p]].x)))
+          above[p] = i;
+    const auto is_across = [&](const unsigned int p, const unsigned int q) {
+      if (above[p] == none || above[q] == none)
+        return false;
+      const PartedPatch<dim> &a = patches[above[p]], &b = patches[above[q]];
+      const double            cosine = a.n * b.n;
+      return cosine < facing && (cells[q].x - a.x) * a.n > 0. &&
+             (cells[p].x - b.x) * b.n > 0.;
+    };
     bonds.resize(cells.size());
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
@@ -180,7 +205,7 @@ namespace Morula
             if (q == p || cells[q].body != cells[p].body ||
                 !is_near(cells[p], distance) ||
                 (q < p && is_near(cells[q], distance)) ||
-                is_cut(cells[p].x, cells[q].x))
+                is_across(p, q) || is_cut(cells[p].x, cells[q].x))
               continue;
             bonds[p].push_back(q);
             bonds[q].push_back(p);

@@ -184,7 +184,7 @@ class Folds(ProgramTest):
                                        - together[name][order[1]])), 1e-5)
 
     def test_a_hairpin_in_3d(self):
-        strip, width, side = Strip(10, 10, 20), 10, 2.5
+        strip, width, side = Strip(10, 10, 40), 10, 2.5
         cells = [(x, y, (k + 0.5) * side, area * side)
                  for x, y, area in strip.cells(side) for k in range(4)]
         corners, triangles = [], []
@@ -209,7 +209,7 @@ class Folds(ProgramTest):
                             + ["%.9g %.9g %.9g" % corner for corner in corners]
                             + ["3 %d %d %d" % triangle for triangle in triangles])
         scene = self.write_scene(cells, surface + "\n", "off", dim=3)
-        keys = {**self.hairpin_keys(strip, 700),
+        keys = {**self.hairpin_keys(strip, 900),
                 "Boundary conditions/Displacement":
                 "0; if(Y > 0, -if(t < 1, 12*t, 12*(2 - t)), 0); 0"}
         self.check_closing_and_opening(self.run_scene(scene, keys, 2), 3)

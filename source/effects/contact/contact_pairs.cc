@@ -143,7 +143,7 @@ namespace Morula
           ContactPoints<dim>::kernel *
           std::max(points.points()[b].spacing, points.points()[c].spacing);
         const double weight = one.a * other.a * contact_kernel<dim>(s, r);
-        if (weight <= 0. || !points.are_apart(k))
+        if (weight <= 0.)
           continue;
         // The drag keeps frozen normals from letting a body spin: k_t of
         // doc/theory.md (4.8k).
@@ -340,10 +340,9 @@ namespace Morula
         const double s = (distance - (normal * distance) * normal).norm();
         if (overlap > deep + std::max(0., -first_gaps[k]) &&
             overlap > result.crossed &&
-            s < ContactPoints<dim>::kernel *
-                  std::max(points.points()[b].spacing,
-                           points.points()[c].spacing) &&
-            points.are_apart(k))
+            s <
+              ContactPoints<dim>::kernel * std::max(points.points()[b].spacing,
+                                                    points.points()[c].spacing))
           result.crossed = overlap;
       }
     return result;

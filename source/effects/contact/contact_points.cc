@@ -21,6 +21,10 @@ namespace Morula
      *  this. It leaves room for turns within a step: a pair acts below -0.3. */
     constexpr double may_face = 0.2;
 
+    /** Points of one strand that have pressed on each other do so up to this
+     *  overlap, in units of h. */
+    constexpr double small_overlap = 0.1;
+
     /** What ranks tell each other of a boundary point: its area vector, body,
      *  part, spacing, pressure, and position in the store. */
     template <int dim>
@@ -67,7 +71,6 @@ namespace Morula
   ContactPoints<dim>::ContactPoints(const Tissue<dim> &tissue,
                                     SplineSpace<dim>  &space,
                                     const double       way)
-    : parting(&tissue.parting())
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     for (unsigned int p = 0; p < store.size(); ++p)
@@ -75,7 +78,6 @@ namespace Morula
     largest_spacing_ =
       Utilities::MPI::max(largest_spacing_, tissue.communicator());
     find_pairs(tissue, kernel * largest_spacing_ + way);
-    apart.assign(pairs_.size(), Apart::unknown);
     any_ = Utilities::MPI::logical_or(!pairs_.empty(), tissue.communicator());
     if (any_)
       find_unknowns(tissue, space);
@@ -133,14 +135,18 @@ namespace Morula
                   may_face * area.norm() * other_area.norm() ||
                 (other_body == body && !store.has_parts()))
               continue;
-            // The sides of a sheet, and of an edge, overlap for ever.
+            // Points of one body with a gap between them may meet. The sides of
+            // a sheet, or of an edge, overlap for ever, which is no contact:
+            // bonds connect them. They also connect the sides of a fold at its
+            // end, which have contact if they had it before.
             const double gap =
               0.5 * ((other_area / other_area.norm() - area / area.norm()) *
                      (near.positions[i] - near.positions[j]));
-            if (other_body != body ||
+            const bool touch = pressure > 0. && other_pressure > 0. &&
+                               gap > -small_overlap * box.spacing();
+            if (other_body != body || gap >= 0. || touch ||
                 (gap > -2. * deepest_pair * box.spacing() &&
-                 (gap >= 0. ||
-                  !tissue.parting().are_connected(near.ids[i], near.ids[j]))))
+                 !tissue.parting().are_connected(near.ids[i], near.ids[j])))
               found.emplace_back(i, j);
           }
       }
@@ -252,20 +258,6 @@ namespace Morula
         for (const auto unknown : global[k])
           points_[k].unknowns.push_back(
             space.relevant().index_within_set(unknown));
-  }
-
-
-  template <int dim>
-  bool
-  ContactPoints<dim>::are_apart(const unsigned int k) const
-  {
-    const ContactPoint<dim> &b = points_[pairs_[k].first],
-                            &c = points_[pairs_[k].second];
-    if (b.body != c.body)
-      return true;
-    if (apart[k] == Apart::unknown)
-      apart[k] = parting->are_connected(b.id, c.id) ? Apart::no : Apart::yes;
-    return apart[k] == Apart::yes;
   }
 
 

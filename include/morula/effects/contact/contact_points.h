@@ -90,12 +90,6 @@ namespace Morula
       return pairs_;
     }
 
-    /** Whether the two points of pair k are on different sides. This is found
-     *  out where it is asked for first, as it costs more than to see that two
-     *  points are far apart. */
-    bool
-    are_apart(const unsigned int k) const;
-
     /** Whether any rank has a pair. */
     bool
     any() const
@@ -121,16 +115,8 @@ namespace Morula
 
     std::vector<ContactPoint<dim>> points_;
     std::vector<ContactPair>       pairs_;
-    const Parting<dim>            *parting; // of the tissue
-    enum class Apart : char
-    {
-      unknown,
-      yes,
-      no
-    };
-    mutable std::vector<Apart> apart; // by pair
-    bool                       any_             = false;
-    double                     largest_spacing_ = 0.;
+    bool                           any_             = false;
+    double                         largest_spacing_ = 0.;
   };
 } // namespace Morula
 

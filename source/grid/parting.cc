@@ -204,8 +204,8 @@ namespace Morula
             const Tensor<1, dim> distance = cells[q].x - cells[p].x;
             if (q == p || cells[q].body != cells[p].body ||
                 !is_near(cells[p], distance) ||
-                (q < p && is_near(cells[q], distance)) ||
-                is_across(p, q) || is_cut(cells[p].x, cells[q].x))
+                (q < p && is_near(cells[q], distance)) || is_across(p, q) ||
+                is_cut(cells[p].x, cells[q].x))
               continue;
             bonds[p].push_back(q);
             bonds[q].push_back(p);

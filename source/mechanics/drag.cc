@@ -25,6 +25,14 @@ namespace Morula
 
   template <int dim>
   void
+  Drag<dim>::set_strength(const double factor)
+  {
+    strength = factor;
+  }
+
+
+  template <int dim>
+  void
   Drag<dim>::add(const unsigned int     grid_cell,
                  const LocalField<dim> &field,
                  const GrowthAt         growth,
@@ -44,7 +52,7 @@ namespace Morula
     for (unsigned int p = cells.offsets[grid_cell];
          p < cells.offsets[grid_cell + 1];
          ++p)
-      moments.add(cells.xi[p], {{stiffnesses[p]}});
+      moments.add(cells.xi[p], {{strength * stiffnesses[p]}});
     const std::vector<double> mass   = mass_matrix(moments);
     constexpr unsigned int    n      = BSpline<dim>::n;
     constexpr unsigned int    n_dofs = LocalSystem<dim>::n_dofs;
@@ -68,8 +76,9 @@ namespace Morula
     Tensor<1, dim> u = field.value(splines);
     if (!centre.empty())
       u -= centre[p];
-    system.add_energy(0.5 * stiffnesses[p] * u.norm_square());
-    add_force_at(splines, stiffnesses[p] * u, system);
+    const double k = strength * stiffnesses[p];
+    system.add_energy(0.5 * k * u.norm_square());
+    add_force_at(splines, k * u, system);
   }
 
 

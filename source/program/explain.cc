@@ -181,7 +181,8 @@ namespace Morula
            << h / scene.contact.stiffness
            << " um) at a pressure of E; without friction; in a step two of "
               "them come nearer by at most "
-           << h << " um; the thinnest body is about " << thinnest
+           << (scene.contact.is_of_all() ? 2. * h : h)
+           << " um; the thinnest body is about " << thinnest
            << " um thick (2 V/A), the least is " << 0.4 * h << " um; fields "
            << (scene.contact.fields_pass ? "pass from body to body" :
                                            "end at each body's surface");

@@ -26,6 +26,11 @@ namespace Morula
      */
     constexpr double staying = 0.8, least_part = 0.25;
 
+    /** The drag of tissue that goes slowly, in units of the weak one, and what
+     * is left of it in the next turn: at first it resists a motion by h with a
+     *  stress of about E; eight turns later it is weak. */
+    constexpr double strong_drag = 1e4, weaker = 0.3;
+
     /** Forces below this count as none, in units of E h^(dim-1). */
     constexpr double no_force = 1e-9;
 
@@ -58,10 +63,10 @@ namespace Morula
                              longest = std::max(longest, ways[p].norm());
                            });
     longest = Utilities::MPI::max(longest, tissue.communicator());
-    if (2. * longest <= h)
+    if (2. * longest <= points.way())
       return false;
     const double known =
-      h + ContactPoints<dim>::kernel * points.largest_spacing();
+      points.way() + ContactPoints<dim>::kernel * points.largest_spacing();
     const double reach =
       2. * longest + ContactPoints<dim>::kernel * points.largest_spacing();
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
@@ -112,6 +117,7 @@ namespace Morula
                                 const ContactLaw         &law,
                                 ContactPairs<dim>        &pairs,
                                 Drag<dim>                &drag,
+                                const bool                slowly,
                                 MomentumBalance<dim>     &balance,
                                 TimerOutput              &timer,
                                 const MPI_Comm            comm)
@@ -124,7 +130,10 @@ namespace Morula
     , balance(balance)
     , timer(timer)
     , comm(comm)
-  {}
+    , strength(slowly ? strong_drag : 1.)
+  {
+    drag.set_strength(strength);
+  }
 
 
   template <int dim>
@@ -149,14 +158,15 @@ namespace Morula
     if (crossed > 0.)
       text << "two bodies overlap by " << crossed
            << " um, so that the step is too long for their contact";
-    else if (slid > law.h)
+    else if (slid > points.way())
       text << "bodies in contact slide by " << slid
-           << " um along each other, more than a grid spacing: the step is too "
-              "long for their contact";
+           << " um along each other, more than " << points.way()
+           << " um: the step is too long for their contact";
     else if (has_crossed_from_afar(tissue, points, displacement, law.h))
       text << "bodies pass through each other, so that the step is too long "
               "for their contact";
-    if (!text.str().empty())
+    failed = !text.str().empty();
+    if (failed)
       throw StepFailed(text.str());
 
     const double unit = law.E * std::pow(law.h, dim - 1);
@@ -170,9 +180,11 @@ namespace Morula
         sums[3],
         crossed,
         slid);
-    if (sums[1] <= small_part * sums[0] + no_force * unit &&
+    if (strength == 1. && sums[1] <= small_part * sums[0] + no_force * unit &&
         sums[2] <= small_part * sums[0] + no_force * unit)
       return false;
+    strength = std::max(1., weaker * strength);
+    drag.set_strength(strength);
     // Where a surface is strongly curved the geometry may swing between two
     // states for ever. So it follows only a part of the way, half as much each
     // time that less than a fifth of the tangential forces has gone.

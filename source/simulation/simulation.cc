@@ -213,12 +213,16 @@ namespace Morula
   std::optional<ContactPoints<dim>>
   Simulation<dim>::points_in_contact(SplineSpace<dim> &space)
   {
-    // Within a step two points come nearer to each other by a grid spacing at
-    // most, or the step is halved.
+    // Within a step two points come nearer by a grid spacing at most, or the
+    // step is halved. A fold that snaps shut moves farther, however short the
+    // step is.
     if (!model.scene.contact.is_on())
       return {};
     const TimerOutput::Scope section(timer, "contact");
-    return ContactPoints<dim>(tissue, space, space.box().spacing());
+    const double             h = space.box().spacing();
+    return ContactPoints<dim>(tissue,
+                              space,
+                              model.scene.contact.is_of_all() ? 2. * h : h);
   }
 
   template <int dim>

@@ -159,8 +159,16 @@ namespace Morula
       participants.push_back(&*traction);
     std::optional<ContactTurn<dim>> touching;
     if (pairs)
-      participants.push_back(&touching.emplace(
-        tissue, space, *contact, law, *pairs, *drag, balance, timer, comm));
+      participants.push_back(&touching.emplace(tissue,
+                                               space,
+                                               *contact,
+                                               law,
+                                               *pairs,
+                                               *drag,
+                                               attempt.goes_slowly,
+                                               balance,
+                                               timer,
+                                               comm));
     Equilibrium::Evaluation evaluation;
     const std::size_t       n_traced = report.trace.size();
     try
@@ -176,6 +184,9 @@ namespace Morula
     catch (const StepFailed &failure)
       {
         share_extremes(balance, n_traced, report);
+        if (model.scene.contact.is_of_all() && !attempt.goes_slowly &&
+            touching && touching->has_failed())
+          return this->balance(attempt.slowly(), points, report, condition);
         // The failed state is evaluated once more: its energy and smallest J_e
         // are signs of what went wrong.
         Equilibrium::Vector R(solution.u);

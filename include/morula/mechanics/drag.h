@@ -27,6 +27,10 @@ namespace Morula
     void
     set_centre(std::vector<Tensor<1, dim>> ways);
 
+    /** Multiplies all k by @p strength, instead of by 1. */
+    void
+    set_strength(const double strength);
+
     void
     add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
@@ -43,6 +47,7 @@ namespace Morula
 
     const std::vector<double>   stiffnesses;
     std::vector<Tensor<1, dim>> centre; // of each cell; empty: 0
+    double                      strength = 1.;
   };
 } // namespace Morula
 

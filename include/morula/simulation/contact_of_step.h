@@ -38,13 +38,17 @@ namespace Morula
   {
   public:
     /** @param drag the weak drag of the step: in each turn it acts from where
-     *         the cells are then */
+     *         the cells are then
+     *  @param slowly whether it is strong in the first turn and weaker in each
+     *         further one, so that surfaces that a fold throws at each other
+     *         see each other on the way */
     ContactTurn(const Tissue<dim>        &tissue,
                 const SplineSpace<dim>   &space,
                 const ContactPoints<dim> &points,
                 const ContactLaw         &law,
                 ContactPairs<dim>        &pairs,
                 Drag<dim>                &drag,
+                const bool                slowly,
                 MomentumBalance<dim>     &balance,
                 TimerOutput              &timer,
                 const MPI_Comm            comm);
@@ -56,6 +60,13 @@ namespace Morula
 
     std::string
     unfinished() const override;
+
+    /** Whether a renewal has failed. */
+    bool
+    has_failed() const
+    {
+      return failed;
+    }
 
     /** The forces in the equilibrium that was found. Collective. */
     std::vector<ContactForce<dim>>
@@ -75,6 +86,8 @@ namespace Morula
     std::vector<double> frozen;
     double              part      = 1.; // of the way that the geometry follows
     double              left_over = std::numeric_limits<double>::max();
+    double              strength  = 1.; // of the drag
+    bool                failed    = false;
   };
 } // namespace Morula
 

@@ -18,6 +18,10 @@ namespace Morula
      *  this. */
     constexpr double opposite_normals = -0.3;
 
+    /** The growth of an overlap from which on points have crossed, in units of
+     *  the deepest overlap of a pair. */
+    constexpr double crossing = 0.9;
+
     /** k_t of a pair, in units of its pressure by h, and of one that is about
      *  to touch, in units of E/h; such a pair has a gap below this times h. */
     constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
@@ -121,8 +125,8 @@ namespace Morula
   {
     // Of the candidates those become pairs that face each other and are near
     // along their surfaces. A pair with a gap costs nothing until the gap is
-    // used up, so that gaps up to h count: bodies that meet within a solve do
-    // not pass through each other.
+    // used up, so that all gaps count which a step can use up: bodies that meet
+    // within a solve do not pass through each other.
     std::vector<Pair> list;
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
@@ -134,7 +138,7 @@ namespace Morula
         const Tensor<1, dim> distance = one.x - other.x;
         const double         overlap  = -(across * distance);
         if (overlap >= ContactPoints<dim>::deepest_pair * law.h ||
-            overlap <= -law.h)
+            overlap <= -points.way())
           continue;
         const double         gap    = slacks[k] - overlap;
         const Tensor<1, dim> normal = across / across.norm();
@@ -326,8 +330,10 @@ namespace Morula
         result.of_new_pairs +=
           pair.weight * law.kappa * std::max(-pair.gap, 0.);
     result.has_new_links = seen_links != links_;
-    // A pair that overlaps far more than at t has crossed.
-    const double deep = 0.5 * ContactPoints<dim>::deepest_pair * law.h;
+    // A pair that overlaps far more than at t has crossed. What overlaps less
+    // is a new pair, which the next turn pushes apart: a fold that snaps shut
+    // brings points together that were too far apart at t.
+    const double deep = crossing * ContactPoints<dim>::deepest_pair * law.h;
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
         const auto &[b, c] = points.pairs()[k];

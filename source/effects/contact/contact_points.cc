@@ -71,6 +71,7 @@ namespace Morula
   ContactPoints<dim>::ContactPoints(const Tissue<dim> &tissue,
                                     SplineSpace<dim>  &space,
                                     const double       way)
+    : way_(way)
   {
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     for (unsigned int p = 0; p < store.size(); ++p)

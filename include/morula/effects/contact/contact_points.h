@@ -90,6 +90,14 @@ namespace Morula
       return pairs_;
     }
 
+    /** How far two points may come nearer to each other, or slide, in a step,
+     *  µm. */
+    double
+    way() const
+    {
+      return way_;
+    }
+
     /** Whether any rank has a pair. */
     bool
     any() const
@@ -117,6 +125,7 @@ namespace Morula
     std::vector<ContactPair>       pairs_;
     bool                           any_             = false;
     double                         largest_spacing_ = 0.;
+    double                         way_;
   };
 } // namespace Morula
 

@@ -205,7 +205,7 @@ namespace
     for (const auto &grid_cell : space.grid_cells())
       for (const unsigned int unknown : grid_cell.unknowns)
         {
-          const int body = grid_cell.body;
+          const int body = grid_cell.part;
           EXPECT_TRUE(owner[unknown] == -1 || owner[unknown] == body);
           owner[unknown] = body;
         }

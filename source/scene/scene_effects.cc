@@ -3,6 +3,7 @@
 
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/division_axes.h>
+#include <morula/effects/fate/types_around.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -136,7 +137,13 @@ namespace Morula
       {
         types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
         for (unsigned int type = 0; type < types->size(); ++type)
-          development.grows.push_back(scene.grows(type));
+          {
+            development.grows.push_back(scene.grows(type));
+            for (const Expression *const rate : types->rates(type))
+              if (reads_types_around(*rate, effects.state))
+                development.neighbours =
+                  scene.keys<NeighbourParameters>().search();
+          }
       }
     if (scene.has_growth())
       development.law =

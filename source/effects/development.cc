@@ -74,9 +74,9 @@ namespace Morula
       return;
     auto proliferation =
       std::make_unique<Proliferation<dim>>(std::move(*cycle), columns_, 0);
-    typename Proliferation<dim>::Rules rules;
+    DivisionRules<dim> rules;
     if (rule)
-      rules.push_back(std::move(rule));
+      rules.list.push_back(std::move(rule));
     proliferation->set_rules(std::move(rules));
     effects.proliferation = effects.add_fate(std::move(proliferation));
   }

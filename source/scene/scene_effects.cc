@@ -46,14 +46,14 @@ namespace Morula
     /** Makes each of the rules that types of cells have once. @param make makes
      *  one of the catalogue's effects */
     template <int dim, typename Make>
-    typename DivisionAxes<dim>::Rules
+    DivisionRules<dim>
     rules_of(const Scene              &scene,
              const EffectSetting<dim> &setting,
              const Make               &make)
     {
       // Types may share an axis, so each rule is made once, by its name, and
       // types point to it. The random axis is no rule: it is a null pointer.
-      typename DivisionAxes<dim>::Rules                all;
+      DivisionRules<dim>                               all;
       std::map<std::string, const DivisionRule<dim> *> rules;
       for (const std::string &axis : scene.division_axes())
         {
@@ -149,11 +149,7 @@ namespace Morula
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
     if (proliferation)
-      {
-        auto rules = rules_of(scene, setting, make);
-        proliferation->set_rules(std::move(rules.list),
-                                 std::move(rules.of_type));
-      }
+      proliferation->set_rules(rules_of(scene, setting, make));
     else if (scene.divides_by_fate())
       setting.axes =
         std::make_shared<DivisionAxes<dim>>(scene.cell_cycle,

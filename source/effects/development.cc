@@ -74,9 +74,9 @@ namespace Morula
       return;
     auto proliferation =
       std::make_unique<Proliferation<dim>>(std::move(*cycle), columns_, 0);
-    typename Proliferation<dim>::Rules rules;
+    DivisionRules<dim> rules;
     if (rule)
-      rules.push_back(std::move(rule));
+      rules.list.push_back(std::move(rule));
     proliferation->set_rules(std::move(rules));
     effects.proliferation = effects.add_fate(std::move(proliferation));
   }
@@ -263,139 +263,6 @@ namespace Morula
 
   template <int dim>
   void
-  CellDevelopment<dim>::develop(const PresentCell<dim>      &before,
-                                const CellView<dim, double> &after,
-                                const double                 t0,
-                                const double                 t1,
-                                std::vector<CellEvent>      &events,
-                                Errors                      &errors) const
-  {
-    // The cell is seen twice: `before` is its committed state of t0 and is
-    // never written, `after` is a copy of its row that becomes the state of t1.
-    // Three passes follow: events and clocks, then what effects keep, then the
-    // product (8.7) of doc/theory.md. The step's equilibrium is sought
-    // afterwards with the new F_g, so F in `after` is still that of t0.
-
-    // What happens to the cell comes first, as growth depends on it: a cell
-    // that dies or enters S within the step grows otherwise from then on.
-    errors.missed_growth       = 0.;
-    const std::size_t n_events = events.size();
-    const bool dead = is_dead_at(effects.fates, before, after, t0, events);
-    if (!dead)
-      {
-        for (const auto &fate : effects.fates)
-          // The integral of a rate gets what the last step missed of it,
-          // doc/theory.md (5.9), before thresholds are looked for.
-          fate->make_good(before, after);
-        if (announces_growth)
-          announce_growth(before, after, t0, t1);
-        // A clock that no other fate can interrupt never has to be taken back,
-        // so it needs no search for the earliest event.
-        if (effects.proliferation && effects.fates.size() == 1)
-          effects.proliferation->run_clock(before, after, {t0, t1});
-        else
-          live(effects.fates, before, after, t0, t1, events);
-        for (const auto &fate : effects.fates)
-          // An event in mid-step resets hazards, so that the next step could
-          // compare nothing: rates are remembered only of a step without
-          // events.
-          fate->expect(before,
-                       after,
-                       0.5 * (t0 + t1),
-                       events.size() == n_events);
-      }
-    if (effects.proliferation)
-      effects.proliferation->advance(before, after, t0, t1);
-    for (const Effect<dim> *effect : effects.with_state)
-      effect->advance(before, after, t0, t1);
-    if (!grows())
-      return;
-
-    // The product of all that grows is doc/theory.md (8.7). A dead cell keeps
-    // the growth that it had and shrinks by (6.9); one that dies in this step
-    // grows until its death. Flows come last: they relax the stress of the
-    // elastic part, which is known only when all other factors are.
-    Tensor<2, dim> F_g =
-      dead ?
-        before.cell().growth() :
-        living_growth(before,
-                      after,
-                      t0,
-                      std::min(t1, time_of_death<dim>(effects.fates, after)),
-                      errors.missed_growth);
-    for (const auto &fate : effects.fates)
-      if (fate->time_of_death(after) <= t1)
-        F_g *= fate->shrink(after, t1);
-    F_g = flow(before, after, F_g, t0, t1, errors.flow_shares);
-    after.set(columns_.growth, F_g);
-  }
-
-
-  template <int dim>
-  DevelopmentOfStep<dim>
-  CellDevelopment<dim>::of_step(const Tissue<dim> &tissue,
-                                const double       t0,
-                                const double       t1,
-                                const PastStep    &past) const
-  {
-    // The loop is over the cells that this rank owns, in the order of the
-    // store, and no cell reads another one: nothing here is collective. The
-    // tissue is left as it is, because the step may fail and be repeated with
-    // half the length. The results are vectors in the same order, with the
-    // growth of t0 and of t1 for the first tangent, doc/theory.md (5.1).
-    DevelopmentOfStep<dim> result;
-    result.present = grows();
-    result.past    = past;
-    if (!present())
-      return result;
-    const Cells<dim>     &cells  = tissue.cells();
-    const CellReader<dim> reader = this->reader(t0, past);
-    // Stiffness that depends on the state is that of the cell with its new type
-    // and age, so it is read with the time of the end.
-    const CellReader<dim> after_step = this->reader(t1);
-    if (keeps_rows)
-      result.rows.reserve(cells.size() * columns_.n_numbers());
-    if (grows())
-      {
-        result.previous.reserve(cells.size());
-        result.current.reserve(cells.size());
-      }
-    std::vector<double> row;
-    Errors              errors;
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      {
-        const auto             cell = cells[p];
-        const PresentCell<dim> before(cell,
-                                      cells.id(p),
-                                      cells.position(p),
-                                      reader);
-        // One row serves all cells, so that the loop does not ask the heap.
-        row.assign(cell.row().begin(), cell.row().end());
-        const CellView<dim, double> after(make_array_view(row), columns_);
-        develop(before, after, t0, t1, result.events, errors);
-        if (grows())
-          {
-            result.previous.push_back(cell.growth());
-            result.current.push_back(after.growth());
-          }
-        if (effects.law_follows_state())
-          result.missed_growth.push_back(errors.missed_growth);
-        result.flow_shares.insert(result.flow_shares.end(),
-                                  errors.flow_shares.begin(),
-                                  errors.flow_shares.end());
-        if (material.depends_on_state())
-          result.lame.push_back(
-            PresentCell<dim>(after, cells.id(p), cells.position(p), after_step)
-              .lame());
-        if (keeps_rows)
-          result.rows.insert(result.rows.end(), row.begin(), row.end());
-      }
-    return result;
-  }
-
-
-  template <int dim>
-  void
   CellDevelopment<dim>::commit(Tissue<dim>                  &tissue,
                                const DevelopmentOfStep<dim> &of_step,
                                const double                  t0,
@@ -427,6 +294,7 @@ namespace Morula
                 CellView<dim, double>(make_array_view(row), columns_),
                 t0,
                 t1,
+                nullptr,
                 events,
                 errors);
         std::copy(row.begin(), row.end(), cell.row().begin());

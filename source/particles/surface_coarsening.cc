@@ -29,6 +29,42 @@ namespace Morula
      *  edge of the body. */
     constexpr double least_cosine = 0.5;
 
+    /** The shift of doc/theory.md (4.12d) of the patch that two become, along
+     *  its normal, from their area vectors and the way from one to the other.
+     */
+    template <int dim>
+    Tensor<1, dim>
+    shift_of(const Tensor<1, dim> &a,
+             const Tensor<1, dim> &b,
+             const Tensor<1, dim> &apart)
+    {
+      const Tensor<1, dim> area = a + b;
+      const double w_a = a.norm() / (a.norm() + b.norm()), w_b = 1. - w_a;
+      return (w_a * (b * apart) - w_b * (a * apart)) / area.norm_square() *
+             area;
+    }
+
+    /** F, turned so that it takes patches with the normal @p N to ones with the
+     *  area vector @p area. */
+    template <int dim>
+    Tensor<2, dim>
+    turned(const Tensor<2, dim> &F,
+           const Tensor<1, dim> &N,
+           const Tensor<1, dim> &area)
+    {
+      // The turn K = n ⊗ m - m ⊗ n from the unit vector m to n, in their plane.
+      Tensor<1, dim> m = N * invert(F);
+      m /= m.norm();
+      const Tensor<1, dim> n = area / area.norm();
+      const double         c = m * n;
+      if (!(c > 0.))
+        return F;
+      const Tensor<2, dim> K = outer_product(n, m) - outer_product(m, n);
+      return (Tensor<2, dim>(unit_symmetric_tensor<dim>()) + K +
+              K * K / (1. + c)) *
+             F;
+    }
+
     /** Patches that may merge, of all ranks, by id. */
     template <int dim>
     class Candidates
@@ -99,12 +135,9 @@ namespace Morula
         const Tensor<1, dim> area   = areas[i] + areas[j];
         const Tensor<1, dim> apart  = points.positions[j] - points.positions[i];
         const Point<dim>     middle = points.positions[i] + w_j * apart;
-        // This is the shift of doc/theory.md (4.12d), along the normal.
-        const Tensor<1, dim> shift =
-          (w_i * (areas[j] * apart) - w_j * (areas[i] * apart)) /
-          area.norm_square() * area;
-        const std::size_t               main = w_j > w_i ? j : i;
-        std::vector<double>             row(points.row(main).begin(),
+        const Tensor<1, dim> shift  = shift_of(areas[i], areas[j], apart);
+        const std::size_t    main   = w_j > w_i ? j : i;
+        std::vector<double>  row(points.row(main).begin(),
                                 points.row(main).end());
         const BoundaryView<dim, double> merged(make_array_view(row), columns);
         // A mean of very different deformations may have no volume.
@@ -113,11 +146,29 @@ namespace Morula
           F = view(main).F();
         const Point<dim> X = Point<dim>(w_i * view(i).initial_position() +
                                         w_j * view(j).initial_position());
-        // The gap of a held point is x - X, which must remain the mean of both
-        // gaps: so X is shifted as x is.
-        const bool held = merged.condition() == SurfaceCondition::fixed ||
-                          merged.condition() == SurfaceCondition::slip;
-        merged.set(columns.initial_position, held ? X + shift : X);
+        // The gap of a fixed point is x - X, which must remain the mean of both
+        // gaps: so X is shifted as x is. What a slip point is held to is the
+        // wall through X, which stays where it is: X is shifted as the two
+        // patches of the wall say, and the normal is theirs.
+        Tensor<1, dim> area_of_wall;
+        if (merged.condition() == SurfaceCondition::fixed)
+          merged.set(columns.initial_position, X + shift);
+        else if (merged.condition() == SurfaceCondition::slip)
+          {
+            const Tensor<1, dim> wall_i =
+              areas[i].norm() * view(i).initial_normal();
+            const Tensor<1, dim> wall_j =
+              areas[j].norm() * view(j).initial_normal();
+            area_of_wall = wall_i + wall_j;
+            merged.set(columns.initial_position,
+                       X + shift_of(wall_i,
+                                    wall_j,
+                                    view(j).initial_position() -
+                                      view(i).initial_position()));
+            F = turned(F, area_of_wall, area);
+          }
+        else
+          merged.set(columns.initial_position, X);
         merged.set(columns.reference_area,
                    w_i * view(i).get(columns.reference_area) +
                      w_j * view(j).get(columns.reference_area));
@@ -125,6 +176,9 @@ namespace Morula
           merged.set(columns.force,
                      view(i).get(columns.force) + view(j).get(columns.force));
         columns.set_square_patch(make_array_view(row), F, area);
+        if (area_of_wall != Tensor<1, dim>())
+          merged.set(columns.initial_normal,
+                     area_of_wall / area_of_wall.norm());
         list.add(points.ids[i], middle + shift, make_array_view(row));
       }
 
@@ -141,14 +195,17 @@ namespace Morula
       {
         const double a_i = areas[i].norm(), a_j = areas[j].norm();
         // The conditions of doc/theory.md, section 4.5: small enough together,
-        // not across an edge of the body, near, and with the same condition and
-        // loads.
+        // not across an edge of the body or of the walls on which it slips,
+        // near, and with the same condition and loads.
         const double sides =
           std::pow(a_i, 1. / (dim - 1)) + std::pow(a_j, 1. / (dim - 1));
         return a_i + a_j <= std::min(largest[i], largest[j]) &&
                areas[i] * areas[j] >= least_cosine * a_i * a_j &&
                points.positions[i].distance(points.positions[j]) <= sides &&
                view(i).condition() == view(j).condition() &&
+               (view(i).condition() != SurfaceCondition::slip ||
+                view(i).initial_normal() * view(j).initial_normal() >=
+                  least_cosine) &&
                alike(view(i), view(j));
       }
 

@@ -27,9 +27,6 @@ namespace Morula
       if (effects.development.law)
         effects.development.law->check(at);
       const Proliferation<dim> *const cells = effects.development.proliferation;
-      if (cells != nullptr)
-        for (const auto &rule : cells->rules())
-          rule->check(at);
       for (const auto &fate : effects.development.fates)
         fate->check(at);
       for (const auto &trait : effects.traits)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <sstream>
 
@@ -19,16 +20,14 @@ namespace Morula
     /** A rate times a step above this has an error that is seen: the change of
      *  other cells is felt a step late. */
     constexpr double largest_part = 0.3;
-    /** The same of a rate that reads neighbours: two cells beside each other
-     * may change in one step, as if neither saw the other. With this, 4 % of
-     * those that inhibit each other stand wrongly. */
-    constexpr double largest_part_beside = 0.02;
     /** From here on a rate is a switch: cells change in the next step. */
     constexpr double switch_part = 10.;
 
-    /** Whether a value can change in a step by what other cells do. */
+    /** Whether a value can change in a step by what other cells do, besides
+     *  those of its variables that cells see in the step itself. */
     bool
-    feels_others(const Expression &expression)
+    feels_others(const Expression                          &expression,
+                 const std::function<bool(const Variable)> &seen)
     {
       using V                         = Variable;
       constexpr std::array<V, 10> own = {{V::X,
@@ -43,24 +42,11 @@ namespace Morula
                                           V::noise}};
       return std::any_of(expression.used().begin(),
                          expression.used().end(),
-                         [&own](const Variable variable) {
-                           return std::find(own.begin(), own.end(), variable) ==
-                                  own.end();
+                         [&](const Variable variable) {
+                           return !seen(variable) &&
+                                  std::find(own.begin(), own.end(), variable) ==
+                                    own.end();
                          });
-    }
-
-    /** Whether a value depends on the types of the cells beside. */
-    bool
-    reads_neighbours(const Expression &expression)
-    {
-      const auto &used = expression.used();
-      return std::any_of(
-        used.begin(), used.end(), [&](const Variable variable) {
-          const std::string name = expression.vocabulary().name_of(variable);
-          return is_field(variable) &&
-                 (name == "unlike" || name.rfind("neighbours_", 0) == 0 ||
-                  name.rfind("touching_", 0) == 0 || name == "around_type");
-        });
     }
 
     /** A rate that depends on what other cells do. */
@@ -75,14 +61,18 @@ namespace Morula
 
     template <int dim>
     std::vector<CoupledRate>
-    coupled_rates(const DevelopmentEffects<dim> &effects)
+    coupled_rates(const DevelopmentEffects<dim> &effects,
+                  const StateColumns<dim>       &columns)
     {
       // Types have rates of their own, so they are asked type by type; other
       // fates have one list for all cells.
+      const auto seen = [&](const Variable variable) {
+        return effects.neighbours && is_type_around(variable, columns);
+      };
       std::vector<CoupledRate> list;
-      const auto               add = [&list](const Expression                 &rate,
-                               const std::optional<unsigned int> type) {
-        if (feels_others(rate))
+      const auto               add = [&](const Expression                 &rate,
+                           const std::optional<unsigned int> type) {
+        if (feels_others(rate, seen))
           list.push_back({rate, type});
       };
       if (effects.types != nullptr)
@@ -100,7 +90,6 @@ namespace Morula
     warn_of(const Expression &rate,
             const double      largest,
             const double      step,
-            const double      allowed,
             Review           &review)
     {
       std::ostringstream why, remedy;
@@ -108,7 +97,7 @@ namespace Morula
           << " in a step of " << step
           << " day. What other cells become in a step is felt in the next one "
              "only, an error of first order in rate times step.";
-      remedy << "Let Time/Step be at most " << allowed / largest
+      remedy << "Let Time/Step be at most " << largest_part / largest
              << " day, or compare with a run of half the step.";
       review.warn(rate.key(), rate.text(), why.str(), remedy.str());
     }
@@ -126,8 +115,9 @@ namespace Morula
     // The rates are evaluated at all founders of this rank in their state at t
     // = 0; then the largest over all ranks is compared with the step. A rate
     // far above it is a switch, whose delay of a step is meant.
+    const SceneEffects<dim>  effects = effects_of<dim>(scene);
     std::vector<CoupledRate> rates =
-      coupled_rates(effects_of<dim>(scene).development);
+      coupled_rates(effects.development, effects.state);
     if (rates.empty())
       return;
     const FirstCells<dim> cells(scene, founders, surface, comm);
@@ -147,10 +137,8 @@ namespace Morula
       {
         const double largest = Utilities::MPI::max(coupled.largest, comm);
         const double part    = largest * scene.time.step;
-        const double allowed =
-          reads_neighbours(coupled.rate) ? largest_part_beside : largest_part;
-        if (part > allowed && part < switch_part)
-          warn_of(coupled.rate, largest, scene.time.step, allowed, review);
+        if (part > largest_part && part < switch_part)
+          warn_of(coupled.rate, largest, scene.time.step, review);
       }
   }
 

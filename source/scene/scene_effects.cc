@@ -3,6 +3,7 @@
 
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/division_axes.h>
+#include <morula/effects/fate/types_around.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -45,14 +46,14 @@ namespace Morula
     /** Makes each of the rules that types of cells have once. @param make makes
      *  one of the catalogue's effects */
     template <int dim, typename Make>
-    typename DivisionAxes<dim>::Rules
+    DivisionRules<dim>
     rules_of(const Scene              &scene,
              const EffectSetting<dim> &setting,
              const Make               &make)
     {
       // Types may share an axis, so each rule is made once, by its name, and
       // types point to it. The random axis is no rule: it is a null pointer.
-      typename DivisionAxes<dim>::Rules                all;
+      DivisionRules<dim>                               all;
       std::map<std::string, const DivisionRule<dim> *> rules;
       for (const std::string &axis : scene.division_axes())
         {
@@ -136,17 +137,19 @@ namespace Morula
       {
         types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
         for (unsigned int type = 0; type < types->size(); ++type)
-          development.grows.push_back(scene.grows(type));
+          {
+            development.grows.push_back(scene.grows(type));
+            for (const Expression *const rate : types->rates(type))
+              if (reads_types_around(*rate, effects.state))
+                development.neighbours =
+                  scene.keys<NeighbourParameters>().search();
+          }
       }
     if (scene.has_growth())
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
     if (proliferation)
-      {
-        auto rules = rules_of(scene, setting, make);
-        proliferation->set_rules(std::move(rules.list),
-                                 std::move(rules.of_type));
-      }
+      proliferation->set_rules(rules_of(scene, setting, make));
     else if (scene.divides_by_fate())
       setting.axes =
         std::make_shared<DivisionAxes<dim>>(scene.cell_cycle,

@@ -95,11 +95,7 @@ namespace Morula
     for (const auto &flow : development.flows)
       flow->review(at, review);
     if (development.proliferation != nullptr)
-      {
-        review_cell_cycle(scene.cell_cycle, at, review);
-        for (const auto &rule : development.proliferation->rules())
-          rule->review(at, review);
-      }
+      review_cell_cycle(scene.cell_cycle, at, review);
     review_rates(scene, founders, surface, comm, review);
     for (const auto &fate : development.fates)
       fate->review(at, review);

@@ -284,10 +284,8 @@ namespace Morula
     if (model.development.present())
       {
         const TimerOutput::Scope section(timer, "growth");
-        everywhere(comm, [&]() {
-          growth_of_step =
-            model.development.of_step(tissue, t, t_next, time_steps.past());
-        });
+        growth_of_step =
+          model.development.of_step(tissue, t, t_next, time_steps.past());
         // The stiffness is taken from the cells as they are in this step, since
         // a resumed run knows no earlier ones and has to find the same value.
         if (model.material.depends_on_state())

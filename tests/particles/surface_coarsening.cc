@@ -195,6 +195,55 @@ namespace
     EXPECT_EQ(pair(up, 60., SurfaceCondition::free), 2u); // too far apart
   }
 
+  /** Patches of a slip wall that is squeezed along itself, and that the motion
+   *  has tilted a little: those that they become lie on the same wall, with its
+   *  normal, and the area vectors and the volume stay. */
+  template <int dim>
+  void
+  check_wall()
+  {
+    Tensor<1, dim> N;
+    N[0]                 = -1.;
+    const unsigned int n = dim == 2 ? 12 : 36;
+    PointList<dim>     points(columns<dim>.n_numbers());
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Point<dim> X;
+        X[0]               = -50.;
+        X[1]               = 10. * (i % 12);
+        X[dim - 1]         = dim == 2 ? X[1] : 10. * (i / 12);
+        const double along = 0.4, tilt = 0.15 * std::sin(7. * i);
+        points.add(i,
+                   X,
+                   columns<dim>.initial_point(
+                     X, N, std::pow(10., dim - 1), SurfaceCondition::slip));
+        Tensor<2, dim> f = along * unit_tensor<dim>();
+        f[0][0]          = 1.1;
+        f[0][1] = f[1][0] = tilt;
+        BoundaryView<dim, double>(points.row(i), columns<dim>).deform(f);
+        points.positions[i] *= along;
+        points.positions[i][0] = -50. + std::cos(5. * i);
+      }
+    const PatchSums<dim> old(points, columns<dim>);
+    coarsen_surface<dim>(
+      points,
+      columns<dim>,
+      longest_edge,
+      [](const auto &, const auto &) { return true; },
+      MPI_COMM_SELF);
+    const PatchSums<dim> sums(points, columns<dim>);
+    EXPECT_LT(points.size(), 0.7 * n);
+    EXPECT_LT((sums.vector - old.vector).norm(), 1e-12 * old.area);
+    EXPECT_NEAR(sums.volume, old.volume, 1e-12 * std::abs(old.volume));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const BoundaryView<dim> point(points.row(i), columns<dim>);
+        EXPECT_NEAR(point.initial_position()[0], -50., 1e-12);
+        EXPECT_LT((point.initial_normal() - N).norm(), 1e-14);
+        EXPECT_GT(determinant(point.F()), 0.);
+      }
+  }
+
   template <int dim>
   void
   check_ranks()
@@ -228,6 +277,13 @@ TEST(SurfaceCoarsening,
 
 TEST(SurfaceCoarsening,
      LeavesApartWhatIsUnlike){MORULA_BOTH_DIMENSIONS(check_unlike)}
+
+
+TEST(SurfaceCoarsening, LeavesSlipWallsWhereTheyAre)
+{
+  check_wall<2>();
+  check_wall<3>();
+}
 
 
 TEST(SurfaceCoarsening, IsTheSameForAnyNumberOfRanks)

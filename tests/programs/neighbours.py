@@ -4,6 +4,8 @@
 """What cells know of their neighbours, and what they do by it: columns by closed
 forms on a lattice, on one rank and on several, and resumed; lateral inhibition; that
 scenes without them have nothing of it."""
+import csv
+
 import numpy
 from program import TESTS, ProgramTest, main, overrides, read_csv
 
@@ -105,21 +107,40 @@ class Neighbours(ProgramTest):
         numpy.testing.assert_array_equal(cells["neighbours"][inside], 8)
 
     def test_lateral_inhibition(self):
-        """Random sequential adsorption on the square lattice covers 0.3641 of it;
-        with a rate times step of 0.02 a few cells stand beside another."""
+        """Random sequential adsorption on the square lattice covers 0.3641 of it,
+        whatever the rate times step; no two stand beside each other."""
         output = self.work / "inhibition"
         self.execute(INHIBITION, *overrides(
-            {"Tissue/Size": "600, 600", "Output/Interval": "2"}), output=output)
+            {"Tissue/Size": "2000, 2000", "Output/Interval": "3", "Time/Step": 0.125,
+             "Time/End time": 3}), output=output)
         cells = self.cells(output, 1)
         senders = cells["type"] == 1
-        inside = (abs(cells["x"]) < 290) & (abs(cells["y"]) < 290)
-        self.assertAlmostEqual(senders[inside].mean(), 0.3641, delta=0.01)
-        beside = cells["neighbours_sender"][senders & inside] > 0
-        self.assertLess(beside.mean(), 0.08)
+        inside = (abs(cells["x"]) < 950) & (abs(cells["y"]) < 950)
+        self.assertAlmostEqual(senders[inside].mean(), 0.3641, delta=0.002)
+        self.assertEqual(cells["neighbours_sender"][senders].max(), 0)
         # each that is undecided stays so for a sender beside it, but for the
         # few that had no time
         free = ~senders & (cells["neighbours_sender"] == 0)
-        self.assertLess(free.mean(), 0.005)
+        self.assertLess(free.mean(), 1e-4)
+
+    def test_inhibition_on_any_ranks(self):
+        """The events of one rank, of steps of any length while rates are constant:
+        each has its exact time."""
+        tables = {}
+        for ranks, step in ((1, 0.125), (2, 0.125), (3, 0.125), (2, 0.5)):
+            output = self.work / f"ranks-{ranks}-{step}"
+            self.execute(INHIBITION, *overrides(
+                {"Tissue/Size": "300, 300", "Time/Step": step, "Time/End time": 1}),
+                ranks=ranks, output=output)
+            with open(output / "events.csv", encoding="utf-8") as file:
+                tables[ranks, step] = zip(*sorted(
+                    (int(row["id"]), float(row["time"]))
+                    for row in csv.DictReader(file)))
+        ids, times = tables.pop((1, 0.125))
+        self.assertGreater(len(ids), 250)
+        for other_ids, other_times in tables.values():
+            numpy.testing.assert_array_equal(other_ids, ids)
+            numpy.testing.assert_allclose(other_times, times, atol=1e-12)
 
     def test_absent(self):
         """A scene of types that asks for nothing has no column, no section."""

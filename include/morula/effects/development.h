@@ -13,6 +13,7 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/cell_event.h>
+#include <morula/particles/neighbours.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>
@@ -77,6 +78,9 @@ namespace Morula
     Column<Tensor<2, dim>> law_growth;
     /** F_r of (8.7), if there is no cycle that keeps it. */
     Column<Tensor<2, dim>> relaxed;
+    /** How the cells beside one are found, if changes of type depend on their
+     *  types. */
+    std::optional<NeighbourSearch> neighbours = {};
     /** All effects that have columns of their own, but for the proliferation;
      *  others own these effects. */
     std::vector<const Effect<dim> *> with_state = {};
@@ -177,7 +181,7 @@ namespace Morula
                const GivenState            &given = {}) const;
 
     /** The development of the cells in (t0, t1]. @param past the step that
-     *  ended at @p t0. @throws InputError */
+     *  ended at @p t0. Collective. @throws InputError on all ranks */
     DevelopmentOfStep<dim>
     of_step(const Tissue<dim> &tissue,
             const double       t0,
@@ -299,14 +303,43 @@ namespace Morula
       std::vector<double> flow_shares = {};
     };
 
-    /** Sets all columns of @p after but F. */
+    /** Sets all columns of @p after but F. @param around as in live() */
     void
     develop(const PresentCell<dim>      &before,
             const CellView<dim, double> &after,
             const double                 t0,
             const double                 t1,
+            const TypesAround<dim>      *around,
             std::vector<CellEvent>      &events,
             Errors                      &errors) const;
+
+    /** Keeps the rates that the step saw, for the next one. @param around the
+     *  types beside the cell if they changed, or null */
+    void
+    expect(const PresentCell<dim>      &before,
+           const CellView<dim, double> &after,
+           const double                 t,
+           const bool                   is_whole,
+           const TypesAround<dim>      *around) const;
+
+    /** Lets cell @p p develop, and sets what @p result has of it; its events
+     *  are added. @param row is overwritten */
+    void
+    let_live(const Tissue<dim>      &tissue,
+             const unsigned int      p,
+             const double            t0,
+             const double            t1,
+             const TypesAround<dim> *around,
+             std::vector<double>    &row,
+             DevelopmentOfStep<dim> &result) const;
+
+    /** Lets cells develop again until all have seen the changes of the types
+     *  beside them. Collective. */
+    void
+    see_neighbours(const Tissue<dim>      &tissue,
+                   const double            t0,
+                   const double            t1,
+                   DevelopmentOfStep<dim> &result) const;
 
     /** Whether cells of the type of this one grow by the law. */
     bool

@@ -35,7 +35,7 @@ namespace Morula
   template <int dim>
   DivisionAxes<dim>::DivisionAxes(const CellCycleParameters &keys,
                                   StateColumns<dim>         &state,
-                                  Rules                      rules,
+                                  DivisionRules<dim>         rules,
                                   const std::uint64_t        seed)
     : spread(state.use(keys.axis_spread))
     , least_anisotropy(state.use(keys.least_anisotropy))
@@ -47,20 +47,10 @@ namespace Morula
 
 
   template <int dim>
-  const std::vector<std::unique_ptr<const DivisionRule<dim>>> &
+  const DivisionRules<dim> &
   DivisionAxes<dim>::rules() const
   {
-    return all.list;
-  }
-
-
-  template <int dim>
-  const DivisionRule<dim> *
-  DivisionAxes<dim>::rule(const unsigned int type) const
-  {
-    if (!all.of_type.empty())
-      return all.of_type[type];
-    return all.list.empty() ? nullptr : all.list.front().get();
+    return all;
   }
 
 
@@ -73,7 +63,7 @@ namespace Morula
     // tissue until the daughters are placed at the end of the step.
     const std::uint64_t            key    = cell.lineage_key();
     const Tensor<1, dim>           random = Random::direction<dim>(seed, key);
-    const DivisionRule<dim> *const rule   = this->rule(cell.type());
+    const DivisionRule<dim> *const rule   = all.rule(cell.type());
     if (rule == nullptr)
       return random;
     Tensor<1, dim> axis = axis_by_rule(
@@ -94,7 +84,7 @@ namespace Morula
                                const Tensor<1, dim>              &axis,
                                const unsigned int                 type) const
   {
-    const DivisionRule<dim> *const rule = this->rule(type);
+    const DivisionRule<dim> *const rule = all.rule(type);
     Tensor<1, dim>                 now  = axis;
     if (rule != nullptr && rule->frame() == AxisFrame::present)
       now = cell.F() * axis;

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/cell_types.h>
-#include <morula/effects/fate/hazard.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
@@ -24,30 +23,34 @@ namespace Morula
     // are declared. A cell has one type at a time, so ways are numbered within
     // its type and all types share the columns: as many as the type with the
     // most ways needs.
-    std::size_t most = 0;
+    std::vector<std::vector<std::pair<unsigned int, Expression>>> ways;
+    std::size_t                                                   most = 0;
+    transitions.resize(parameters.types.size());
     for (unsigned int type = 0; type < parameters.types.size(); ++type)
       {
         const CellTypeKeys &keys = parameters.types[type];
         where.push_back(keys.where.optional(dim));
         daughters_.push_back(parameters.daughters(type));
-        transitions.emplace_back();
+        ways.emplace_back();
         for (unsigned int k = 0; k < keys.transitions.size(); ++k)
           if (!keys.transitions[k].is_default())
-            transitions.back().push_back(
-              // The list of a type leaves the type itself out, hence the shift.
-              {k < type ? k : k + 1, setting.state.use(keys.transitions[k])});
-        most = std::max(most, transitions.back().size());
+            // The list of a type leaves the type itself out, hence the shift.
+            ways.back().emplace_back(k < type ? k : k + 1,
+                                     setting.state.use(keys.transitions[k]));
+        most = std::max(most, ways.back().size());
       }
     if (most == 0)
       return;
-    n_changes = setting.columns.template add<unsigned int>(
-      {"type_changes",
-       "",
-       "how often the cell has changed its type",
-       0,
-       AtDivision::reset});
+    CellColumns<dim> &columns = setting.columns;
+    n_changes =
+      columns.template add<unsigned int>({"type_changes",
+                                          "",
+                                          "how often the cell has changed its "
+                                          "type",
+                                          0,
+                                          AtDivision::reset});
     for (std::size_t k = 0; k < most; ++k)
-      hazards.push_back(setting.columns.template add<double>(
+      hazards.push_back(columns.template add<double>(
         {"transition_hazard_" + std::to_string(k + 1),
          "",
          "rate of a way out of the type, integrated",
@@ -55,18 +58,24 @@ namespace Morula
          AtDivision::reset}));
     for (std::size_t k = 0; k < most; ++k)
       expected.push_back(
-        std::any_of(transitions.begin(),
-                    transitions.end(),
-                    [k](const std::vector<Transition> &ways) {
-                      return k < ways.size() && ways[k].rate.follows_state();
+        std::any_of(ways.begin(),
+                    ways.end(),
+                    [k](const auto &of_type) {
+                      return k < of_type.size() &&
+                             of_type[k].second.follows_state();
                     }) ?
-          setting.columns.template add<double>(
+          columns.template add<double>(
             {"transition_rate_" + std::to_string(k + 1),
              "1/day",
              "rate of a way out of the type that the last step saw; -1: none",
              not_expected,
              AtDivision::reset}) :
           Column<double>());
+    for (unsigned int type = 0; type < ways.size(); ++type)
+      for (std::size_t k = 0; k < ways[type].size(); ++k)
+        transitions[type].push_back(
+          {ways[type][k].first,
+           CellHazard<dim>(ways[type][k].second, hazards[k], expected[k])});
   }
 
 
@@ -98,15 +107,15 @@ namespace Morula
     Outlook                        outlook;
     if (ways.empty())
       return outlook;
-    const unsigned int  n      = row.get(n_changes);
-    const std::uint64_t key    = cell.lineage_key();
-    const double        middle = 0.5 * (stretch.begin + stretch.end);
+    const unsigned int  n   = row.get(n_changes);
+    const std::uint64_t key = cell.lineage_key();
     for (std::size_t k = 0; k < ways.size(); ++k)
       {
-        outlook.ways.push_back(
-          {cell.value(ways[k].rate, middle),
-           row.get(hazards[k]),
-           Random::transition_threshold(random_seed, key, n, k)});
+        outlook.ways.push_back(ways[k].hazard.in(
+          stretch,
+          cell,
+          row,
+          Random::transition_threshold(random_seed, key, n, k)));
         const double latest = outlook.time.value_or(stretch.end);
         if (const auto time = outlook.ways[k].event(stretch.begin, latest))
           {
@@ -207,20 +216,8 @@ namespace Morula
   CellTypes<dim>::make_good(const PresentCell<dim>      &cell,
                             const CellView<dim, double> &row) const
   {
-    // What the last step missed of each integral is added, doc/theory.md (5.9),
-    // for the rates that follow the state. The column is -1 after a birth or a
-    // change of type, and then nothing is added.
-    const PastStep                &past = cell.reader().past;
-    const std::vector<Transition> &ways = transitions[cell.type()];
-    if (!past.exists())
-      return;
-    for (std::size_t k = 0; k < ways.size(); ++k)
-      if (expected[k].exists())
-        row.set(hazards[k],
-                with_missed(row.get(hazards[k]),
-                            cell.value(ways[k].rate, past.middle()),
-                            row.get(expected[k]),
-                            past.length()));
+    for (const Transition &way : transitions[cell.type()])
+      way.hazard.make_good(cell, row);
   }
 
 
@@ -231,14 +228,13 @@ namespace Morula
                          const double                 t,
                          const bool                   is_whole) const
   {
-    // The rates that this step sees are kept for the next one. Columns beyond
-    // the ways of this type say that nothing is expected.
+    // Columns beyond the ways of this type say that nothing is expected.
     const std::vector<Transition> &ways = transitions[cell.type()];
     for (std::size_t k = 0; k < expected.size(); ++k)
-      if (expected[k].exists())
-        row.set(expected[k],
-                is_whole && k < ways.size() ? cell.value(ways[k].rate, t) :
-                                              not_expected);
+      if (k < ways.size())
+        ways[k].hazard.expect(cell, row, t, is_whole);
+      else if (expected[k].exists())
+        row.set(expected[k], not_expected);
   }
 
 
@@ -261,7 +257,7 @@ namespace Morula
                              const double) const
   {
     for (const Transition &way : transitions[founder.type()])
-      founder.value(way.rate, 0.);
+      founder.value(way.hazard.rate(), 0.);
   }
 
 
@@ -271,7 +267,7 @@ namespace Morula
   {
     std::vector<const Expression *> list;
     for (const Transition &way : transitions[type])
-      list.push_back(&way.rate);
+      list.push_back(&way.hazard.rate());
     return list;
   }
 

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/division/halve_shape.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
@@ -161,10 +160,10 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  DivisionBySize<dim>::divides() const
+  const DivisionRules<dim> *
+  DivisionBySize<dim>::division_rules() const
   {
-    return true;
+    return axes ? &axes->rules() : nullptr;
   }
 
 
@@ -337,11 +336,7 @@ namespace Morula
                                       which == 0 ?
                                         Random::Draw::first_daughter :
                                         Random::Draw::second_daughter));
-    halve_shape(daughter,
-                placement_axis(daughter,
-                               columns.type.exists() ?
-                                 daughter.get(columns.type) :
-                                 0));
+    this->halve(daughter, columns);
   }
 
 
@@ -366,29 +361,8 @@ namespace Morula
                          "Such a cell would divide more than once at t = 0: "
                          "raise the volume, or lower Tissue/Cell spacing.");
       }
-    if (const DivisionRule<dim> *const rule =
-          axes ? axes->rule(founder.type()) : nullptr)
+    if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
       rule->check_cell(founder, step);
-  }
-
-
-  template <int dim>
-  void
-  DivisionBySize<dim>::check(const Preview<dim> &scene) const
-  {
-    if (axes)
-      for (const auto &rule : axes->rules())
-        rule->check(scene);
-  }
-
-
-  template <int dim>
-  void
-  DivisionBySize<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    if (axes)
-      for (const auto &rule : axes->rules())
-        rule->review(scene, review);
   }
 
 

@@ -4,21 +4,9 @@
 #include <morula/effects/fate/extrusion.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
-#include <morula/effects/tables.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace Morula
 {
-  namespace
-  {
-    /** The column of the time of extrusion has this value while a cell is
-     *  there. */
-    constexpr double stays_in = -1.;
-  } // namespace
-
-
   ExtrusionParameters::ExtrusionParameters()
     : rate("Extrusion/Rate",
            "0",
@@ -70,69 +58,18 @@ namespace Morula
   template <int dim>
   Extrusion<dim>::Extrusion(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)
-    : rate(setting.state.use(parameters.rate))
-    , random_seed(setting.random_seed)
-  {
-    CellColumns<dim> &columns = setting.columns;
-    columns.need_growth();
-    integral = columns.template add<double>({"extrusion_hazard",
-                                             "",
-                                             "rate of extrusion, integrated",
-                                             0.,
-                                             AtDivision::reset});
-    if (rate.follows_state())
-      expected = columns.template add<double>(
-        {"extrusion_rate",
-         "1/day",
-         "rate of extrusion that the last step saw; -1: none",
-         not_expected,
-         AtDivision::reset});
-    time = columns.template add<double>({"extrusion_time",
-                                         "day",
-                                         "when the cell leaves; -1: not yet",
-                                         stays_in,
-                                         AtDivision::reset});
-  }
+    : EndAtRate<dim>(parameters.rate,
+                     setting,
+                     {"extrusion", "when the cell leaves; -1: not yet", false})
+  {}
 
 
   template <int dim>
-  Hazard
-  Extrusion<dim>::hazard(const PresentCell<dim>            &cell,
-                         const CellView<dim, const double> &row,
-                         const Stretch                     &stretch) const
+  double
+  Extrusion<dim>::threshold(const std::uint64_t seed,
+                            const std::uint64_t key) const
   {
-    // A cell has one threshold for its whole life, as with death.
-    return {cell.value(rate, 0.5 * (stretch.begin + stretch.end)),
-            row.get(integral),
-            Random::threshold_of("extrusion", random_seed, cell.lineage_key())};
-  }
-
-
-  template <int dim>
-  std::optional<double>
-  Extrusion<dim>::next(const PresentCell<dim>      &cell,
-                       const CellView<dim, double> &row,
-                       const Stretch               &stretch) const
-  {
-    // The integral is written as if nothing else happened; pass() sets it again
-    // if another fate comes first.
-    const Hazard hazard = this->hazard(cell, row, stretch);
-    const auto   time   = hazard.event(stretch.begin, stretch.end);
-    row.set(integral,
-            hazard.integral_at(stretch.begin, time ? *time : stretch.end));
-    return time;
-  }
-
-
-  template <int dim>
-  void
-  Extrusion<dim>::pass(const PresentCell<dim>      &cell,
-                       const CellView<dim, double> &row,
-                       const Stretch               &stretch,
-                       const double                 s) const
-  {
-    row.set(integral,
-            hazard(cell, cell.cell(), stretch).integral_at(stretch.begin, s));
+    return Random::threshold_of("extrusion", seed, key);
   }
 
 
@@ -144,54 +81,10 @@ namespace Morula
                          const double            s,
                          std::vector<CellEvent> &events) const
   {
-    row.set(time, s);
+    this->end(row, s);
     events.push_back(
       {s, cell.id(), CellEvent::death, cell.type(), cell.type(), "extruded"});
     return LifeAfter::ends;
-  }
-
-
-  template <int dim>
-  void
-  Extrusion<dim>::make_good(const PresentCell<dim>      &cell,
-                            const CellView<dim, double> &row) const
-  {
-    const PastStep &past = cell.reader().past;
-    if (past.exists() && expected.exists())
-      row.set(integral,
-              with_missed(row.get(integral),
-                          cell.value(rate, past.middle()),
-                          row.get(expected),
-                          past.length()));
-  }
-
-
-  template <int dim>
-  void
-  Extrusion<dim>::expect(const PresentCell<dim>      &cell,
-                         const CellView<dim, double> &row,
-                         const double                 t,
-                         const bool                   is_whole) const
-  {
-    if (expected.exists())
-      row.set(expected, is_whole ? cell.value(rate, t) : not_expected);
-  }
-
-
-  template <int dim>
-  bool
-  Extrusion<dim>::is_deadly() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  double
-  Extrusion<dim>::time_of_death(const CellView<dim, const double> &cell) const
-  {
-    const double t = cell.get(time);
-    return t == stays_in ? std::numeric_limits<double>::infinity() : t;
   }
 
 
@@ -200,7 +93,7 @@ namespace Morula
   Extrusion<dim>::removal_time(const CellView<dim, const double> &cell) const
   {
     // The event lies within the step, so the cell goes at its end.
-    return time_of_death(cell);
+    return this->time_of_death(cell);
   }
 
 
@@ -209,36 +102,7 @@ namespace Morula
   Extrusion<dim>::shrinks(const CellView<dim, const double> &cell) const
   {
     // Nothing shrinks, but the space is handed on as that of a shrunken cell.
-    return cell.get(time) != stays_in;
-  }
-
-
-  template <int dim>
-  std::vector<const Expression *>
-  Extrusion<dim>::rates(const unsigned int) const
-  {
-    return {&rate};
-  }
-
-
-  template <int dim>
-  void
-  Extrusion<dim>::declare(Tables<dim> &tables) const
-  {
-    // Death has the same counts, which are of both then.
-    tables.record_events(true);
-    const auto has = [&tables](const std::string &name) {
-      return std::any_of(tables.columns().begin(),
-                         tables.columns().end(),
-                         [&name](const auto &column) {
-                           return column.name == name;
-                         });
-    };
-    if (has("deaths"))
-      return;
-    tables.add_count("deaths", CellEvent::death);
-    tables.add_count("removed", CellEvent::removal);
-    tables.add_number("pieces");
+    return this->has_ended(cell);
   }
 
 
@@ -247,7 +111,7 @@ namespace Morula
   Extrusion<dim>::check_cell(const PresentCell<dim> &founder,
                              const double) const
   {
-    founder.value(rate, 0.);
+    founder.value(*this->rates(0)[0], 0.);
   }
 
 

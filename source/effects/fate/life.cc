@@ -92,19 +92,27 @@ namespace Morula
        const CellView<dim, double> &row,
        const double                 t0,
        const double                 t1,
-       std::vector<CellEvent>      &events)
+       std::vector<CellEvent>      &events,
+       const TypesAround<dim>      *around)
   {
-    // Each round takes the cell from one event to the next. All fates see the
-    // cell as it was when the step began, but for its type and what they keep
-    // of it: the row of the round's beginning is copied, as fates write into
-    // `row` while they look for their events. The round without an event, or a
-    // death or a division, is the last.
+    // Each round takes the cell from one event to the next, of its own or
+    // beside it. All fates see the cell as it was when the step began, but for
+    // its type, those beside it, and what they keep of it: the row of the
+    // round's beginning is copied, as fates write into `row` while they look
+    // for their events. The round without an event, or a death or a division,
+    // is the last.
     if (fates.empty())
       return;
-    double t = t0;
-    Row    at_t;
-    for (unsigned int n = 0; n < most_events; ++n)
+    double            t = t0;
+    Row               at_t;
+    const std::size_t n_changes = around != nullptr ? around->size() : 0;
+    std::size_t       n_seen    = around != nullptr ? around->n_before(t0) : 0;
+    for (unsigned int n = 0; n < most_events;)
       {
+        if (around != nullptr)
+          around->set(row, n_seen);
+        const bool   is_last = n_seen == n_changes;
+        const double until   = is_last ? t1 : around->time(n_seen);
         at_t.assign(row.row().begin(), row.row().end());
         const CellView<dim, const double> view(
           ArrayView<const double>(at_t.data(), at_t.size()), row.columns());
@@ -112,10 +120,18 @@ namespace Morula
                                     before.id(),
                                     before.position(),
                                     before.reader());
-        const NextEvent        event = next_event(fates, cell, row, t, t1);
-        if (!event.fate ||
-            happen(fates, event, cell, row, t, events) != LifeAfter::goes_on)
+        const NextEvent        event = next_event(fates, cell, row, t, until);
+        if (event.fate)
+          {
+            ++n;
+            if (happen(fates, event, cell, row, t, events) !=
+                LifeAfter::goes_on)
+              return;
+          }
+        else if (is_last)
           return;
+        else
+          ++n_seen;
         t = event.time;
       }
     throw InputError("Cell types",
@@ -178,7 +194,8 @@ namespace Morula
                        const CellView<dim, double> &,                 \
                        const double,                                  \
                        const double,                                  \
-                       std::vector<CellEvent> &);                     \
+                       std::vector<CellEvent> &,                      \
+                       const TypesAround<dim> *);                     \
   template bool   is_dead_at(const Fates<dim> &,                      \
                              const PresentCell<dim> &,                \
                              const CellView<dim, double> &,           \

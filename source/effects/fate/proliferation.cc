@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/division_axes.h>
-#include <morula/effects/division/halve_shape.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 
@@ -27,11 +26,9 @@ namespace Morula
 
   template <int dim>
   void
-  Proliferation<dim>::set_rules(Rules                                  rules,
-                                std::vector<const DivisionRule<dim> *> of_type)
+  Proliferation<dim>::set_rules(DivisionRules<dim> rules)
   {
-    rules_       = std::move(rules);
-    rule_of_type = std::move(of_type);
+    this->rules = std::move(rules);
   }
 
 
@@ -52,22 +49,10 @@ namespace Morula
 
 
   template <int dim>
-  const typename Proliferation<dim>::Rules &
-  Proliferation<dim>::rules() const
+  const DivisionRules<dim> *
+  Proliferation<dim>::division_rules() const
   {
-    return rules_;
-  }
-
-
-  template <int dim>
-  const DivisionRule<dim> *
-  Proliferation<dim>::rule(const unsigned int type) const
-  {
-    // Without types of cells there is at most one rule; null stands for the
-    // random axis.
-    if (!rule_of_type.empty())
-      return rule_of_type[type];
-    return rules_.empty() ? nullptr : rules_.front().get();
+    return &rules;
   }
 
 
@@ -124,7 +109,8 @@ namespace Morula
     // Founders get their axis before the steady fields are known. It is chosen
     // again when they are, from the same random direction.
     CycleState<dim> state = clock(row);
-    if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
+    if (this->rule(founder.type()) == nullptr ||
+        state.phase != CyclePhase::growing)
       return;
     state.axis = Random::direction<dim>(random_seed, state.key);
     choose_axis(CycleState<dim>(), founder, 0., state);
@@ -178,14 +164,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Proliferation<dim>::divides() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
   double
   Proliferation<dim>::time_of_division(const CellView<dim, const double> &cell,
                                        const double t) const
@@ -216,11 +194,7 @@ namespace Morula
     // The clock in the row is still the mother's, and so is the type: this fate
     // is the first, and that of types the last. Both daughters go on with the
     // mother's cycle, but each gets a random key of its own from hers.
-    halve_shape(daughter,
-                placement_axis(daughter,
-                               columns.type.exists() ?
-                                 daughter.get(columns.type) :
-                                 0));
+    this->halve(daughter, columns);
     const auto [minus, plus] = cycle_.daughters(clock(daughter));
     set_clock(daughter, which == 0 ? minus : plus);
   }

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/types_around.h>
 #include <morula/effects/state/neighbour_columns.h>
 
 #include <algorithm>
@@ -220,9 +221,14 @@ namespace Morula
 
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const auto own      = graph.points.row(p);
-        double     touching = 0.;
-        graph.for_neighbours(p, [&](const auto &e) { touching += e.area; });
+        const auto              own      = graph.points.row(p);
+        double                  touching = 0.;
+        std::vector<CellBeside> beside;
+        graph.for_neighbours(p, [&](const auto &e) {
+          touching += e.area;
+          beside.push_back(
+            {static_cast<unsigned int>(graph.points.row(e.other)[0]), e.area});
+        });
         const double surface = touching + free[p];
         // The sum over the neighbours of something, and over what they touch.
         const auto sum = [&](const auto &value) {
@@ -238,30 +244,20 @@ namespace Morula
         unsigned int n_means = 0;
         for (std::size_t k = 0; k < variables.size(); ++k)
           {
-            const NeighbourVariable &told = variables[k];
-            const auto is_of_type = [&](const ArrayView<const double> &row) {
-              return row[0] == told.number;
-            };
-            double value = 0.;
+            const NeighbourVariable &told  = variables[k];
+            double                   value = 0.;
             switch (told.kind)
               {
                 case NeighbourVariable::count:
                   value = graph.offsets[p + 1] - graph.offsets[p];
                   break;
                 case NeighbourVariable::count_of_type:
-                  value = sum([&](const auto &row, const double) {
-                    return is_of_type(row) ? 1. : 0.;
-                  });
-                  break;
                 case NeighbourVariable::share_of_type:
-                  value = share(sum([&](const auto &row, const double S) {
-                    return is_of_type(row) ? S : 0.;
-                  }));
-                  break;
                 case NeighbourVariable::unlike:
-                  value = share(sum([&](const auto &row, const double S) {
-                    return row[0] != own[0] ? S : 0.;
-                  }));
+                  value = *of_types(told,
+                                    static_cast<unsigned int>(own[0]),
+                                    beside,
+                                    surface);
                   break;
                 case NeighbourVariable::free:
                   value = share(free[p]);

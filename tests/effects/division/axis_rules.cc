@@ -105,18 +105,18 @@ namespace
     make(const typename Rule<dim>::Parameters &keys,
          const CellCycleParameters            &cycle_keys)
     {
-      CellColumns<dim>                   columns;
-      StateColumns<dim>                  state;
-      DevelopmentEffects<dim>            effects;
-      const EffectSetting<dim>           setting{seed, slack, columns, state};
-      typename Proliferation<dim>::Rules rules;
+      CellColumns<dim>         columns;
+      StateColumns<dim>        state;
+      DevelopmentEffects<dim>  effects;
+      const EffectSetting<dim> setting{seed, slack, columns, state};
+      DivisionRules<dim>       rules;
       if constexpr (std::is_constructible<
                       Rule<dim>,
                       const typename Rule<dim>::Parameters &,
                       const EffectSetting<dim> &>::value)
-        rules.push_back(std::make_unique<const Rule<dim>>(keys, setting));
+        rules.list.push_back(std::make_unique<const Rule<dim>>(keys, setting));
       else
-        rules.push_back(std::make_unique<const Rule<dim>>(keys));
+        rules.list.push_back(std::make_unique<const Rule<dim>>(keys));
       auto proliferation = std::make_unique<Proliferation<dim>>(
         CellCycle<dim>(cycle_keys, seed, slack, state), columns, seed);
       proliferation->set_rules(std::move(rules));

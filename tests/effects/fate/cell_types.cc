@@ -142,7 +142,10 @@ TEST(CellTypes, HaveAxesOfTheirOwn)
     settings.push_back(setting);
   const Scene scene = scene_of(settings);
   EXPECT_NO_THROW(scene.check());
-  EXPECT_EQ(effects_of<2>(scene).development.proliferation->rules().size(), 1u);
+  EXPECT_EQ(effects_of<2>(scene)
+              .development.proliferation->division_rules()
+              ->list.size(),
+            1u);
   const CellDevelopment<2> development = development_of(scene);
   for (const double X : {0., 80.})
     {

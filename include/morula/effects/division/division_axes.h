@@ -4,12 +4,10 @@
 #ifndef morula_effects_division_division_axes_h
 #define morula_effects_division_division_axes_h
 
-#include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/fate/dividing_fate.h>
 
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 namespace Morula
 {
@@ -49,27 +47,15 @@ namespace Morula
   class DivisionAxes
   {
   public:
-    /** The rules. @param of_type the rule of each type of cells, one of these,
-     *  or null for a random axis; empty: all types have the first */
-    struct Rules
-    {
-      std::vector<std::unique_ptr<const DivisionRule<dim>>> list;
-      std::vector<const DivisionRule<dim> *>                of_type;
-    };
-
     /** @throws InputError for expressions that cannot be parsed */
     DivisionAxes(const CellCycleParameters &keys,
                  StateColumns<dim>         &state,
-                 Rules                      rules,
+                 DivisionRules<dim>         rules,
                  const std::uint64_t        seed);
 
     /** All rules. */
-    const std::vector<std::unique_ptr<const DivisionRule<dim>>> &
+    const DivisionRules<dim> &
     rules() const;
-
-    /** The rule of a type of cells, or null. */
-    const DivisionRule<dim> *
-    rule(const unsigned int type) const;
 
     /** The unit vector in the reference configuration along which a cell in its
      *  state at @p t (day) divides. @throws InputError */
@@ -88,10 +74,10 @@ namespace Morula
     stay_inside() const;
 
   private:
-    Expression    spread, least_anisotropy;
-    bool          follows_rotation, stay_inside_;
-    Rules         all;
-    std::uint64_t seed;
+    Expression         spread, least_anisotropy;
+    bool               follows_rotation, stay_inside_;
+    DivisionRules<dim> all;
+    std::uint64_t      seed;
   };
 } // namespace Morula
 

@@ -4,9 +4,8 @@
 #ifndef morula_effects_fate_cell_types_h
 #define morula_effects_fate_cell_types_h
 
+#include <morula/effects/fate/cell_hazard.h>
 #include <morula/effects/fate/cell_type_parameters.h>
-#include <morula/effects/fate/fate.h>
-#include <morula/effects/fate/hazard.h>
 
 #include <optional>
 #include <string>
@@ -87,8 +86,8 @@ namespace Morula
   private:
     struct Transition
     {
-      unsigned int to;
-      Expression   rate;
+      unsigned int    to;
+      CellHazard<dim> hazard;
     };
 
     /** The ways out of a cell's type in a stretch, and the first that is taken.

@@ -5,10 +5,7 @@
 #define morula_effects_fate_death_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/fate/fate.h>
-#include <morula/effects/fate/hazard.h>
-
-#include <optional>
+#include <morula/effects/fate/end_at_rate.h>
 
 namespace Morula
 {
@@ -52,7 +49,7 @@ namespace Morula
    * Keeps its state in columns of the cells.
    */
   template <int dim>
-  class Death : public Fate<dim>
+  class Death : public EndAtRate<dim>
   {
   public:
     using Parameters = DeathParameters;
@@ -75,21 +72,6 @@ namespace Morula
            const double                 t,
            std::vector<CellEvent>      &events) const override;
 
-    void
-    make_good(const PresentCell<dim>      &cell,
-              const CellView<dim, double> &row) const override;
-
-    std::optional<double>
-    next(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch) const override;
-
-    void
-    pass(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch,
-         const double                 s) const override;
-
     LifeAfter
     happen(const PresentCell<dim>      &cell,
            const CellView<dim, double> &row,
@@ -97,20 +79,8 @@ namespace Morula
            const double                 s,
            std::vector<CellEvent>      &events) const override;
 
-    void
-    expect(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const override;
-
-    bool
-    is_deadly() const override;
-
     bool
     may_strike() const override;
-
-    double
-    time_of_death(const CellView<dim, const double> &cell) const override;
 
     double
     shrink(const CellView<dim, double> &row, const double t) const override;
@@ -125,9 +95,6 @@ namespace Morula
     bool
     shrinks(const CellView<dim, const double> &cell) const override;
 
-    std::vector<const Expression *>
-    rates(const unsigned int type) const override;
-
     void
     declare(Tables<dim> &tables) const override;
 
@@ -136,12 +103,8 @@ namespace Morula
                const double            step) const override;
 
   private:
-    /** The chance of death from the beginning of a stretch on, in a row of that
-     *  time. Only with a rate. @throws InputError for negative rates */
-    Hazard
-    hazard(const PresentCell<dim>            &cell,
-           const CellView<dim, const double> &row,
-           const Stretch                     &stretch) const;
+    double
+    threshold(const std::uint64_t seed, const std::uint64_t key) const override;
 
     /** Lets the cell die at @p t (day). Shrinking time, final volume and
      * whether debris stays are evaluated now. @throws InputError */
@@ -150,14 +113,10 @@ namespace Morula
          const CellView<dim, double> &row,
          const double                 t) const;
 
-    Expression           rate_, when, shrinking_time, final_volume;
+    Expression           when, shrinking_time, final_volume;
     Expression           keep_debris;
-    bool                 has_rate, has_condition;
-    std::uint64_t        random_seed;
+    bool                 has_condition;
     double               slack;
-    Column<double>       integral;
-    Column<double>       expected; // if the rate follows the state
-    Column<double>       time_;
     Column<double>       remaining; // s
     Column<double>       duration;  // T_s
     Column<double>       least;     // s_end

@@ -6,7 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/division/division_axes.h>
-#include <morula/effects/fate/fate.h>
+#include <morula/effects/fate/dividing_fate.h>
 
 #include <memory>
 #include <optional>
@@ -49,7 +49,7 @@ namespace Morula
    * within the step; a daughter may divide again in the same step.
    */
   template <int dim>
-  class DivisionBySize : public Fate<dim>
+  class DivisionBySize : public DividingFate<dim>
   {
   public:
     using Parameters = DivisionBySizeParameters;
@@ -66,8 +66,8 @@ namespace Morula
     void
     begin(const CellView<dim, double> &cell) const override;
 
-    bool
-    divides() const override;
+    const DivisionRules<dim> *
+    division_rules() const override;
 
     bool
     follows_growth() const override;
@@ -118,12 +118,6 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
-
-    void
-    check(const Preview<dim> &scene) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     /** The grown volume at which a cell divides, µm^dim; infinity: it does not

@@ -5,10 +5,7 @@
 #define morula_effects_fate_extrusion_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/fate/fate.h>
-#include <morula/effects/fate/hazard.h>
-
-#include <optional>
+#include <morula/effects/fate/end_at_rate.h>
 
 namespace Morula
 {
@@ -44,28 +41,13 @@ namespace Morula
    * closes up: doc/theory.md, section 6.9.
    */
   template <int dim>
-  class Extrusion : public Fate<dim>
+  class Extrusion : public EndAtRate<dim>
   {
   public:
     using Parameters = ExtrusionParameters;
 
     /** Declares the columns. @throws InputError */
     Extrusion(const Parameters &parameters, const EffectSetting<dim> &setting);
-
-    void
-    make_good(const PresentCell<dim>      &cell,
-              const CellView<dim, double> &row) const override;
-
-    std::optional<double>
-    next(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch) const override;
-
-    void
-    pass(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch,
-         const double                 s) const override;
 
     LifeAfter
     happen(const PresentCell<dim>      &cell,
@@ -74,47 +56,19 @@ namespace Morula
            const double                 s,
            std::vector<CellEvent>      &events) const override;
 
-    void
-    expect(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const override;
-
-    bool
-    is_deadly() const override;
-
-    double
-    time_of_death(const CellView<dim, const double> &cell) const override;
-
     double
     removal_time(const CellView<dim, const double> &cell) const override;
 
     bool
     shrinks(const CellView<dim, const double> &cell) const override;
 
-    std::vector<const Expression *>
-    rates(const unsigned int type) const override;
-
-    void
-    declare(Tables<dim> &tables) const override;
-
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
   private:
-    /** The chance of extrusion from the beginning of a stretch on, in a row of
-     *  that time. @throws InputError for negative rates */
-    Hazard
-    hazard(const PresentCell<dim>            &cell,
-           const CellView<dim, const double> &row,
-           const Stretch                     &stretch) const;
-
-    Expression     rate;
-    std::uint64_t  random_seed;
-    Column<double> integral;
-    Column<double> expected; // if the rate follows the state
-    Column<double> time;     // day
+    double
+    threshold(const std::uint64_t seed, const std::uint64_t key) const override;
   };
 } // namespace Morula
 

@@ -5,6 +5,7 @@
 #define morula_effects_fate_life_h
 
 #include <morula/effects/fate/fate.h>
+#include <morula/effects/fate/types_around.h>
 
 #include <memory>
 #include <vector>
@@ -22,6 +23,8 @@ namespace Morula
    * @param before the cell at the beginning of the step
    * @param row    its row at @p t0, to be written
    * @param events gets what happens
+   * @param around the types of the cells beside it, if they change in the step;
+   *        or null
    * @throws InputError for rates without a value, or too many events
    */
   template <int dim>
@@ -31,7 +34,8 @@ namespace Morula
        const CellView<dim, double> &row,
        const double                 t0,
        const double                 t1,
-       std::vector<CellEvent>      &events);
+       std::vector<CellEvent>      &events,
+       const TypesAround<dim>      *around = nullptr);
 
   /** Ends the cell's life at @p t (day) if it is dead, or a fate strikes it
    *  then. @return whether it is dead. @throws InputError */

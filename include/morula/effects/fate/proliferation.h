@@ -4,13 +4,10 @@
 #ifndef morula_effects_fate_proliferation_h
 #define morula_effects_fate_proliferation_h
 
-#include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/fate/fate.h>
+#include <morula/effects/fate/dividing_fate.h>
 
-#include <memory>
 #include <optional>
-#include <vector>
 
 namespace Morula
 {
@@ -20,21 +17,17 @@ namespace Morula
    * division, which happens when the step is done: see divide().
    */
   template <int dim>
-  class Proliferation : public Fate<dim>
+  class Proliferation : public DividingFate<dim>
   {
   public:
-    using Rules = std::vector<std::unique_ptr<const DivisionRule<dim>>>;
-
     /** Declares the columns of the clock. @param seed of the scene */
     Proliferation(CellCycle<dim>      cycle,
                   CellColumns<dim>   &columns,
                   const std::uint64_t seed);
 
-    /** The rules for axes. @param of_type the rule of each type of cells, one
-     *  of these, or null for the axis that the cycle draws; empty: all types
-     *  have the first */
+    /** Sets the rules for axes; without one the cycle draws the axis. */
     void
-    set_rules(Rules rules, std::vector<const DivisionRule<dim> *> of_type = {});
+    set_rules(DivisionRules<dim> rules);
 
     const CellCycle<dim> &
     cycle() const;
@@ -42,12 +35,8 @@ namespace Morula
     const CycleColumns<dim> &
     columns() const;
 
-    const Rules &
-    rules() const;
-
-    /** The rule of a type of cells, or null. */
-    const DivisionRule<dim> *
-    rule(const unsigned int type) const;
+    const DivisionRules<dim> *
+    division_rules() const override;
 
     /** A cell's clock. */
     CycleState<dim>
@@ -102,9 +91,6 @@ namespace Morula
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const override;
-
-    bool
-    divides() const override;
 
     double
     time_of_division(const CellView<dim, const double> &cell,
@@ -178,11 +164,10 @@ namespace Morula
                 const double            t,
                 CycleState<dim>        &after) const;
 
-    CellCycle<dim>                         cycle_;
-    CycleColumns<dim>                      columns_;
-    std::uint64_t                          random_seed;
-    Rules                                  rules_;
-    std::vector<const DivisionRule<dim> *> rule_of_type;
+    CellCycle<dim>     cycle_;
+    CycleColumns<dim>  columns_;
+    std::uint64_t      random_seed;
+    DivisionRules<dim> rules;
   };
 } // namespace Morula
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/division/halve_shape.h>
+#include <morula/effects/fate/dividing_fate.h>
+
+namespace Morula
+{
+  template <int dim>
+  const DivisionRule<dim> *
+  DivisionRules<dim>::rule(const unsigned int type) const
+  {
+    // Without types of cells there is at most one rule; null stands for the
+    // random axis.
+    if (!of_type.empty())
+      return of_type[type];
+    return list.empty() ? nullptr : list.front().get();
+  }
+
+
+  template <int dim>
+  bool
+  DividingFate<dim>::divides() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  const DivisionRule<dim> *
+  DividingFate<dim>::rule(const unsigned int type) const
+  {
+    const DivisionRules<dim> *const rules = division_rules();
+    return rules != nullptr ? rules->rule(type) : nullptr;
+  }
+
+
+  template <int dim>
+  void
+  DividingFate<dim>::check(const Preview<dim> &scene) const
+  {
+    if (const DivisionRules<dim> *const rules = division_rules())
+      for (const auto &rule : rules->list)
+        rule->check(scene);
+  }
+
+
+  template <int dim>
+  void
+  DividingFate<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    if (const DivisionRules<dim> *const rules = division_rules())
+      for (const auto &rule : rules->list)
+        rule->review(scene, review);
+  }
+
+
+  template <int dim>
+  void
+  DividingFate<dim>::halve(const CellView<dim, double> &daughter,
+                           const StateColumns<dim>     &columns) const
+  {
+    halve_shape(daughter,
+                this->placement_axis(daughter,
+                                     columns.type.exists() ?
+                                       daughter.get(columns.type) :
+                                       0));
+  }
+
+
+  template struct DivisionRules<2>;
+  template struct DivisionRules<3>;
+  template class DividingFate<2>;
+  template class DividingFate<3>;
+} // namespace Morula

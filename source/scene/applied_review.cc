@@ -164,14 +164,14 @@ namespace Morula
                       const MPI_Comm                 comm,
                       Review                        &review)
     {
-      // Over its length the tissue carries the force times that length.
+      // Over its length the tissue carries the mean force times that length.
       const ExpressionKey &key =
         scene.keys<BodyForceParameters>().force_density;
       if (!scene.keys<BodyForceParameters>().is_on() || !stiffness ||
           key.expression(dim).depends_on_state())
         return;
-      double     largest = 0.;
-      Point<dim> lower, upper;
+      Tensor<1, dim> sum;
+      Point<dim>     lower, upper;
       for (unsigned int d = 0; d < dim; ++d)
         {
           lower[d] = std::numeric_limits<double>::max();
@@ -181,9 +181,7 @@ namespace Morula
         {
           try
             {
-              largest = std::max(
-                largest,
-                key.expression(dim).vector(X, scene.time.end_time).norm());
+              sum += key.expression(dim).vector(X, scene.time.end_time);
             }
           catch (const std::exception &)
             {} // refused elsewhere
@@ -198,7 +196,8 @@ namespace Morula
         length = std::max(length,
                           Utilities::MPI::max(upper[d], comm) -
                             Utilities::MPI::min(lower[d], comm));
-      const double load = Utilities::MPI::max(largest, comm) * length;
+      const double n    = Utilities::MPI::sum(double(founders.size()), comm);
+      const double load = (Utilities::MPI::sum(sum, comm) / n).norm() * length;
       if (load > strongest_load * *stiffness)
         review.warn(key.path(),
                     key.text(),

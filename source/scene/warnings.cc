@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/scene/estimates.h>
+#include <morula/scene/far_obstacles.h>
 #include <morula/scene/idle_keys.h>
 #include <morula/scene/rate_warnings.h>
 #include <morula/scene/rearrangement_review.h>
@@ -115,6 +116,7 @@ namespace Morula
     review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
     review_idle_keys(scene, founders, surface, comm, review);
+    review_far_obstacles(scene, surface, comm, review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())

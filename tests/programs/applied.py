@@ -388,7 +388,16 @@ class Applied(ProgramTest):
                 "Obstacles/o/Radius": 10}
         _, said = self.run_keys(ball, name="inside")
         self.assertIn("4 cells stand in it", said)
-        # A plate of 2 um comes 50 um in each step: it must not pass the surface.
+        plane = {**BOX, "Obstacles/Names": "o", "Obstacles/o/Shape": "plane",
+                 "Obstacles/o/Center": "0, -500, 0",
+                 "Obstacles/o/Normal": "0, 1, 0"}
+        for velocity, is_far in (("0; 0.001; 0", True), ("0; 2000; 0", False),
+                                 ("0; 2000*cos(400*t); 0", False)):
+            said = self.explain({**plane, "Obstacles/o/Velocity": velocity})
+            self.assertEqual("they do not meet unless the tissue" in said,
+                             is_far, velocity)
+        # A plate of 8 um comes 10 um in each step: it must not pass the
+        # surface.
         plate = {**HELD, FIXED: "Y > 49.9", "Obstacles/Names": "o",
                  "Obstacles/o/Shape": "box", "Obstacles/o/Size": "200, 8, 8",
                  "Obstacles/o/Center": "0, -60, 0",

@@ -392,7 +392,7 @@ class Applied(ProgramTest):
                  "Obstacles/o/Center": "0, -500, 0",
                  "Obstacles/o/Normal": "0, 1, 0"}
         for velocity, is_far in (("0; 0.001; 0", True), ("0; 2000; 0", False),
-                                 ("0; 2000*cos(400*t); 0", False)):
+                                 ("0; 5000*cos(400*t); 0", False)):
             said = self.explain({**plane, "Obstacles/o/Velocity": velocity})
             self.assertEqual("they do not meet unless the tissue" in said,
                              is_far, velocity)
